@@ -209,11 +209,12 @@ def section_of(lines, arguments):
     return "\n".join(text) + "\n"
 
 
-def put(section, page):
+def put(section, page, heading=HEADING):
+    """In place of the section of this heading, which is not the last one of the page."""
     text = page.read_text(encoding="utf-8")
-    changed, count = re.subn(r"^%s\n.*?(?=^## )" % re.escape(HEADING), lambda _: section + "\n", text, flags=re.MULTILINE | re.DOTALL)
+    changed, count = re.subn(r"^%s\n.*?(?=^## )" % re.escape(heading), lambda _: section + "\n", text, flags=re.MULTILINE | re.DOTALL)
     if count != 1:
-        sys.exit("%s has no section '%s'" % (page, HEADING))
+        sys.exit("%s has no section '%s'" % (page, heading))
     page.write_text(changed, encoding="utf-8")
 
 

@@ -138,13 +138,15 @@ def draw(number, pixels, scans, seed=SEED):
 
 def configuration(frame, formulation):
     """As YAML: equal bodies with this contact modulus; they flow only where the frame has a hardness."""
-    body = "{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (
-        2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, frame.get("hardness", NO_HARDNESS))
+    hardness = frame.get("hardness", NO_HARDNESS)
+    lower, upper = ("{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (
+        2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, of_body) for of_body in (hardness, frame.get("upper_hardness", hardness)))
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))
-    return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (body, body, formulation) +
+    return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (lower, upper, formulation) +
             "interface: {work_of_adhesion: %r, hamaker_constant: %r}\n" % (frame["work"], frame["hamaker"]) +
             ("" if formulation == "separation_curve" else "paper: {cutoff_distance: %r}\n" % cut_off) +
-            "output: {roughness: false}\nlimits: {accept_implausible: true}\nload: {max_mechanical_load: 1.0e+3}\nhalf_space: {flow: false, step: 0.3}\n")
+            "output: {roughness: false}\nlimits: {accept_implausible: true}\nload: {max_mechanical_load: 1.0e+3}\n" +
+            "half_space: {flow: %s, step: 0.3}\n" % str("hardness" in frame).lower())
 
 
 def load_of(frame):

@@ -9,6 +9,8 @@ from device_surfaces import grain_surface, grooved_surface
 from trust_frames import LEAST_PITCH, LOAD_EVERY, cohesive_length, gaussian_spectrum, log_uniform, self_affine, spectrum_surface
 
 SEED = 19  # of the page that judges
+PRESSED_HARDNESSES = 0.3e9, 13e9  # of frames that are pressed [Pa]
+PRESSED_BY = 1e6, 300e6  # [Pa]
 
 
 def gaussian(pixels, pitch, length, random):
@@ -198,4 +200,25 @@ def draw(number, pixels, seed=SEED):
     frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
              "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": pressure,
              "cohesive_length": cohesive_length(modulus, work, hamaker)}
+    return frame, heights.astype(np.float32)
+
+
+def draw_pressed(number, pixels, seed):
+    """As draw(), of all kinds in turn: stiffer, softer against the load, and pressed. Of every other frame one body alone flows."""
+    random = np.random.default_rng([seed, number, 2])
+    kind = KINDS[number % len(KINDS)]
+    while True:
+        modulus, work = log_uniform(random, 10e9, 200e9), log_uniform(random, 0.02, 0.12)
+        hamaker = log_uniform(random, 40e-21, 400e-21)
+        length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
+        longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
+        shortest = max(3 * length / pixels, LEAST_PITCH)
+        if length / 500 < rms < length / 8 and shortest < longest:
+            break
+    pitch = log_uniform(random, shortest, longest)
+    heights = rms * surface(kind, pixels, pitch, length, random)
+    hardness = log_uniform(random, *PRESSED_HARDNESSES)
+    frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
+             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": log_uniform(random, *PRESSED_BY), "hardness": hardness,
+             "upper_hardness": hardness if number // len(KINDS) % 2 == 0 else 10 * hardness, "cohesive_length": cohesive_length(modulus, work, hamaker)}
     return frame, heights.astype(np.float32)

@@ -216,26 +216,30 @@ double FlowingPlaces::solve(double stiffness) {
 }
 
 bool FlowingPlaces::takeFlowed(const GapField& field, double displacement) {
+  const auto lost = [&](std::size_t cell) {
+    const bool is_full = pressures_[cell] >= (1.0 - kLoadBalance) * hardness_;
+    return is_full ? std::max(displacement - rises_[cell], 0.0) : 0.0;
+  };
+  std::size_t first = 0;
+  while (first < gaps_.size() && !(lost(first) > 0.0)) ++first;
+  if (first == gaps_.size()) return false;
   flowed_.create(field.rows(), field.cols());
   pressure_map_.create(field.rows(), field.cols());
   flowed_ = 0.0;
   pressure_map_ = 0.0;
-  bool has_flowed = false;
-  for (int row = 0; row < field.rows(); ++row) {
-    for (int i = row_begin_[static_cast<std::size_t>(row)]; i < row_begin_[static_cast<std::size_t>(row) + 1]; ++i) {
+  int changed_cell = 0;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    double* const flowed = flowed_[static_cast<int>(row)];
+    double* const pressure = pressure_map_[static_cast<int>(row)];
+    for (int i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
       const auto cell = static_cast<std::size_t>(i);
-      pressure_map_(row, columns_[cell]) = pressures_[cell];
-      const double excess = displacement - rises_[cell];
-      const bool flows = pressures_[cell] >= (1.0 - kLoadBalance) * hardness_ && excess > 0.0;
-      if (flows) flowed_(row, columns_[cell]) = excess;
-      has_flowed = has_flowed || flows;
+      pressure[columns_[cell]] = pressures_[cell];
+      flowed[columns_[cell]] = lost(cell);
+      if (cell == first) changed_cell = static_cast<int>(row) * field.cols() + columns_[cell];
     }
   }
-  if (!has_flowed) return false;
   changed_.lower(field, flowed_);
-  const GridCell first = field.cellAt(static_cast<int>(
-      std::find_if(flowed_.begin(), flowed_.end(), [](double flowed) { return flowed > 0.0; }) - flowed_.begin()));
-  lowering_ = field.gap(first.index) + flowed_(first.row, first.col) - changed_.gap(first.index);
+  lowering_ = gaps_[first] + lost(first) - changed_.gap(changed_cell);
   return true;
 }
 

@@ -13,6 +13,14 @@
 #include "chosen_constants.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// What the contacts carry, or would where a load is more than they do [N].
+double carriedAtRest(const ContactCurve& curve, const LoadOptions& load) {
+  return curve.rest().force() + curve.rest().carried + load.mechanical_load;
+}
+
+}  // namespace
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
@@ -80,15 +88,36 @@ bool SeparationSolver::mayFlow(const LoadOptions& load) const {
   return is_pressed && curve_.wayIn().status != Status::kNoEquilibrium && curve_.largestFullness() > chosen::kMayFlow;
 }
 
+bool SeparationSolver::attractsMoreByFlow(const ContactProblem& problem) const {
+  const double load = problem.settings.load.mechanical_load + curve_.rest().electrostatic;
+  const double carried = carriedAtRest(curve_, problem.settings.load);
+  if (!(carried > chosen::kGrowthByFlow * load)) return false;
+  ContactCurve elastic;
+  elastic.comeToRest(problem.gap, problem.settings, places_that_flow_);
+  return carried > chosen::kGrowthByFlow * carriedAtRest(elastic, problem.settings.load);
+}
+
 bool SeparationSolver::flow(const ContactProblem& problem) {
-  const FrameSums& frame = curve_.frame();
-  const SeparationState& rest = curve_.rest();
+  const PatchForces& forces = curve_.frame().patchForces();
+  const ContactTraction law = forces.law();
   const bool is_reached = curve_.wayIn().status == Status::kEquilibrium;
-  const bool has_flowed = places_that_flow_.press(problem.gap, frame.law(),
-                                                  {frame.patchForces().contactModulus(), frame.patchForces().hardness(),
-                                                   rest.force() + rest.carried + problem.settings.load.mechanical_load,
-                                                   is_reached ? rest.approach : GapField::kInvalidGap});
-  if (has_flowed) curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
+  FlowingPlaces::Press press = {forces.contactModulus(), forces.hardness(),
+                                carriedAtRest(curve_, problem.settings.load),
+                                is_reached ? curve_.rest().approach : GapField::kInvalidGap};
+  bool has_flowed = false;
+  for (int round = 0; round < chosen::kFlowRounds; ++round) {
+    if (!places_that_flow_.press(problem.gap, law, press)) break;
+    has_flowed = true;
+    curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
+    // flattened summits bring the surfaces nearer to each other, which attract the more
+    const double carried = carriedAtRest(curve_, problem.settings.load);
+    if (carried < chosen::kMoreCarried * press.load) break;
+    press.load = carried;
+    const double approach = curve_.rest().approach + places_that_flow_.lowering();
+    press.approach =
+        curve_.wayIn().status == Status::kEquilibrium ? std::max(press.approach, approach) : GapField::kInvalidGap;
+  }
+  attracts_more_ = has_flowed && attractsMoreByFlow(problem);
   return has_flowed;
 }
 
@@ -123,8 +152,13 @@ void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& soluti
 }
 
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
-  if (solution.model.doubt != nullptr || !flows_as_patches_) return;
-  solution.model.doubt = "contacts have flowed, and of thin bodies where is known of whole contacts alone";
+  if (solution.model.doubt != nullptr) return;
+  if (flows_as_patches_) {
+    solution.model.doubt = "contacts have flowed, and of thin bodies where is known of whole contacts alone";
+  } else if (has_flowed_ && attracts_more_) {
+    solution.model.doubt =
+        "contacts have flowed until the surfaces attract each other much more, and how far is not sure";
+  }
 }
 
 void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {

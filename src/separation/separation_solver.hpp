@@ -43,6 +43,9 @@ class SeparationSolver : public ContactSolver {
   const GapField& comeToRest(const ContactProblem& problem, bool flows, ContactSolution& solution);
   /// Whether loads press contacts so hard that places of them may flow.
   bool mayFlow(const LoadOptions& load) const;
+  /// Whether surfaces that have flowed attract each other so much more than they would without flow
+  /// that how far they flow is not sure.
+  bool attractsMoreByFlow(const ContactProblem& problem) const;
   /// Whether places flow under the loads at rest; if so the curve is that of the changed surfaces
   /// from then on.
   bool flow(const ContactProblem& problem);
@@ -71,6 +74,7 @@ class SeparationSolver : public ContactSolver {
   ContactCurve curve_;
   FlowingPlaces places_that_flow_;
   bool has_flowed_ = false;                 ///< place by place
+  bool attracts_more_ = false;              ///< by flow
   bool flows_as_patches_ = false;           ///< may have flowed, and where is known of whole contacts alone
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;

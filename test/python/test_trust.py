@@ -85,6 +85,22 @@ class TrustTest(unittest.TestCase):
             for name in half_space_steps.COMPARED:
                 self.assertLess(abs(half_space_steps.deviation(line, name)), 0.2, line["frame"])
 
+    def test_pressed_frames_are_compared_and_the_run_goes_on(self):
+        path = self.folder / "pressed.jsonl"
+        for count in (2, 4):
+            before = path.read_text() if path.exists() else ""
+            done = run(sys.executable, LIBRARY / "flow_map.py", self.folder, count, "--pixels", "48", "--seeds", "61,62")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(path.read_text().startswith(before))
+        lines = [json.loads(line) for line in path.read_text().splitlines()]
+        self.assertEqual([line["frame"]["seed"] for line in lines], [61, 62, 61, 62])
+        self.assertTrue(all(line["half_space"]["status"] == "SOLVED" for line in lines), lines)
+        self.assertIn("| without a doubt |", done.stdout)
+        shipped = (REPOSITORY / "doc" / "separation_evidence.md").read_text(encoding="utf-8")
+        heading, table = done.stdout.splitlines()[0], [line for line in done.stdout.splitlines() if line.startswith("| frames")][0]
+        self.assertIn(heading, headings(shipped))
+        self.assertIn(table, shipped)
+
     def test_a_way_out_does_not_leap_over_one_of_several_summits(self):
         # behind the first summit the way out is another branch for a while: 1.4 and 1.0 % were lost where it leapt from there
         for number in (183, 225):

@@ -2,6 +2,7 @@
 /// are left, and how the surfaces part afterwards.
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -172,6 +173,34 @@ TEST(SeparationFlow, contactsThatHaveGrownTogetherPartAsTheyHaveFlowed) {
     EXPECT_GT(prediction.plastic_count + prediction.elasto_plastic_count, 0);
     EXPECT_GT(cv::countNonZero(prediction.contact_map == static_cast<int>(Regime::kPlastic)), 0);
   }
+}
+
+/// Whether the force is doubted, in these words among others.
+bool isDoubted(const HeightMap& surface, const Options& options, const std::string& words) {
+  const char* const doubt = AdhesionModel(options).predict(surface).model.doubt;
+  return doubt != nullptr && std::string(doubt).find(words) != std::string::npos;
+}
+
+TEST(SeparationFlow, isDoubtedWhereAttractionGrowsByIt) {
+  const HeightMap surface = gaussianFrame(1.2e-9, 4);
+  const double area = surface.rows() * surface.cols() * surface.cellArea();
+  Options options = flowing(100e9, 0.5e9, 4e6 * area);
+  options.interface.work_of_adhesion = 0.1;
+  EXPECT_TRUE(isDoubted(surface, options, "have flowed until the surfaces attract"));
+  // not under a load that is more than the attraction, nor where bodies hardly flow
+  options.load.mechanical_load = 80e6 * area;
+  EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
+  options.load.mechanical_load = 4e6 * area;
+  options.lower.hardness = options.upper.hardness = 20e9;
+  EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
+}
+
+TEST(SeparationFlow, isDoubtedOfThinBodies) {
+  const HeightMap surface = gaussianFrame(1.2e-9, 310);
+  Options options = flowing(100e9, 1.2e9, 80e6 * surface.rows() * surface.cols() * surface.cellArea());
+  EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
+  options.lower.thickness = 2e-6;
+  EXPECT_TRUE(isDoubted(surface, options, "thin bodies"));
 }
 
 TEST(SeparationFlow, aSecondPressingUnderTheSameLoadChangesLittle) {
