@@ -22,17 +22,20 @@ class LoadSweep(ReadOnly):
     mechanical_load, pull_off_force, van_der_waals_force, electrostatic_force, normal_load [N], status (0 equilibrium, 1
     bonded, 2 none), is_open, contact_area, contact_area_jkr [m^2], contact_fraction, approach [m], asperity_count, sticks
     (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin, margin_upper [-],
-    pull_off_force_lower, pull_off_force_upper [N].
+    pull_off_force_lower, pull_off_force_upper [N], lands (0 no, 1 yes, 2 unknown), peel_number, peel_number_lower,
+    peel_number_upper [-], is_peeled (of a beam: the peel number decides, not the margin).
     summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage, lowest_sticking_voltage,
     opening_voltage, lowest_safe_voltage [V], as in msg/SweepSummary.msg; NaN: none of the sweep.
-    pull_in_voltage [V]: at which the electrodes close; NaN without a device.
+    pull_in_voltage [V]: at which the electrodes close; NaN where pull_in_reason names the settings that it lacks.
     """
 
     def __init__(self, core: _core.LoadSweepResult) -> None:
         self.points: np.recarray
         self.summaries: np.recarray
         self.pull_in_voltage: float
-        self.__dict__.update(points=records_of(core.points), summaries=records_of(core.summaries), pull_in_voltage=core.pull_in_voltage)
+        self.pull_in_reason: str
+        self.__dict__.update(points=records_of(core.points), summaries=records_of(core.summaries), pull_in_voltage=core.pull_in_voltage,
+                             pull_in_reason=core.pull_in_reason)
 
     def __repr__(self) -> str:
         from mems_stiction import station_text
@@ -53,8 +56,8 @@ class ContactCycles(ReadOnly):
     cycles: a record for each contact, with the fields of msg/CyclePoint.msg: cycle, status (0 equilibrium, 1 bonded, 2
     none), pull_off_force, van_der_waals_force [N], contact_area, contact_area_jkr [m^2], contact_fraction, asperity_count,
     plastic_count, rms_height, largest_change [m], sticks (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, margin_upper [-],
-    pull_off_force_lower, pull_off_force_upper [N].
-    first_sticking_cycle: 0 if none surely sticks, or no device is stated.
+    pull_off_force_lower, pull_off_force_upper [N], peel_number, peel_number_lower, peel_number_upper [-], is_peeled.
+    first_sticking_cycle: 0 if none surely sticks, or neither a spring nor a beam is stated.
     lower, upper: both surfaces after the last contact [m], refined as preprocessing/refine says.
     """
 

@@ -16,7 +16,7 @@ from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_f
                                       ratio_of, sentence, thinned_points, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
-from mems_stiction.prediction_text import contact_area_of
+from mems_stiction.prediction_text import contact_area_of, ratio_value
 from mems_stiction.quantities import typeset
 from mems_stiction.station_text import area_label, cycle_sentences, safe_voltage_words, sweep_sentences
 from mems_stiction.sweep_jumps import jumps_of
@@ -237,7 +237,7 @@ class PageState:
         del result.points[MOST_POINTS:]
         points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
                    "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
-                   "margin": finite(point.margin), "lower": finite(point.margin_lower), "upper": finite(point.margin_upper),
+                   "margin": finite(ratio_value(point)), "lower": finite(ratio_value(point, "_lower")), "upper": finite(ratio_value(point, "_upper")),
                    "held": finite(point.holding_margin), "force": finite(point.pull_off_force), "force_lower": finite(point.pull_off_force_lower),
                    "force_upper": finite(point.pull_off_force_upper), "area": finite(contact_area_of(point)), "is_open": bool(point.is_open)}
                   for point in result.points if finite(point.voltage) is not None]
@@ -249,8 +249,8 @@ class PageState:
 
     def add_cycles(self, goal, result):
         del result.cycles[MOST_POINTS:]
-        points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(cycle.margin),
-                   "lower": finite(cycle.margin_lower), "plastic": cycle.plastic_count} for cycle in result.cycles]
+        points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(ratio_value(cycle)),
+                   "lower": finite(ratio_value(cycle, "_lower")), "plastic": cycle.plastic_count} for cycle in result.cycles]
         self._end("cycles", goal, thinned_points(points), cycle_sentences(result), result.message)
 
     def _end(self, kind, goal, points, sentences, message, **more):

@@ -59,6 +59,19 @@ def judge_words(verdict_by):
     return " and ".join(judge + scans for judge, scans in zip(judges, (" of some scans", " of others"))) if len(judges) > 1 else "".join(judges)
 
 
+def ratio_name(result):
+    """"margin" or "peel_number": which of them decides whether the device sticks. Where that is not said, the margin, if there is one."""
+    if getattr(result, "is_peeled", False) or getattr(result, "governed_by", "") == "peeling":
+        return "peel_number"
+    has_peel_number = not math.isnan(getattr(result, "peel_number", math.nan))
+    return "peel_number" if has_peel_number and math.isnan(result.margin) else "margin"
+
+
+def ratio_value(result, end=""):
+    """Its value, or with "_lower" or "_upper" an end of its 95 % interval; NaN where it is not known."""
+    return getattr(result, ratio_name(result) + end, math.nan)
+
+
 def digits_of(result):
     """How many digits of forces and ratios are worth showing, by the interval of the pull-off force, the margin or the peel number; three
     where none is known."""

@@ -4,7 +4,7 @@ import math
 import textwrap
 
 from mems_stiction.plots import plt, save, widen, with_unit
-from mems_stiction.prediction_text import contact_area_of
+from mems_stiction.prediction_text import contact_area_of, ratio_name, ratio_value
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, prefix_for, typeset
 from mems_stiction.station_text import area_label, safe_voltage_words
@@ -22,7 +22,7 @@ def save_sweep(result, path):
     """Contact, pull-off force and margins against the voltage, up and down, a colour for each mechanical load; what is known of force
     and margin as bands, the safe voltage, and the jumps with their causes."""
     loads = sorted({point.mechanical_load for point in result.points})
-    has_margin = any(math.isfinite(point.margin) for point in result.points)
+    has_margin = any(math.isfinite(ratio_value(point)) for point in result.points)
     jumps = _largest(jump for load in loads for jump in jumps_of(result.points, load, result.pull_in_voltage))
     texts = [line for number, jump in enumerate(jumps, 1) for line in _numbered(number, typeset(jump.words()), 190 if has_margin else 125)]
     keys = _sweep_keys(result, loads, has_margin)
@@ -88,21 +88,21 @@ def _draw_margins(axes, result, loads):
     for load, colour in zip(loads, _colours(loads)):
         up = ways_of(result.points, load)[0]
         voltages = [point.voltage for point in up]
-        axes.plot(voltages, [point.margin for point in up], color=colour, linewidth=1.2, linestyle=":", marker="x", markersize=5)
-        _draw_band(axes, up, "margin_lower", "margin_upper", 1.0, colour)
+        axes.plot(voltages, [ratio_value(point) for point in up], color=colour, linewidth=1.2, linestyle=":", marker="x", markersize=5)
+        _draw_band(axes, up, "_lower", "_upper", 1.0, colour, ratio_value)
     for summary, colour in zip(result.summaries, _colours(result.summaries)):
         if math.isfinite(summary.highest_safe_voltage):
             axes.axvline(summary.highest_safe_voltage, color=colour, linewidth=2.2, linestyle=(0, (1, 1)), zorder=1)
     axes.axhline(1.0, color="#b3201d", linewidth=1.2, linestyle="--")
-    shown += [getattr(point, name) for point in result.points if not point.is_open
-              for name in ("margin", "holding_margin", "margin_lower", "margin_upper")]
+    shown += [value for point in result.points if not point.is_open
+              for value in [point.holding_margin] + [ratio_value(point, end) for end in ("", "_lower", "_upper")]]
     _scale_ratio(axes, shown)
 
 
-def _draw_band(axes, points, lower, upper, factor, colour):
-    """Of the way up: the contact of the highest voltage is held on the way down."""
+def _draw_band(axes, points, lower, upper, factor, colour, value_of=getattr):
+    """Of the way up: the contact of the highest voltage is held on the way down. lower, upper: what value_of() is asked for."""
     voltages = np.array([point.voltage for point in points])
-    ends = np.array([[getattr(point, name) * factor for name in (lower, upper)] for point in points])
+    ends = np.array([[value_of(point, name) * factor for name in (lower, upper)] for point in points])
     if len(points) == 1:
         axes.vlines(voltages, ends[:, 0], ends[:, 1], color=colour, alpha=0.3, linewidth=6)
     axes.fill_between(voltages, ends[:, 0], ends[:, 1], color=colour, alpha=0.17, linewidth=0, zorder=1)
@@ -167,11 +167,12 @@ def _factor_and_unit(values, unit):
 
 
 def save_cycles(result, path):
-    """Pull-off force, contact fraction, rms height and margin against the cycle."""
-    panels = [("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", "%"),
-              ("rms_height", "rms height of the scan", "m"), ("margin", "margin", "-")]
+    """Pull-off force, contact fraction, rms height and margin, or what decides in its place, against the cycle."""
     cycles = result.cycles
-    if all(math.isnan(cycle.margin) for cycle in cycles):
+    judged = ratio_name(cycles[0])
+    panels = [("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", "%"),
+              ("rms_height", "rms height of the scan", "m"), (judged, judged.replace("_", " "), "-")]
+    if all(math.isnan(getattr(cycle, judged)) for cycle in cycles):
         panels = panels[:3]
     figure, all_axes = plt.subplots(1, len(panels), figsize=(4.2 * len(panels), 4.4), dpi=100)
     figure.subplots_adjust(left=0.24 / len(panels), right=0.985, top=0.91, bottom=0.175, wspace=0.36)
@@ -188,9 +189,9 @@ def save_cycles(result, path):
             axes.fill_between([cycle.cycle for cycle in cycles], columns[1], columns[2], color=COLOURS[0], alpha=0.17, linewidth=0,
                               label="95 % lie within")
         axes.plot([cycle.cycle for cycle in cycles], values, color=COLOURS[0], marker="o", markersize=4, linewidth=1.3)
-        if name == "margin":
+        if name == judged:
             axes.axhline(1.0, color="#b3201d", linewidth=1.2, linestyle="--", label="1: sticks below")
-            _scale_ratio(axes, [end for cycle in cycles for end in (cycle.margin_lower, cycle.margin_upper)] + list(values))
+            _scale_ratio(axes, list(columns.flat))
             low, high = axes.get_ylim()  # room for the legend above all lines
             axes.set_ylim(low, high * (high / low)**0.25 if axes.get_yscale() == "log" else low + 1.3 * (high - low))
             axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
@@ -200,7 +201,7 @@ def save_cycles(result, path):
         if axes.get_yscale() == "linear":
             widen(axes, values)
             axes.ticklabel_format(axis="y", useOffset=False)
-            if band and np.isfinite(columns[1:]).any() and name != "margin":
+            if band and np.isfinite(columns[1:]).any() and name != judged:
                 axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="best")
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)

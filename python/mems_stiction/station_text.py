@@ -3,35 +3,49 @@
 import math
 import textwrap
 
-from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of, digits_of
+from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of, digits_of, ratio_name, ratio_value
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 from mems_stiction.sweep_jumps import UP, jumps_of
 
 NO, MARGINAL, YES = 0, 1, 2  # StictionPrediction.STICKS_...
+LANDS_NO, LANDS_YES, LANDS_UNKNOWN = 0, 1, 2  # SweepPoint.LANDS_...
+LANDS_NAMES = {LANDS_NO: "no", LANDS_YES: "yes"}
+NO_RATIO = "There is no margin: it needs device/spring_stiffness, travel and contact_area, or a beam."
+PEELED = "Peel: the peel number of a beam that is peeled, in the margin's place."
 WIDTH = 130  # of a sentence, letters
 ROUND_OFF = 1e-9  # of sums over a million cells, with room
-_SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
+_SWEEP = "%-4s %10s %10s  %-5s  %-14s %11s %11s %10s %12s %9s %9s  %s"
 _CYCLE = "%6s  %-14s %11s %10s %9s %9s %11s %12s %9s  %s"
 
 
 def sweep_header():
-    top = _SWEEP % ("", "", "", "", "pull-off", "electro-", "contact", "contact", "", "while", "")
-    bottom = _SWEEP % ("way", "voltage", "load", "status", "force", "static", "fraction", "area", "margin", "held", "sticks")
+    top = _SWEEP % ("", "", "", "", "", "pull-off", "electro-", "contact", "contact", "", "while", "")
+    bottom = _SWEEP % ("way", "voltage", "load", "lands", "status", "force", "static", "fraction", "area", "margin", "held", "sticks")
     return top.rstrip() + "\n" + bottom
 
 
 def sweep_line(point):
-    """Margin: once the load is taken away; while held: with it. Below 1 the device stays closed."""
+    """Lands: by the voltage alone. Margin: once the load is taken away; while held: with it. Below 1 the device stays closed."""
     way = "up" if point.direction == UP else "down"
+    lands = LANDS_NAMES.get(getattr(point, "lands", LANDS_UNKNOWN), "-")
     if point.is_open:
-        return (_SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), "open", "-", "-", "-", "-",
+        return (_SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), lands, "open", "-", "-", "-", "-",
                           "-", "-", "no")).rstrip()
     bound, digits = bound_of(point), digits_of(point)
-    return _SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"),
+    return _SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), lands,
                      STATUS_NAMES.get(point.status, "?"), bound + with_unit(point.pull_off_force, "N", digits),
                      with_unit(point.electrostatic_force, "N"), percent(point.contact_fraction),
-                     area(contact_area_of(point)), ratio(point.margin, digits), ratio(point.holding_margin, digits),
+                     area(contact_area_of(point)), _ratio(point, digits), ratio(point.holding_margin, digits),
                      STICKS_NAMES.get(point.sticks, "?"))
+
+
+def _ratio(point, digits):
+    """Of a beam that is peeled "peel 15"."""
+    return ("peel " if ratio_name(point) == "peel_number" else "") + ratio(ratio_value(point), digits)
+
+
+def _has_ratio(points):
+    return any(not math.isnan(ratio_value(point)) for point in points if not getattr(point, "is_open", False))
 
 
 def sweep_sentences(result, width=WIDTH):
@@ -48,6 +62,7 @@ def sweep_sentences(result, width=WIDTH):
                 ("first voltage after which the margin is below 1", _voltage_words(summary.lowest_sticking_voltage)),
                 ("opens on the way down at", _voltage_words(summary.opening_voltage))):
             sentences.append("  %s: %s" % (text, words))
+        sentences += _landing(result.points, summary.mechanical_load)
         sentences += _verdicts(summary, result.points)
         for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage):
             sentences += textwrap.wrap("jump " + jump.words(), width or math.inf, initial_indent="  ", subsequent_indent="    ")
@@ -64,12 +79,22 @@ def sweep_sentences(result, width=WIDTH):
         sentences.append("Pull-in voltage: not stated" + (" (%s)" % reason if reason else ""))
     else:
         sentences.append("Pull-in voltage: %s" % with_unit(result.pull_in_voltage, "V"))
-    if all(math.isnan(point.margin) for point in result.points if not point.is_open):
-        sentences.append("There is no margin: it needs device/spring_stiffness, travel and contact_area; a beam has a peel number in its place.")
-    else:
-        sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
-        sentences.append("While held: restoring force over all that holds while the load acts.")
+    if not _has_ratio(result.points):
+        return sentences + [NO_RATIO]
+    sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
+    if any(ratio_name(point) == "peel_number" for point in result.points):
+        sentences.append(PEELED)
+    sentences.append("While held: what opens the device over all that holds it while the load acts.")
     return sentences
+
+
+def _landing(points, mechanical_load):
+    """From which voltage of the way up the field alone closes the device, if its pull-in voltage is known."""
+    up = [point for point in points if point.mechanical_load == mechanical_load and point.direction == UP]
+    if all(getattr(point, "lands", LANDS_UNKNOWN) == LANDS_UNKNOWN for point in up):
+        return []
+    first = next((point.voltage for point in up if point.lands == LANDS_YES), math.nan)
+    return ["  first voltage that closes it by itself: " + _voltage_words(first)]
 
 
 def _first_force(points, mechanical_load):
@@ -112,7 +137,7 @@ def _safe_spans(summary, points):
 
 def _verdicts(summary, points):
     """The rows' verdicts, if there is a device."""
-    if all(math.isnan(point.margin) for point in points if not point.is_open):
+    if not _has_ratio(points):
         return []
     runs = verdict_runs(points, summary.mechanical_load)
     return ["  sticks, after voltages of: " + "; ".join("%s %s" % (STICKS_NAMES.get(word, "?"), _span(first, last)) for word, first, last in runs)]
@@ -153,7 +178,7 @@ def cycle_line(cycle):
     bound, digits = bound_of(cycle), digits_of(cycle)
     return _CYCLE % (cycle.cycle, STATUS_NAMES.get(cycle.status, "?"), bound + with_unit(cycle.pull_off_force, "N", digits),
                      percent(cycle.contact_fraction), cycle.asperity_count, cycle.plastic_count,
-                     with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), ratio(cycle.margin, digits),
+                     with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), _ratio(cycle, digits),
                      STICKS_NAMES.get(cycle.sticks, "?"))
 
 
@@ -171,20 +196,21 @@ def cycle_sentences(result):
     settled = [cycle.cycle for cycle in result.cycles if cycle.largest_change == 0.0]
     if settled:
         sentences.append("From contact %d on nothing flows any more." % settled[0])
-    judged = [cycle for cycle in result.cycles if not math.isnan(cycle.margin)]
+    judged = [cycle for cycle in result.cycles if not math.isnan(ratio_value(cycle))]
     if not judged:
-        sentences.append("There is no margin: it needs device/spring_stiffness, travel and contact_area; a beam has a peel number in its place.")
+        sentences.append(NO_RATIO)
     elif result.first_sticking_cycle:
         sticks_on = all(cycle.sticks == YES for cycle in result.cycles if cycle.cycle >= result.first_sticking_cycle)
         sentences.append(("The device fails: from contact %d on it sticks." if sticks_on else
                           "The device fails: it sticks after contact %d, but not surely after each later one.") % result.first_sticking_cycle)
     else:
-        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), _margin_of(min(judged, key=lambda cycle: cycle.margin))))
+        lowest = min(judged, key=ratio_value)
+        sentences.append("%s; the lowest %s is %s." % (_release_after(result.cycles), ratio_name(lowest).replace("_", " "), _ratio_with_interval(lowest)))
     return sentences
 
 
-def _margin_of(cycle):
-    return with_interval(cycle.margin, getattr(cycle, "margin_lower", math.nan), getattr(cycle, "margin_upper", math.nan))
+def _ratio_with_interval(cycle):
+    return with_interval(*[ratio_value(cycle, end) for end in ("", "_lower", "_upper")])
 
 
 def _release_after(cycles):

@@ -64,7 +64,7 @@ def _leaps(way):
 def _causes(before, after, is_leap, pull_in_voltage):
     causes = []
     if after.is_open and not before.is_open:
-        return ["the device opens, its spring overcomes all that holds"]
+        return ["the device opens, what pulls it open overcomes all that holds"]
     if after.is_open:
         return []
     if before.voltage < pull_in_voltage <= after.voltage:

@@ -61,9 +61,6 @@ constexpr Idle kIdle[] = {
     {"device_force/pitch", isWithoutDeviceForce, kNoDeviceForce},
     {"device_force/max_cells", isWithoutDeviceForce, kNoDeviceForce},
     {"device_force/seed", isWithoutDeviceForce, kNoDeviceForce},
-    {"device/electrode_area", [](const Configuration& all) { return all.device.hasBeam() && !all.device.hasSpring(); },
-     "device/beam_type states a beam without a spring; device/electrode_start and electrode_length place its "
-     "electrode"},
     {"device/electrode_start", [](const Configuration& all) { return !all.device.hasBeam(); },
      "device/beam_type is none"},
     {"device/electrode_length", [](const Configuration& all) { return !all.device.hasBeam(); },

@@ -63,7 +63,8 @@ void bindStation(py::module& module) {
   py::class_<LoadSweepResult, Sweep>(module, "LoadSweepResult")
       .def_property_readonly("points", &pointsOf)
       .def_property_readonly("summaries", &summariesOf)
-      .def_readonly("pull_in_voltage", &LoadSweepResult::pull_in_voltage);
+      .def_readonly("pull_in_voltage", &LoadSweepResult::pull_in_voltage)
+      .def_readonly("pull_in_reason", &LoadSweepResult::pull_in_reason);
   py::class_<ContactCyclesResult, Cycles>(module, "ContactCyclesResult")
       .def_property_readonly("cycles", &cyclesOf)
       .def_readonly("first_sticking_cycle", &ContactCyclesResult::first_sticking_cycle)

@@ -82,7 +82,6 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
                                            settings.uncertainty, controlOf(sweep_), scale);
   result = sweepMessage(swept);
-  result.pull_in_reason = whatPullInLacks(settings.device);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);
   return swept.is_complete;

@@ -8,6 +8,9 @@ namespace {
 
 static_assert(static_cast<int>(SweepDirection::kUp) == SweepPoint::UP, "direction");
 static_assert(static_cast<int>(SweepDirection::kDown) == SweepPoint::DOWN, "direction");
+static_assert(static_cast<int>(Lands::kNo) == SweepPoint::LANDS_NO, "lands");
+static_assert(static_cast<int>(Lands::kYes) == SweepPoint::LANDS_YES, "lands");
+static_assert(static_cast<int>(Lands::kUnknown) == SweepPoint::LANDS_UNKNOWN, "lands");
 
 }  // namespace
 
@@ -23,6 +26,7 @@ SweepLoadResult sweepMessage(const LoadSweepResult& sweep) {
     fields.fill(message.summaries.emplace_back());
   }
   message.pull_in_voltage = sweep.pull_in_voltage;
+  message.pull_in_reason = sweep.pull_in_reason;
   return message;
 }
 

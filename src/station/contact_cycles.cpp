@@ -7,6 +7,7 @@
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "prediction/asked_output.hpp"
 #include "surface/wear.hpp"
+#include "verdict/finding.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -73,6 +74,10 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;
     row.margin_upper = verdict.margin_upper;
+    row.peel_number = verdict.peel_number;
+    row.peel_number_lower = verdict.peel_number_lower;
+    row.peel_number_upper = verdict.peel_number_upper;
+    row.is_peeled = isPeeled(verdict);
     row.pull_off_interval = pullOffInterval(prediction, options, uncertainty);
     result.cycles.push_back(row);
     if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0) result.first_sticking_cycle = cycle;

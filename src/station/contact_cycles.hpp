@@ -35,16 +35,20 @@ struct ContactCycle {
   double rms_height = 0.0;      ///< Sq of the lower surface after the contact [m]
   double largest_change = 0.0;  ///< of either surface's height in this contact, at any pixel [m]
   Sticks sticks = Sticks::kUnknown;
-  double margin = Verdict::kNotStated;        ///< [-]
-  double margin_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
-  double margin_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
-  ForceInterval pull_off_interval;            ///< of the pull-off force; NaN without a list of contacts
+  double margin = Verdict::kNotStated;             ///< [-]
+  double margin_lower = Verdict::kNotStated;       ///< 2.5 % quantile [-]
+  double margin_upper = Verdict::kNotStated;       ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;                 ///< of the pull-off force; NaN without a list of contacts
+  double peel_number = Verdict::kNotStated;        ///< of the beam [-]
+  double peel_number_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
+  double peel_number_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
+  bool is_peeled = false;                          ///< the peel number decides, not the margin (isPeeled())
 };
 
 /// What the contacts said, in order.
 struct ContactCyclesResult {
   std::vector<ContactCycle> cycles;
-  int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or device not stated
+  int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or neither a spring nor a beam stated
   SurfacePair surfaces;          ///< after the last contact, the upper one in its own z; a plane starts from 0
   bool is_complete = false;      ///< false: cancelled
 };

@@ -7,6 +7,8 @@
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "station/remaining_contact.hpp"
+#include "verdict/beam_field.hpp"
+#include "verdict/finding.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -48,6 +50,27 @@ double holdingField(const DeviceOptions& device, const InterfaceOptions& interfa
                                                                        interface.insulator_relative_permittivity);
 }
 
+/// What opens a beam that is held, over all that holds it [-]; NaN where a share is not known.
+double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& interface, const RemainingState& state,
+                           const Prediction& contact, const LoadSweepRow& row) {
+  if (!(row.ratio() > 0.0)) return row.ratio();  // it stays down without a load, too (compressed beams)
+  const Beam beam = device.beam();
+  const double area_ratio = device.contact_area / contact.nominal_area;
+  const bool has_force = device.hasBeamContact();
+  const auto shareOfForce = [&](double force) {
+    if (force == 0.0) return 0.0;
+    return has_force ? force * area_ratio / beamForce(beam) : Verdict::kNotStated;
+  };
+  double held = 1.0 / row.ratio() + shareOfForce(state.mechanical_load);
+  if (const auto electrode = electrodeOf(device, interface)) {
+    const FieldHold field = fieldHold(beam, *electrode, state.voltage, contact.mean_gap);
+    held += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
+  } else {
+    held += shareOfForce(state.electrostatic_force);
+  }
+  return 1.0 / held;
+}
+
 /// One loop of the voltage at one mechanical load.
 class Loop {
  public:
@@ -58,7 +81,8 @@ class Loop {
         uncertainty_(uncertainty),
         scale_(scale),
         contact_(options, surfaces),
-        cell_area_(surfaces.lower.cellArea()) {}
+        cell_area_(surfaces.lower.cellArea()),
+        pull_in_(closingVoltage(device, options.interface)) {}
 
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
     LoadSweepRow row;
@@ -66,8 +90,12 @@ class Loop {
     row.mechanical_load = mechanical_load;
     row.direction = direction;
     if (!is_open_) fill(contact_.advance(voltage, mechanical_load), row);
-    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0);
-    if (!is_open_) return row;
+    const bool is_held = row.voltage >= pull_in_;  // the field would close it again
+    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !is_held);
+    if (!is_open_) {
+      row.lands = landsAt(row);
+      return row;
+    }
 
     LoadSweepRow open;
     open.voltage = voltage;
@@ -76,10 +104,18 @@ class Loop {
     open.status = contact_.contact().status;
     open.is_open = true;
     open.sticks = Sticks::kNo;
+    open.lands = Lands::kNo;
     return open;
   }
 
  private:
+  Lands landsAt(const LoadSweepRow& row) {
+    if (std::isnan(pull_in_)) return Lands::kUnknown;
+    has_landed_ = has_landed_ || row.voltage >= pull_in_;
+    if (!has_landed_) return Lands::kNo;
+    return row.voltage >= pull_in_ || !std::isnan(row.holding_margin) ? Lands::kYes : Lands::kUnknown;
+  }
+
   void fill(const RemainingState& state, LoadSweepRow& row) {
     const Prediction& contact = contact_.contact();
     if (state.is_searched) {
@@ -104,8 +140,17 @@ class Loop {
     row.margin_lower = verdict_.margin_lower;
     row.margin_upper = verdict_.margin_upper;
     row.pull_off_interval = pull_off_interval_;
+    row.peel_number = verdict_.peel_number;
+    row.peel_number_lower = verdict_.peel_number_lower;
+    row.peel_number_upper = verdict_.peel_number_upper;
+    row.is_peeled = isPeeled(verdict_);
     const bool is_known = contact.status == Status::kEquilibrium || contact.model.knows_every_load;
-    if (std::isnan(verdict_.margin) || !is_known) return;
+    if (!is_known) return;
+    if (device_.hasBeam() && !device_.hasSpring()) {
+      row.holding_margin = holdingMarginOfBeam(device_, options_.interface, state, contact, row);
+      return;
+    }
+    if (std::isnan(verdict_.margin)) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
     row.holding_margin = verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
                                                      holdingField(device_, options_.interface, state, contact));
@@ -117,12 +162,21 @@ class Loop {
   const std::optional<DeviceScale>& scale_;
   RemainingContact contact_;
   double cell_area_;
+  double pull_in_;  ///< [V]; NaN: not known
   Verdict verdict_;
   ForceInterval pull_off_interval_;
   bool is_open_ = false;
+  bool has_landed_ = false;  ///< by the field alone
 };
 
 }  // namespace
+
+const char* word(SweepDirection direction) { return direction == SweepDirection::kUp ? "up" : "down"; }
+
+const char* word(Lands lands) {
+  constexpr const char* kWords[] = {"no", "yes", "unknown"};
+  return kWords[static_cast<int>(lands)];
+}
 
 LoadSweepSummary summaryOf(double mechanical_load, const std::vector<LoadSweepRow>& rows) {
   LoadSweepSummary summary;
@@ -139,9 +193,9 @@ LoadSweepSummary summaryOf(double mechanical_load, const std::vector<LoadSweepRo
     is_safe = is_safe && is_safe_here;
     if (is_safe) summary.highest_safe_voltage = row.voltage;
     if (is_safe_here && std::isnan(summary.lowest_safe_voltage)) summary.lowest_safe_voltage = row.voltage;
-    releases = releases && row.margin >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
+    releases = releases && row.ratio() >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
     if (releases) summary.highest_releasing_voltage = row.voltage;
-    if (row.margin < 1.0 && std::isnan(summary.lowest_sticking_voltage)) summary.lowest_sticking_voltage = row.voltage;
+    if (row.ratio() < 1.0 && std::isnan(summary.lowest_sticking_voltage)) summary.lowest_sticking_voltage = row.voltage;
   }
   return summary;
 }
@@ -173,6 +227,7 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, 
   const int total = step_count * static_cast<int>(request.mechanical_loads.size());
   LoadSweepResult result;
   result.pull_in_voltage = closingVoltage(device, options.interface);
+  if (std::isnan(result.pull_in_voltage)) result.pull_in_reason = whatPullInLacks(device);
   for (const double mechanical_load : request.mechanical_loads) {
     Loop loop(options, surfaces, device, uncertainty, scale);
     for (int step = 0; step < step_count; ++step) {

@@ -17,8 +17,18 @@
 ///     pull-off force of the device + F_m per area of the frame on the contact area + field: on device/electrode_area across the closed electrodes
 ///     (electrode gap - travel + mean gap), or, when no electrode is stated, the scan's F_e scaled to the contact area
 ///
-/// A row upward does not ask whether the voltage alone would close the device: a shock or a test load may. The pull-in
-/// voltage stands beside.
+/// A beam alone is held by shares of what opens it, which add up to 1 over its holding margin:
+///
+///     1/margin, or 1/peel number where it is peeled                                           verdict.hpp
+///     F_m per area of the frame on the contact area, over the beam's force                    beam_adhesion.hpp
+///     the field's force over the beam's, or its work over the beam's where it is peeled       beam_field.hpp
+///
+/// Without an electrode its field is the scan's F_e scaled to the contact area. A share that its settings do not give (a
+/// load on a beam without width or contact area, a voltage without either electrode or contact area) leaves the
+/// holding margin unknown.
+///
+/// A row upward does not ask for its verdict whether the voltage alone would close the device: a shock or a test load may.
+/// That is said beside: the device lands from the pull-in voltage on, and stays down on the way back until it opens.
 ///
 ///     LoadSweepRequest request;
 ///     request.voltages = {0, 5, 10, 20};
@@ -48,6 +58,15 @@ struct LoadSweepRequest {
 
 enum class SweepDirection : std::uint8_t { kUp = 0, kDown = 1 };
 
+/// "up", "down".
+const char* word(SweepDirection direction);
+
+/// Whether the field of the voltage alone brings the device down, or has and still holds it. The values are those of the message.
+enum class Lands : std::uint8_t { kNo = 0, kYes = 1, kUnknown = 2 };
+
+/// "no", "yes", "unknown".
+const char* word(Lands lands);
+
 /// One load of the sweep. Forces and areas are of the scan; they are 0 once the device is open. NaN: device not stated.
 struct LoadSweepRow {
   double voltage = 0.0;          ///< [V]
@@ -64,22 +83,31 @@ struct LoadSweepRow {
   double contact_area_jkr = 0.0;           ///< [m^2]
   double contact_fraction = 0.0;           ///< [-]
   int asperity_count = 0;
-  double approach = 0.0;                        ///< [m]
-  Sticks sticks = Sticks::kUnknown;             ///< once the load is taken away
-  double margin = Verdict::kNotStated;          ///< once the load is taken away [-]
-  double margin_lower = Verdict::kNotStated;    ///< 2.5 % quantile [-]
-  double holding_margin = Verdict::kNotStated;  ///< while the load acts: restoring force over all that holds [-]
-  double margin_upper = Verdict::kNotStated;    ///< 97.5 % quantile [-]
-  ForceInterval pull_off_interval;              ///< of the pull-off force; NaN without a list of contacts
+  double approach = 0.0;                           ///< [m]
+  Sticks sticks = Sticks::kUnknown;                ///< once the load is taken away
+  double margin = Verdict::kNotStated;             ///< once the load is taken away [-]
+  double margin_lower = Verdict::kNotStated;       ///< 2.5 % quantile [-]
+  double holding_margin = Verdict::kNotStated;     ///< while the load acts: restoring force over all that holds [-]
+  double margin_upper = Verdict::kNotStated;       ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;                 ///< of the pull-off force; NaN without a list of contacts
+  double peel_number = Verdict::kNotStated;        ///< of the beam, once the load is taken away [-]
+  double peel_number_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
+  double peel_number_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
+  bool is_peeled = false;                          ///< the peel number decides, not the margin (isPeeled())
+  Lands lands = Lands::kUnknown;                   ///< kUnknown: the pull-in voltage is not known, or what holds is not
+
+  /// The one of margin and peel number that decides [-].
+  double ratio() const { return is_peeled ? peel_number : margin; }
 };
 
 /// What one loop of the voltage says. NaN: there is none on the grid.
 struct LoadSweepSummary {
-  double mechanical_load = 0.0;                            ///< [N]
-  double highest_releasing_voltage = Verdict::kNotStated;  ///< margin >= 1 up to here, in equilibrium [V]
-  double highest_safe_voltage = Verdict::kNotStated;       ///< the verdict is "no" at each voltage up to here [V]
-  double lowest_sticking_voltage = Verdict::kNotStated;    ///< the first with a margin below 1 [V]
-  double opening_voltage = Verdict::kNotStated;      ///< the highest at which the device opens on the way down [V]
+  double mechanical_load = 0.0;  ///< [N]
+  double highest_releasing_voltage =
+      Verdict::kNotStated;  ///< margin (of a beam that is peeled its peel number) >= 1 up to here, in equilibrium [V]
+  double highest_safe_voltage = Verdict::kNotStated;     ///< the verdict is "no" at each voltage up to here [V]
+  double lowest_sticking_voltage = Verdict::kNotStated;  ///< the first with a margin below 1 [V]
+  double opening_voltage = Verdict::kNotStated;          ///< the highest at which the device opens on the way down [V]
   double lowest_safe_voltage = Verdict::kNotStated;  ///< the first with the verdict "no", whatever lower ones have [V]
 };
 
@@ -91,6 +119,7 @@ struct LoadSweepResult {
   std::vector<LoadSweepRow> rows;                ///< per mechanical load: upward, then downward
   std::vector<LoadSweepSummary> summaries;       ///< one per mechanical load that was finished
   double pull_in_voltage = Verdict::kNotStated;  ///< [V]
+  std::string pull_in_reason;                    ///< which settings it lacks; empty when it is known
   bool is_complete = false;                      ///< false: cancelled
 };
 

@@ -33,6 +33,12 @@ void visitSweepFields(const LoadSweepRow& row, Visitor&& visit) {
   visit({"margin_upper", "", "97.5 % quantile"}, row.margin_upper);
   visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"}, row.pull_off_interval.lower);
   visit({"pull_off_force_upper", "N", "97.5 % quantile; NaN without a list of contacts"}, row.pull_off_interval.upper);
+  visit({"lands", "", "the voltage alone closes the device, or still holds it closed: 0 no, 1 yes, 2 unknown"},
+        row.lands);
+  visit({"peel_number", "", "of the beam, once the load is taken away"}, row.peel_number);
+  visit({"peel_number_lower", "", "2.5 % quantile"}, row.peel_number_lower);
+  visit({"peel_number_upper", "", "97.5 % quantile"}, row.peel_number_upper);
+  visit({"is_peeled", "", "the peel number decides, not the margin"}, row.is_peeled);
 }
 
 /// @param summary of one mechanical load @param visit called with (Figure, value) for each
@@ -67,6 +73,10 @@ void visitCycleFields(const ContactCycle& cycle, Visitor&& visit) {
   visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"}, cycle.pull_off_interval.lower);
   visit({"pull_off_force_upper", "N", "97.5 % quantile; NaN without a list of contacts"},
         cycle.pull_off_interval.upper);
+  visit({"peel_number", "", "of the beam"}, cycle.peel_number);
+  visit({"peel_number_lower", "", "2.5 % quantile"}, cycle.peel_number_lower);
+  visit({"peel_number_upper", "", "97.5 % quantile"}, cycle.peel_number_upper);
+  visit({"is_peeled", "", "the peel number decides, not the margin"}, cycle.is_peeled);
 }
 
 }  // namespace mems_stiction

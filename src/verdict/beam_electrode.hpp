@@ -14,7 +14,10 @@
 /// (J. Micromech. Microeng. 12 (2002) 458) use it; against a finite-difference beam it is within 5 %
 /// (test/core/verdict/beam_electrode_test.cpp). No fringes; slender beam, small slopes, rigid clamps.
 
+#include <optional>
+
 #include "mems_stiction/verdict/beam_adhesion.hpp"
+#include "mems_stiction/verdict/device_options.hpp"
 
 namespace mems_stiction {
 
@@ -25,6 +28,9 @@ struct BeamElectrode {
   double gap = 0.0;            ///< g between beam and insulator at rest [m], >= the beam's gap
   double insulator_gap = 0.0;  ///< t_i/eps_i [m], >= 0
 };
+
+/// That of a device that states a beam alone, its width and where the electrode lies; nothing for others.
+std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device, const InterfaceOptions& interface);
 
 /// Voltage at which the beam closes its gap [V]. NaN for BeamType::kNone or no width.
 double beamClosingVoltage(const Beam& beam, const BeamElectrode& electrode);

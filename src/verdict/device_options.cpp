@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "errors/short_number.hpp"
 #include "mechanics/surface_forces.hpp"
 #include "verdict/beam_electrode.hpp"
 
@@ -86,6 +87,14 @@ std::vector<std::string> DeviceOptions::validate() const {
     violations.push_back("device/electrode_gap: " + numberText(electrode_gap) +
                          " m is not allowed, must be at least device/beam_gap " + numberText(beam_gap) + " m");
   }
+  if (electrode_area > 0.0 && !hasSpring()) {
+    const double length = beam_width > 0.0 ? electrode_area / beam_width : 0.0;
+    violations.push_back(
+        "device/electrode_area: " + numberText(electrode_area) +
+        " m^2 is not allowed for a beam without a spring, must be 0: its electrode is stated by "
+        "device/electrode_start and device/electrode_length" +
+        (length > 0.0 ? " (of the whole device/beam_width it would be " + shortNumber(length) + " m long)" : ""));
+  }
   const std::pair<const char*, double> sizes[] = {{"device/beam_length", beam_length},
                                                   {"device/beam_thickness", beam_thickness},
                                                   {"device/beam_gap", beam_gap},
@@ -100,6 +109,9 @@ std::vector<std::string> DeviceOptions::validate() const {
 }
 
 std::string whatPullInLacks(const DeviceOptions& device) {
+  if (device.hasBeam() && !device.hasSpring()) {
+    return zerosOf({{"device/beam_width", device.beam_width}, {"device/electrode_length", device.electrode_length}});
+  }
   return zerosOf({{"device/spring_stiffness", device.spring_stiffness},
                   {"device/travel", device.travel},
                   {"device/electrode_area", device.electrode_area}});
@@ -113,12 +125,7 @@ std::string whatSpringLacks(const DeviceOptions& device) {
 }
 
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {
-  if (device.hasBeam() && !device.hasSpring() && device.electrode_length > 0.0) {
-    const double gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.beam_gap;
-    return beamClosingVoltage(device.beam(),
-                              {device.electrode_start, device.electrode_length, gap,
-                               interface.insulator_thickness / interface.insulator_relative_permittivity});
-  }
+  if (const auto electrode = electrodeOf(device, interface)) return beamClosingVoltage(device.beam(), *electrode);
   if (!device.hasSpring() || device.electrode_area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
   const double thickness = interface.insulator_thickness;

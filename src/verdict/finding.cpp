@@ -1,5 +1,7 @@
 #include "verdict/finding.hpp"
 
+#include <cmath>
+
 #include "errors/short_number.hpp"
 
 namespace mems_stiction {
@@ -16,6 +18,12 @@ int gravity(Sticks sticks) {
       break;
   }
   return 3;
+}
+
+bool isPeeled(const Verdict& verdict) {
+  if (!verdict.governed_by.empty()) return verdict.governed_by == kGovernedByPeeling;
+  if (std::isnan(verdict.margin)) return !std::isnan(verdict.peel_number);
+  return verdict.peel_number < verdict.margin;
 }
 
 Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,

@@ -27,4 +27,8 @@ int gravity(Sticks sticks);
 Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
                     bool has_cleanings);
 
+/// Whether the peel number is what decides, not the margin: as governed_by says, else the one that is known; where a spring
+/// and a beam are both stated, the smaller.
+bool isPeeled(const Verdict& verdict);
+
 }  // namespace mems_stiction

@@ -228,7 +228,8 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   }
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
-  const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
+  const bool is_of_scan = has_contact || device.apparent_work_of_adhesion == 0.0;  // not of beams that were measured
+  const std::string lack = finding.sticks == Sticks::kNo && is_of_scan && prediction.pull_off_force > 0.0
                                ? whatLacks(prediction, flags, cell_area, of_device)
                                : "";
   if (!lack.empty()) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "verdict/finding.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -15,9 +17,8 @@ const char* capital(Sticks sticks) {
 std::string verdictSentence(const Verdict& verdict) {
   std::string text = std::string("Does it stick? ") + capital(verdict.sticks) + ": " + verdict.reason + ".";
   if (verdict.sticks != Sticks::kMarginal || std::isnan(verdict.surface_reach)) return text;
-  const bool is_by_peeling = std::isnan(verdict.margin);
-  const double ratio = is_by_peeling ? verdict.peel_number_upper / verdict.peel_number_lower
-                                     : verdict.margin_upper / verdict.margin_lower;
+  const double ratio = isPeeled(verdict) ? verdict.peel_number_upper / verdict.peel_number_lower
+                                         : verdict.margin_upper / verdict.margin_lower;
   const double reach = 0.5 * std::log(ratio);  // of the whole interval, to either side
   const bool is_of_surfaces = 2.0 * verdict.surface_reach * verdict.surface_reach > reach * reach;
   return text + " Surer by " +

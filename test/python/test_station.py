@@ -19,6 +19,9 @@ def point(voltage, direction=0, **changes):
     return SimpleNamespace(**values)
 
 
+PEELED = dict(is_peeled=True, peel_number=15.0, peel_number_lower=5.0, peel_number_upper=40.0, margin=2.0, lands=1)
+
+
 def summary(**changes):
     values = dict(mechanical_load=1e-6, highest_releasing_voltage=20.0, highest_safe_voltage=NAN, lowest_sticking_voltage=30.0,
                   opening_voltage=NAN)
@@ -52,10 +55,10 @@ class ArgumentsTest(unittest.TestCase):
 class SweepTextTest(unittest.TestCase):
     def test_columns_stand_below_their_names(self):
         header = sweep_header().splitlines()[1]
-        for line in (sweep_line(point(20.0)), sweep_line(point(0.0, status=1, margin=NAN, sticks=3))):
+        for line in (sweep_line(point(20.0)), sweep_line(point(0.0, status=1, margin=NAN, sticks=3)), sweep_line(point(5.0, **PEELED))):
             self.assertEqual(line.index(line.split()[-1]), header.index("sticks"), line)
         self.assertIn(">= 200 nN", sweep_line(point(0.0, status=1)))
-        self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[5] == "open")
+        self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[6] == "open")
 
     def test_what_is_not_among_the_voltages_is_said(self):
         points = [point(0.0, sticks=1), point(20.0, contact_area_jkr=9e-15, sticks=1), point(0.0, 1, contact_area_jkr=8e-15)]
@@ -91,6 +94,20 @@ class SweepTextTest(unittest.TestCase):
         self.assertIn("widest at 0 V: contact area 4000 nm^2 on the way up, 8000 nm^2 on the way down", text)
         self.assertNotIn("nan", text + line)
 
+    def test_a_beam_has_its_peel_number_and_its_landing(self):
+        points = [point(0.0, **dict(PEELED, lands=0)), point(20.0, **PEELED), point(0.0, 1, is_open=True, lands=0)]
+        self.assertEqual([sweep_line(one).split()[5] for one in points], ["no", "yes", "no"])
+        self.assertIn("  peel 15  ", sweep_line(points[0]))
+        text = "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary()], pull_in_voltage=14.6)))
+        self.assertIn("  first voltage that closes it by itself: 20.0 V", text)
+        self.assertIn("Peel: the peel number of a beam that is peeled", text)
+        self.assertNotIn("There is no margin", text)
+        of_work = [point(0.0, margin=NAN, peel_number=15.0)]
+        self.assertNotIn("There is no margin", "\n".join(sweep_sentences(SimpleNamespace(points=of_work, summaries=[summary()], pull_in_voltage=NAN))))
+        nothing = [point(0.0, margin=NAN, peel_number=NAN)]
+        self.assertIn("There is no margin: it needs device/spring_stiffness, travel and contact_area, or a beam.",
+                      sweep_sentences(SimpleNamespace(points=nothing, summaries=[], pull_in_voltage=NAN)))
+
     def test_no_difference_is_no_hysteresis(self):
         self.assertIsNone(widest_gap([point(0.0), point(20.0), point(0.0, 1)], 1e-6))
         self.assertIsNone(widest_gap([point(0.0)], 1e-6))
@@ -125,7 +142,10 @@ class CycleTextTest(unittest.TestCase):
             one.sticks = 0
         self.assertEqual("The device releases after each of these contacts; the lowest margin is 1.33.", cycle_sentences(result)[-1])
         for one in result.cycles:
-            one.margin = NAN
+            one.__dict__.update(PEELED)
+        self.assertEqual("The device releases after each of these contacts; the lowest peel number is 15 (5 to 40).", cycle_sentences(result)[-1])
+        for one in result.cycles:
+            one.margin, one.is_peeled, one.peel_number = NAN, False, NAN
         self.assertIn("There is no margin: it needs device/spring_stiffness", "\n".join(cycle_sentences(result)))
 
 

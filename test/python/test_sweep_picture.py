@@ -64,7 +64,7 @@ class JumpTest(unittest.TestCase):
         self.assertEqual(self.causes([point(0), point(5, status=2)]), [(5, "the search finds no equilibrium any more")])
         self.assertEqual(self.causes([point(0), point(5), point(10)], 7.0), [(10, "pull-in at 7.00 V, the field closes the device by itself")])
         down = [point(0), point(5), point(0, 1, is_open=True, contact_area=0.0)]
-        self.assertEqual(self.causes(down), [(0, "the device opens, its spring overcomes all that holds")])
+        self.assertEqual(self.causes(down), [(0, "the device opens, what pulls it open overcomes all that holds")])
 
     def test_sentences_name_jumps_on_lines_that_fit_a_terminal(self):
         points = [point(0.0), point(5.0), point(10.0, status=1, pull_off_force=3.1e-7)]

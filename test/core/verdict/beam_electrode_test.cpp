@@ -1,6 +1,7 @@
 /// The voltage at which beams close, against a beam by finite differences and against published numbers.
 
 #include "verdict/beam_electrode.hpp"
+#include "verdict/beam_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,23 +24,61 @@ Beam beamOfType(BeamType type, double stress = 0.0) {
 
 BeamElectrode wholeBelow(const Beam& beam) { return {0.0, beam.length, beam.gap, 0.0}; }
 
+/// The field on each node of a beam that is bent so [N/m].
+Eigen::VectorXd fieldOn(const FiniteDifferenceBeam& differences, const Beam& beam, const BeamElectrode& electrode,
+                        double voltage, const Eigen::VectorXd& bent) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(differences.nodes());
+  for (int node = 1; node <= differences.nodes(); ++node) {
+    const double x = differences.place(node);
+    const double from = std::max(x - 0.5 * differences.step(), electrode.start);
+    const double to = std::min({x + 0.5 * differences.step(), electrode.start + electrode.length, beam.length});
+    if (to <= from) continue;
+    const double gap = electrode.gap + electrode.insulator_gap - bent(node - 1);
+    // the last node of a free end stands for half a cell, as its equation does
+    const double share = (to - from) / (node == differences.nodes() ? 0.5 * differences.step() : differences.step());
+    load(node - 1) = 0.5 * kVacuumPermittivity * beam.width * voltage * voltage / (gap * gap) * share;
+  }
+  if (beam.type == BeamType::kDoublyClamped) load(differences.nodes() - 1) = 0.0;
+  return load;
+}
+
+/// What has to hold the beam down by its gap, at the tip or in the middle, under a voltage [N].
+double reactionUnder(double voltage, const Beam& beam, const BeamElectrode& electrode) {
+  const int cells = 160;
+  const FiniteDifferenceBeam differences(beam, cells);
+  const bool is_cantilever = beam.type == BeamType::kCantilever;
+  const int touching = (is_cantilever ? cells : cells / 2) - 1;
+  const double of_node = is_cantilever ? 0.5 * differences.step() : differences.step();
+  const double scale = std::pow(differences.step(), 4) / differences.rigidity();
+  constexpr double kSpring = 10.0;  // of the support, in the units of the matrix: far stiffer than the beam
+  Eigen::VectorXd bent = Eigen::VectorXd::Zero(differences.nodes());
+  double reaction = 0.0;
+  for (int round = 0; round < 200; ++round) {
+    Eigen::VectorXd load = fieldOn(differences, beam, electrode, voltage, bent.cwiseMin(beam.gap));
+    load(touching) += kSpring * beam.gap / scale;
+    Eigen::MatrixXd matrix = differences.matrix(differences.axialForce(bent), 0.0);
+    matrix(touching, touching) += kSpring;
+    if (!is_cantilever) {  // and no slope there
+      for (const int side : {-1, 1}) {
+        matrix(touching + side, touching + side) += kSpring;
+        matrix(touching + side, touching - side) -= kSpring;
+      }
+    }
+    const Eigen::VectorXd next = differences.solve(matrix, load);
+    bent = Eigen::VectorXd(0.5 * (bent + next));
+    const double before = reaction;
+    reaction = kSpring * (beam.gap - next(touching)) / scale * of_node;
+    if (std::abs(reaction - before) < 1e-7 * std::abs(reaction)) break;
+  }
+  return reaction;
+}
+
 /// Where it comes to rest under a voltage; nothing where it closes.
 std::optional<double> restUnder(double voltage, const Beam& beam, const BeamElectrode& electrode) {
   const FiniteDifferenceBeam differences(beam, 80);
   Eigen::VectorXd bent = Eigen::VectorXd::Zero(differences.nodes());
   for (int round = 0; round < 400; ++round) {
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(differences.nodes());
-    for (int node = 1; node <= differences.nodes(); ++node) {
-      const double x = differences.place(node);
-      const double from = std::max(x - 0.5 * differences.step(), electrode.start);
-      const double to = std::min({x + 0.5 * differences.step(), electrode.start + electrode.length, beam.length});
-      if (to <= from) continue;
-      const double gap = electrode.gap + electrode.insulator_gap - bent(node - 1);
-      // the last node of a free end stands for half a cell, as its equation does
-      const double share = (to - from) / (node == differences.nodes() ? 0.5 * differences.step() : differences.step());
-      load(node - 1) = 0.5 * kVacuumPermittivity * beam.width * voltage * voltage / (gap * gap) * share;
-    }
-    if (beam.type == BeamType::kDoublyClamped) load(differences.nodes() - 1) = 0.0;
+    const Eigen::VectorXd load = fieldOn(differences, beam, electrode, voltage, bent);
     const Eigen::VectorXd next = differences.solve(differences.matrix(differences.axialForce(bent), 0.0), load);
     if (!(next.maxCoeff() < beam.gap)) return std::nullopt;
     const double change = (next - bent).cwiseAbs().maxCoeff();
@@ -72,6 +111,69 @@ TEST(BeamElectrode, closesWhereABeamByFiniteDifferencesDoes) {
         EXPECT_NEAR(beamClosingVoltage(beam, electrode) / expected, 1.0, 0.05)
             << static_cast<int>(type) << ", stress " << stress << ", from " << electrode.start;
       }
+    }
+  }
+}
+
+TEST(BeamField, holdsWhatABeamByFiniteDifferencesNeedsNoLonger) {
+  for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
+    const Beam beam = beamOfType(type);
+    const double unpulled = reactionUnder(0.0, beam, wholeBelow(beam));
+    EXPECT_NEAR(unpulled / beamForce(beam), 1.0, 0.05) << static_cast<int>(type);
+    for (const BeamElectrode& electrode : {BeamElectrode{0.0, beam.length, beam.gap, 200e-9},
+                                           BeamElectrode{0.1 * beam.length, 0.4 * beam.length, beam.gap, 50e-9},
+                                           BeamElectrode{0.25 * beam.length, 0.5 * beam.length, 1.5 * beam.gap, 0.0}}) {
+      for (const double share : {0.2, 0.5}) {
+        const double voltage = share * beamClosingVoltage(beam, electrode);
+        const double held = fieldHold(beam, electrode, voltage, 0.0).force;
+        const double taken = unpulled - reactionUnder(voltage, beam, electrode);
+        const std::string what = std::to_string(static_cast<int>(type)) + ", from " + std::to_string(electrode.start) +
+                                 " under " + std::to_string(share) + " of the pull-in";
+        if (std::isinf(held)) {
+          EXPECT_GT(taken, beamForce(beam)) << what;
+        } else {
+          EXPECT_NEAR(taken / held, 1.0, 0.05) << what;
+        }
+      }
+    }
+  }
+}
+
+TEST(BeamField, holdsForGoodWhatLiesOnTheSubstrateWithItsArm) {
+  const Beam beam = beamOfType(BeamType::kDoublyClamped);
+  const BeamElectrode electrode{0.1 * beam.length, 0.4 * beam.length, beam.gap, 50e-9};
+  const double pull_in = beamClosingVoltage(beam, electrode);
+  EXPECT_TRUE(std::isfinite(fieldHold(beam, electrode, 0.3 * pull_in, 5e-9).force));
+  EXPECT_TRUE(std::isinf(fieldHold(beam, electrode, 5.0 * pull_in, 5e-9).force));
+  EXPECT_TRUE(std::isinf(fieldHold(beam, electrode, 5.0 * pull_in, 5e-9).work));
+}
+
+/// (1/2) eps0 V^2 integral dx/d(x) [J/m] of a beam whose arms have the length s, flat beyond.
+double coEnergy(const Beam& beam, const BeamElectrode& electrode, double arm, double contact_gap) {
+  constexpr int kCells = 200000;
+  double sum = 0.0;
+  for (int i = 0; i < kCells; ++i) {
+    const double x = electrode.start + (i + 0.5) * electrode.length / kCells;
+    const double from_clamp = beam.type == BeamType::kDoublyClamped ? std::min(x, beam.length - x) : x;
+    const double xi = std::min(from_clamp / arm, 1.0);
+    const double phi = beam.type == BeamType::kDoublyClamped ? 3.0 * xi * xi - 2.0 * xi * xi * xi
+                                                             : 0.5 * (3.0 * xi * xi - xi * xi * xi);
+    sum += 1.0 / (electrode.gap + electrode.insulator_gap + contact_gap - beam.gap * phi);
+  }
+  return 0.5 * kVacuumPermittivity * sum * electrode.length / kCells;
+}
+
+TEST(BeamField, itsWorkIsTheCoEnergyThatPeelingCosts) {
+  for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
+    const Beam beam = beamOfType(type);
+    const bool is_double = type == BeamType::kDoublyClamped;
+    const double arm = is_double ? 0.5 * beam.length : beam.length;
+    for (const BeamElectrode& electrode : {BeamElectrode{0.0, beam.length, beam.gap, 100e-9},
+                                           BeamElectrode{0.2 * beam.length, 0.3 * beam.length, 1.2 * beam.gap, 0.0}}) {
+      const double step = 1e-4 * arm;
+      const double lost = coEnergy(beam, electrode, arm - step, 5e-9) - coEnergy(beam, electrode, arm, 5e-9);
+      EXPECT_NEAR(fieldHold(beam, electrode, 1e-3, 5e-9).work * 1e6 * step * (is_double ? 2.0 : 1.0) / lost, 1.0, 0.01)
+          << static_cast<int>(type) << ", from " << electrode.start;
     }
   }
 }

@@ -76,6 +76,26 @@ TEST(DeviceOptions, namesEveryMissingPartOfABeam) {
   EXPECT_NE(violations[2].find("device/beam_modulus"), std::string::npos);
 }
 
+TEST(DeviceOptions, refusesAnElectrodeAreaBelowABeamAlone) {
+  DeviceOptions device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 300 * kUm;
+  device.beam_width = 20 * kUm;
+  device.beam_thickness = device.beam_gap = 2 * kUm;
+  device.beam_modulus = 160e9;
+  EXPECT_EQ(whatPullInLacks(device), "device/electrode_length");
+  device.electrode_area = 3e-9;
+  const std::vector<std::string> violations = device.validate();
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0],
+            "device/electrode_area: 3e-09 m^2 is not allowed for a beam without a spring, must be 0: its electrode is "
+            "stated by device/electrode_start and device/electrode_length (of the whole device/beam_width it would be "
+            "0.00015 m long)");
+  device.spring_stiffness = 1.0;
+  device.travel = 1 * kUm;
+  EXPECT_TRUE(device.validate().empty()) << "the spring's";
+}
+
 TEST(DeviceOptions, refusesNegativeValuesAndATravelBeyondTheElectrode) {
   DeviceOptions device = plate(2.5e-6);
   device.contact_area = -1.0;
