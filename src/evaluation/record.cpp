@@ -9,6 +9,8 @@
 #include "evaluation/record_fields.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "prediction/prediction_fields.hpp"
+#include "station/station_fields.hpp"
+#include "station/sweep_table.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
 #include "verdict/verdict_sentence.hpp"
@@ -58,6 +60,8 @@ const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointF
 const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
 const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSeparationPointFields(item, fields); };
 const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
+const auto kVisitSweepRow = [](const auto& item, auto&& fields) { visitSweepFields(item, fields); };
+const auto kVisitSummary = [](const auto& item, auto&& fields) { visitSummaryFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
 /// Pull-off force and verdict for people.
@@ -108,6 +112,14 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
       add_list(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
     });
   }
+  if (extras.sweep) {
+    fields.map("sweep", [&](Fields& sweep) {
+      sweep({"pull_in_voltage", "V"}, extras.sweep->pull_in_voltage);
+      if (!extras.sweep->pull_in_reason.empty()) sweep({"pull_in_reason"}, extras.sweep->pull_in_reason);
+      add_list(sweep, "summaries", extras.sweep->summaries, kVisitSummary);
+      add_list(sweep, "points", extras.sweep->rows, kVisitSweepRow);
+    });
+  }
 }
 
 }  // namespace
@@ -123,6 +135,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   text += summaryComment(prediction, extras);
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
   if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, "# ");
+  if (extras.sweep) text += sweepTable(*extras.sweep, "# ");
   return text;
 }
 

@@ -18,6 +18,7 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/settings/figure.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "station/load_sweep.hpp"
 #include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
@@ -48,13 +49,15 @@ struct RecordExtras {
   std::vector<CleaningRow> cleanings;         ///< a list of maps, one per cleaning, and a map of their spread
   std::optional<SolvedHalfSpace> half_space;  ///< a map of its figures, with the list of maps `curve`; beside a verdict
                                               ///< also verdict_by: who judged
+  std::optional<LoadSweepResult> sweep;       ///< a map: pull_in_voltage, pull_in_reason, lists of maps `summaries` and
+                                              ///< `points`
 };
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
 /// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
 /// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. All
 /// fields have all digits. For people, comments at the end repeat the pull-off force and the margin, rounded to what is
-/// known, and convergence and cleanings as tables.
+/// known, and convergence, cleanings and the sweep as tables.
 /// - @p file the scan's name, as the user wrote it
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras = {});

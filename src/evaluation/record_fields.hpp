@@ -12,9 +12,16 @@
 
 #include "mems_stiction/settings/figure.hpp"
 #include "settings/option_yaml.hpp"
+#include "station/load_sweep.hpp"
 #include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
+
+/// Its words are "no" and "yes", which YAML would take for truth values.
+template <typename Value>
+constexpr bool isAnswer() {
+  return std::is_same_v<Value, Sticks> || std::is_same_v<Value, Lands>;
+}
 
 /// Visitor that adds fields to the map which the emitter has open.
 class YamlFields {
@@ -30,7 +37,7 @@ class YamlFields {
       emitter_ << (value ? "true" : "false");
     } else if constexpr (std::is_arithmetic_v<Value>) {
       emitter_ << std::to_string(value);
-    } else if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Sticks>) {
+    } else if constexpr (std::is_same_v<Value, std::string> || isAnswer<Value>()) {
       emitter_ << YAML::DoubleQuoted << std::string(shown(value));
     } else {
       emitter_ << word(value);

@@ -61,14 +61,14 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
     if (force == 0.0) return 0.0;
     return has_force ? force * area_ratio / beamForce(beam) : Verdict::kNotStated;
   };
-  double held = 1.0 / row.ratio() + shareOfForce(state.mechanical_load);
+  double shares = 1.0 / row.ratio() + shareOfForce(state.mechanical_load);
   if (const auto electrode = electrodeOf(device, interface)) {
     const FieldHold field = fieldHold(beam, *electrode, state.voltage, contact.mean_gap);
-    held += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
+    shares += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
   } else {
-    held += shareOfForce(state.electrostatic_force);
+    shares += shareOfForce(state.electrostatic_force);
   }
-  return 1.0 / held;
+  return 1.0 / shares;
 }
 
 /// One loop of the voltage at one mechanical load.
@@ -90,8 +90,8 @@ class Loop {
     row.mechanical_load = mechanical_load;
     row.direction = direction;
     if (!is_open_) fill(contact_.advance(voltage, mechanical_load), row);
-    const bool is_held = row.voltage >= pull_in_;  // the field would close it again
-    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !is_held);
+    const bool closes_again = row.voltage >= pull_in_;
+    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !closes_again);
     if (!is_open_) {
       row.lands = landsAt(row);
       return row;

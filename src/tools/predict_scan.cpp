@@ -29,6 +29,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
+#include "scan_sweep.hpp"
 #include "settings/option_values.hpp"
 #include "verdict/margin_uncertainty.hpp"
 
@@ -55,6 +56,7 @@ struct Arguments {
   bool half_space = false;
   bool convergence = false;
   bool cleanings = false;
+  SweepArguments sweep;
   std::vector<std::string> scans;
 };
 
@@ -97,6 +99,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       "--cleanings", arguments.cleanings,
       "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; with and without "
       "spikes), print how pull-off force and margin move, and widen the margin's interval by that");
+  addSweepOptions(app, arguments.sweep);
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
@@ -182,6 +185,7 @@ Configuration configurationOf(const Arguments& arguments) {
   if (arguments.step) setNumber(configuration.model, "paper/step", *arguments.step);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
+  sweepRequest(arguments.sweep, configuration.model);
   for (const auto& [option, path] :
        {std::make_pair("--deformed", arguments.deformed), std::make_pair("--curve", arguments.curve),
         std::make_pair("--formulation-curve", arguments.formulation_curve)}) {
@@ -257,6 +261,13 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
       if (evidence.device) {
         scale = DeviceScale{*evidence.device, prediction.pull_off_force, prediction.apparent_work_of_adhesion};
       }
+    }
+    if (std::optional<LoadSweepRequest> request = sweepRequest(arguments.sweep, configuration.model)) {
+      if (request->mechanical_loads.empty()) request->mechanical_loads = {options.load.mechanical_load};
+      extras.sweep = whileSaying(path + ": sweeping the load", [&] {
+        return sweepLoads(options, prepared.model_surfaces, *request, configuration.device, configuration.uncertainty,
+                          RunControl(), scale);
+      });
     }
     if (arguments.cleanings) {
       extras.cleanings = whileSaying(path + ": predicting under each cleaning",

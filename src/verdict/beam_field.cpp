@@ -29,12 +29,12 @@ ArmShape armShape(BeamType type, double xi) {
 }
 
 /// An arm that is held by h at its end, above a part of the electrode; its edges are those of kArmCells cells from the clamp.
-class HeldArm {
+class ClosedArm {
  public:
   /// - @p length s [m]
   /// - @p from, to where the electrode lies, from the clamp [m]
   /// - @p rest_gap between beam and electrode at rest, with insulator and contact [m]
-  HeldArm(const Beam& beam, double length, double from, double to, double rest_gap)
+  ClosedArm(const Beam& beam, double length, double from, double to, double rest_gap)
       : beam_(beam),
         length_(length),
         from_(std::clamp(from, 0.0, length)),
@@ -135,11 +135,11 @@ FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double vol
   const double rest_gap = electrode.gap + electrode.insulator_gap + contact_gap;
   const double end = electrode.start + electrode.length;
   if (beam.type == BeamType::kCantilever) {
-    return HeldArm(beam, beam.length, electrode.start, end, rest_gap).under(field);
+    return ClosedArm(beam, beam.length, electrode.start, end, rest_gap).under(field);
   }
   const double arm = 0.5 * beam.length;
-  const FieldHold left = HeldArm(beam, arm, electrode.start, end, rest_gap).under(field);
-  const FieldHold right = HeldArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
+  const FieldHold left = ClosedArm(beam, arm, electrode.start, end, rest_gap).under(field);
+  const FieldHold right = ClosedArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
   return {left.force + right.force, 0.5 * (left.work + right.work)};
 }
 

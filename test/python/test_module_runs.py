@@ -22,6 +22,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from mems_stiction._arrays import plain_value  # noqa: E402
 from module_cases import DEVICE, FEW, PITCH, REPOSITORY, Topography, program, rough  # noqa: E402  (the path comes first)
 
 
@@ -92,6 +93,11 @@ class WrongInputTest(unittest.TestCase):
         self.assertIsInstance(failed, mems_stiction.SurfaceError)
         self.assertEqual(first.pull_off_force, last.pull_off_force)
 
+
+BEAM = {"beam_type": "cantilever", "beam_length": 2e-4, "beam_width": 2e-5, "beam_thickness": 2e-6, "beam_gap": 2e-6, "beam_modulus": 160e9,
+        "contact_area": 1e-11, "electrode_start": 2e-5, "electrode_length": 5e-5}
+WORDS = {"direction": ("up", "down"), "status": ("EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"), "sticks": ("no", "marginal", "yes", "unknown"),
+         "lands": ("no", "yes", "unknown")}  # of the record, where arrays have numbers
 
 LONG = """
 import mems_stiction, numpy, sys
@@ -190,6 +196,26 @@ class StationTest(unittest.TestCase):
         self.assertEqual(cycles.cycles[0].pull_off_force, first.pull_off_force)
         self.assertIn("contact 3", repr(cycles))
         self.assertIn("Pressed with", repr(sweep))
+
+    def test_a_sweep_of_predict_scan_has_the_same_figures_to_the_bit(self):
+        heights = rough(48, 48)
+        for device in (DEVICE, BEAM, dict(BEAM, beam_type="doubly_clamped", beam_length=1e-4, contact_area=0.0)):
+            settings = dict(interface={"insulator_thickness": 1e-7}, device=device, device_force=FEW)
+            swept = mems_stiction.sweep_loads(heights, PITCH, [0, 10, 20], [0, 1e-7], **settings)
+            with tempfile.TemporaryDirectory() as folder:
+                scan, config = os.path.join(folder, "scan.npy"), os.path.join(folder, "config.yaml")
+                np.save(scan, heights)
+                pathlib.Path(config).write_text(json.dumps(settings))
+                call = [program(), "--json", "--pitch", str(PITCH), "--config", config, "--sweep-voltage", "0:20:10", "--sweep-load", "0,1e-7", scan]
+                printed = json.loads(subprocess.run(call, check=True, stdout=subprocess.PIPE).stdout)["sweep"]
+            self.assertEqual(plain_value(swept.pull_in_voltage), printed["pull_in_voltage"])
+            self.assertEqual(swept.pull_in_reason, printed.get("pull_in_reason", ""))
+            for found, told in ((swept.points, printed["points"]), (swept.summaries, printed["summaries"])):
+                self.assertEqual(len(found), len(told))
+                for name in found.dtype.names:
+                    words = WORDS.get(name)
+                    self.assertEqual([words[value] if words else plain_value(value) for value in found[name]], [row[name] for row in told], (device, name))
+            self.assertFalse(np.isnan(swept.points[0].peel_number if "beam_type" in device else swept.points[0].margin))
 
     def test_wrong_requests_are_named(self):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "voltages"):
