@@ -28,7 +28,7 @@ MOST_BYTES = 4 << 30
 ENDINGS = (".csv", ".jsonl", ".ndjson", PARQUET)
 RMS_HEIGHT = "rms_height"
 SITES = ("site_x", "site_y")
-TEXTS = ("lot_id", "wafer_id", "part_id", "serial_id", "settings_hash", "scan_name", "name", "file")
+TEXTS = ("lot_id", "wafer_id", "part_id", "serial_id", "settings_hash", "scan_name", "name", "file", "governed_by")
 NUMBERS = FIGURES + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper")) + VOLTAGES + SITES + (RMS_HEIGHT,)
 
 
@@ -177,7 +177,9 @@ def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = No
     table = _Table(against)
     for row in _rows_of(rows, table.columns):
         table.add(row)
-    chosen = next((name for name in ((figure,) if figure else FIGURES) if table.has(name)), None)
+    is_peeled = "peeling" in table.texts("governed_by") and "force" not in table.texts("governed_by")
+    looked_for = (figure,) if figure else FIGURES[1::-1] + FIGURES[2:] if is_peeled else FIGURES
+    chosen = next((name for name in looked_for if table.has(name)), None)
     if not table.count:
         raise OptionsError("rows: there is none, must hold one row at least")
     if chosen is None:

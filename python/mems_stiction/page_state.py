@@ -12,11 +12,11 @@ import time
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
 from mems_stiction.page_places import Wafers
-from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
+from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, part_of,
                                       ratio_of, sentence, thinned_points, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
-from mems_stiction.prediction_text import contact_area_of, ratio_value
+from mems_stiction.prediction_text import contact_area_of, ratio_name, ratio_value
 from mems_stiction.quantities import typeset
 from mems_stiction.station_text import area_label, cycle_sentences, safe_voltage_words, sweep_sentences
 from mems_stiction.sweep_jumps import jumps_of
@@ -99,7 +99,7 @@ class PageState:
 
     def add_prediction(self, stamp, prediction):
         """stamp: of the scan [ns]."""
-        name, told = judged_by(prediction), _told_of(prediction)  # before anything changes: what cannot be told is not shown
+        name, told = ratio_name(prediction), _told_of(prediction)  # before anything changes: what cannot be told is not shown
         device_force = prediction.device_pull_off_force
         with self._lock:
             self._count += 1

@@ -6,7 +6,7 @@ Each function returns what JSON can have: numbers are SI, None where there is no
 import math
 
 from mems_stiction import quantities
-from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words, judge_words
+from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words, judge_words, ratio_name
 from mems_stiction.quantities import percent, ratio, typeset
 
 NO_EQUILIBRIUM = 2  # StictionPrediction.status
@@ -74,14 +74,9 @@ def sentence(text):
     return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
 
 
-def judged_by(prediction):
-    """The name of what the verdict rests on: a spring's margin, else a beam's peel number."""
-    return "margin" if math.isnan(prediction.peel_number) or not math.isnan(prediction.margin) else "peel_number"
-
-
 def ratio_of(prediction):
     """The margin, or the peel number, with its 95 % interval; None where there is neither."""
-    name = judged_by(prediction)
+    name = ratio_name(prediction)
     value, lower, upper = (getattr(prediction, name + end) for end in ("", "_lower", "_upper"))
     if math.isnan(value):
         return None
@@ -114,7 +109,7 @@ def part_name(message):
 
 def part_of(part):
     """What a PartVerdict says: verdict, ratio, how many scans, which is the worst, and what speaks against it."""
-    name = judged_by(part)
+    name = ratio_name(part)
     level, word = VERDICTS.get(part.sticks, VERDICTS[3])
     if not part.counted_scans and part.reason.startswith("the device is not stated"):
         level, word = "none", "NO VERDICT"

@@ -116,8 +116,7 @@ def table_line(name, prediction, with_verdict=False):
                        prediction.elasto_plastic_count, prediction.plastic_count,
                        with_unit(prediction.voltage, "V"), with_unit(prediction.processing_time, "s"))
     if with_verdict:
-        figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin
-        line += _VERDICT % (ratio(figure, digits_of(prediction)), STICKS_NAMES.get(prediction.sticks, "?"))
+        line += _VERDICT % (ratio(ratio_value(prediction), digits_of(prediction)), STICKS_NAMES.get(prediction.sticks, "?"))
     limits = flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings]
     return printable(line + ("  " + ", ".join(limits) if limits else ""))
 
@@ -131,8 +130,7 @@ def device_line(name, device):
         shortened(name), with_interval(device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N"), device.scan_count,
         "" if device.scan_count == 1 else "s")
     if has_verdict(device):
-        named, figure = ("peel number", device.peel_number) if math.isnan(device.margin) else ("margin", device.margin)
-        line += ", %s %s, sticks: %s" % (named, ratio(figure, digits_of(device)), STICKS_NAMES.get(device.sticks, "?"))
+        line += ", %s %s, sticks: %s" % (ratio_name(device).replace("_", " "), ratio(ratio_value(device), digits_of(device)), STICKS_NAMES.get(device.sticks, "?"))
     return printable(line + (", by the half-space" if device.verdict_by == "half_space" else ""))
 
 

@@ -24,7 +24,7 @@ from mems_stiction.cleaning_steps import cleaning_figure, rows_of
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
-from mems_stiction.prediction_text import digits_of, flag_words, judge_words
+from mems_stiction.prediction_text import digits_of, flag_words, judge_words, ratio_name
 from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
 from mems_stiction.report_device import area, device_lines, measurements_of
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
@@ -255,7 +255,7 @@ def _sentence(text):
 TOLD_OF_SCANS = ("acquisition_time", "operator_name")  # in the table, where a scan states one
 
 
-def table_row(row, drawn, judge):
+def table_row(row, drawn):
     entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn,
              "measured": ", ".join(str(row[name]) for name in TOLD_OF_SCANS if row.get(name))}
     if not row["reason"]:
@@ -263,20 +263,25 @@ def table_row(row, drawn, judge):
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N", digits_of_row(row)),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row),
                      releases=verdict_word(row.get("sticks")) + (" (half-space)" if row.get("verdict_by") == "half_space" else ""),
                      half_space=_half_space_cell(row), limits=_limits(row))
     return entry
 
 
-def judged_by(rows):
-    """What the verdicts rest on: the margin of a spring, or the peel number of a beam where there is no margin."""
-    if any(not math.isnan(number(row.get("margin"))) for row in rows):
-        return "margin"
-    return "peel_number" if any(not math.isnan(number(row.get("peel_number"))) for row in rows) else "margin"
+def judged_by(row):
+    """What the verdict of a row rests on: "margin", or "peel_number" of a beam that is peeled, or that has no margin."""
+    return ratio_name(SimpleNamespace(margin=number(row.get("margin")), peel_number=number(row.get("peel_number")), governed_by=row.get("governed_by")))
 
 
-def _ratio_with_interval(row, name):
+def _judges(rows):
+    """The same of all rows that are judged, in words."""
+    names = {judged_by(row).replace("_", " ") for row in rows if not math.isnan(number(row.get(judged_by(row))))}
+    return " or ".join(sorted(names)) or "margin"
+
+
+def _ratio_with_interval(row):
+    name = judged_by(row)
     return with_interval(*[number(row.get(name + end)) for end in ("", "_lower", "_upper")])
 
 
@@ -295,13 +300,14 @@ def summary(rows, drawn):
     return " ".join(parts)
 
 
-def part_row(part, judge):
+def part_row(part):
     """What the page shows of one part: a row of stiction_batch --parts."""
+    judge = judged_by(part)
     spread = number(part[judge + "_spread"])
     worst = number(part["worst_" + judge])
     by = "" if part["verdict_by"] in ("", "prediction") else " (by %s)" % judge_words(part["verdict_by"])
     return {"part": part["part_id"], "serial": part["serial_id"], "sticks": part["sticks"], "releases": verdict_word(part["sticks"]) + by,
-            "ratio": _ratio_with_interval(part, judge), "spread": "" if math.isnan(spread) else "%.2g" % spread,
+            "ratio": _ratio_with_interval(part), "spread": "" if math.isnan(spread) else "%.2g" % spread,
             "worst": "" if math.isnan(worst) else "%s of %s" % (ratio(worst), part["worst_%s_scan" % judge]),
             "scans": "%d of %d" % (part["counted_scans"], part["scan_count"]),
             "reason": _sentence(part["reason"]), "limits": _limits(part)}
@@ -322,9 +328,9 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"), lots=lots_section(rows, embedded),
         has_half_space=any(_is_half_space_asked(row) for row in predicted),
-        has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
-        table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
-        parts=[part_row(part, judged_by(predicted)) for part in parts] if any("sticks" in row for row in predicted) else [],
+        has_device=any("sticks" in row for row in predicted), judged_by=_judges(predicted),
+        table=[table_row(row, drawn) for row in rows],
+        parts=[part_row(part) for part in parts] if any("sticks" in row for row in predicted) else [],
         bounded=any(is_lower_bound(row) for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
         device=device_lines(settings["configuration"]), measurements=measurements_of(rows), has_measurements=any(row.get(name) for row in rows for name in TOLD_OF_SCANS),

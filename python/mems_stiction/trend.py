@@ -3,7 +3,8 @@
 MOST_SCANS = 10000  # that are kept: some 5 kB each
 MOST_EARLY = 100  # verdicts on devices that wait for the prediction of their scan
 NOTHING_FOUND = 2  # DeviceAdhesion.REFUSED
-TAKEN = ("sticks", "restoring_force", "margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper")
+TAKEN = ("sticks", "restoring_force", "margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper",
+         "governed_by")
 
 
 class Scan:

@@ -4,7 +4,7 @@ import math
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.plots import plt, with_unit
-from mems_stiction.prediction_text import bound_of, digits_of, flag_names, limits_of
+from mems_stiction.prediction_text import bound_of, digits_of, flag_names, has_verdict, limits_of, ratio_name
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, prefix_for
 
@@ -49,11 +49,10 @@ def trend_picture(trend, width=1280, height=720, last=0):
 
 
 def _ratio(predicted):
-    """The figure that the verdict rests on: a spring's margin, a beam's peel number, or none."""
-    for name, label in (("margin", "margin"), ("peel_number", "peel number")):
-        if any(not math.isnan(getattr(prediction, name)) for _, prediction in predicted):
-            return name, label
-    return None
+    """The figure that the newest verdict rests on: margin, peel number, or none."""
+    judged = [prediction for _, prediction in predicted if has_verdict(prediction)]
+    name = ratio_name(judged[-1]) if judged else ""
+    return (name, name.replace("_", " ")) if judged else None
 
 
 def _is_device(predicted):

@@ -37,6 +37,7 @@ void fillVerdict(const Verdict& verdict, Message& message) {
   message.peel_number = verdict.peel_number;
   message.peel_number_lower = verdict.peel_number_lower;
   message.peel_number_upper = verdict.peel_number_upper;
+  message.governed_by = verdict.governed_by;
 }
 
 /// As if nobody had judged.

@@ -294,9 +294,10 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
 
 PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Verdict& of_device) {
   PooledVerdict part = pooledVerdictOf(scans);
-  static_cast<JudgedRatio&>(part.margin) = {of_device.margin, of_device.margin_lower, of_device.margin_upper};
-  static_cast<JudgedRatio&>(part.peel_number) = {of_device.peel_number, of_device.peel_number_lower,
-                                                 of_device.peel_number_upper};
+  ScanStatement judged;
+  judgeAgain(judged, of_device);
+  static_cast<JudgedRatio&>(part.margin) = judged.margin;
+  static_cast<JudgedRatio&>(part.peel_number) = judged.peel_number;
   part.sticks = of_device.sticks;
   part.reason = of_device.reason + "; " + countText(part.scan_count, "scan") + " together";
   part.verdict_by = judgeText(of_device.judge);

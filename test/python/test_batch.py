@@ -780,21 +780,24 @@ class OriginTest(unittest.TestCase):
 class TableRowTest(unittest.TestCase):
     def test_a_beam_without_a_spring_is_judged_by_its_peel_number(self):
         beam = {"margin": None, "peel_number": 3.21, "peel_number_lower": 1.234, "peel_number_upper": 1234.5}
-        self.assertEqual(report.judged_by([beam]), "peel_number")
-        self.assertEqual(report.judged_by([beam, {"margin": 2.0}]), "margin")
-        self.assertEqual(report.judged_by([]), "margin")
+        self.assertEqual(report.judged_by(beam), "peel_number")
+        self.assertEqual(report.judged_by(dict(beam, margin=2.0)), "margin")
+        self.assertEqual(report.judged_by(dict(beam, margin=2.0, governed_by="peeling")), "peel_number")
+        self.assertEqual(report.judged_by(dict(beam, margin=2.0, governed_by="force")), "margin")
+        self.assertEqual(report.judged_by({}), "margin")
         row = dict(beam, number=1, file="a.tiff", scan=0, name="", channel="", reason="", status="EQUILIBRIUM",
                    pull_off_force=1e-7, contact_fraction=0.01, asperity_count=3, elastic_count=1, elasto_plastic_count=1,
                    plastic_count=1, rms_height=1e-9, sticks="no")
-        self.assertEqual(report.table_row(row, set(), "peel_number")["ratio"], "3.2 (1.2 to 1200)")
-        self.assertEqual(report.table_row(row, set(), "margin")["ratio"], "-")
+        self.assertEqual(report.table_row(row, set())["ratio"], "3.2 (1.2 to 1200)")
+        self.assertEqual(report.table_row(dict(row, margin=2.0, governed_by="peeling"), set())["ratio"], "3.2 (1.2 to 1200)")
+        self.assertEqual(report.table_row(dict(row, peel_number=None), set())["ratio"], "-")
 
     def test_lower_bounds_and_limits_are_said_with_the_words_of_the_model_that_has_them(self):
         row = {"status": "BONDED", "contact_area_jkr": 1e-15, "pull_off_force": 2e-7, "contact_fraction": 0.1, "asperity_count": 3,
                "elastic_count": 3, "elasto_plastic_count": 0, "plastic_count": 0, "rms_height": 1e-9, "number": 1, "file": "a.txt",
                "scan": None, "name": "", "channel": "", "reason": "", "regime_flag_names": "few_contacts, border", "warnings": "odd"}
-        self.assertEqual(report.table_row(row, set(), "margin")["pull_off"], "≥ 200 nN")
-        followed = report.table_row(dict(row, contact_area_jkr=None), set(), "margin")
+        self.assertEqual(report.table_row(row, set())["pull_off"], "≥ 200 nN")
+        followed = report.table_row(dict(row, contact_area_jkr=None), set())
         self.assertEqual(followed["pull_off"], "200 nN")
         self.assertEqual(followed["limits"], "few contacts: another place of the surface may differ much; most of the adhesion is of "
                          "contacts at the frame's border: their summits may lie outside; odd")

@@ -202,6 +202,12 @@ class SharesTest(unittest.TestCase):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "no column 'time'; the model knows no ageing"):
             mems_stiction.compare_lots(rows, against="time")
 
+    def test_beams_that_are_peeled_are_compared_by_their_peel_numbers(self):
+        rows = [row(site=(1e-3 * place, 0.0), peel_number=0.5 + place, governed_by="peeling") for place in range(4)]
+        self.assertEqual(lots_of(rows).figure, "peel_number")
+        self.assertEqual(lots_of(rows, "margin").figure, "margin")
+        self.assertEqual(lots_of(rows + [row(governed_by="force")]).figure, "margin")
+
     def test_without_a_device_there_is_no_share(self):
         found = mems_stiction.compare_lots([{"pull_off_force": 1e-7, "margin": "nan"}, {"pull_off_force": 2e-7, "margin": ""}])
         self.assertEqual((found.figure, len(found.shares)), ("pull_off_force", 0))

@@ -14,7 +14,7 @@ NAN = math.nan
 
 
 def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
-    """As the node publishes it; without a margin no device is stated."""
+    """As the node publishes it; without a margin neither spring nor beam is stated."""
     values = dict(status=0, pull_off_force=force, sticks=sticks, reason="the reason", margin=margin, margin_lower=0.5 * margin,
                   margin_upper=2 * margin, device_pull_off_force=10 * force if margin == margin else NAN,
                   restoring_force=10 * force * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, contact_area_jkr=1e-15, regime_flags=0, model_doubt="", warnings=[],
@@ -26,7 +26,7 @@ def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
 def device(margin, sticks=1, **changes):
     """The force of the whole device, as the node publishes it."""
     values = dict(status=0, sticks=sticks, verdict_reason="of the device", pull_off_force=2e-6 / margin, restoring_force=2e-6, margin=margin,
-                  margin_lower=0.5 * margin, margin_upper=2 * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN,
+                  margin_lower=0.5 * margin, margin_upper=2 * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, governed_by="",
                   settings_hash="00ff")
     values.update(changes)
     return SimpleNamespace(**values)
