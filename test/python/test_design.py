@@ -29,10 +29,12 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from mems_stiction._device import scans_of_device  # noqa: E402
+from mems_stiction._settings import Settings, values_of  # noqa: E402
 from mems_stiction.design_axes import ETCH, Axis  # noqa: E402
 from mems_stiction.design_points import Hold, Holding, axes_of  # noqa: E402
 from mems_stiction.design_words import statements_of, told_once  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
+from tiers import times  # noqa: E402
 
 PITCH = 10e-9
 SCAN = rough(64, 64, 3e-9, 1, 12)  # its contacts have pixels enough
@@ -111,6 +113,52 @@ class MarginTest(unittest.TestCase):
         self.assertEqual(verdict.sticks, "unknown")
         self.assertIsOf(row, verdict)
         self.assertIn(row["doubt"].split(":")[0], verdict.reason)
+
+
+class CoverageTest(unittest.TestCase):
+    """Devices that are made after the design: pads cut from other surfaces of the same process, each with a work of adhesion and a modulus of its own, as
+    far off as uncertainty/... says of them. Takes so long because each design finds the force of a device."""
+
+    SIDE = 256  # of the pads [pixels]
+    DEVICES = 24  # of each design
+
+    def places(self, seed, side):
+        """Four of one wafer, far apart."""
+        wafer = rough(1024, 1024, 3e-9, seed, 12)
+        return [np.ascontiguousarray(wafer[row:row + side, column:column + side]) for row in (0, 512) for column in (0, 512)]
+
+    def forces_of_devices(self, number):
+        random = np.random.RandomState(number)
+        pads = [pad for wafer in range(self.DEVICES // 4) for pad in self.places(1000 * (number + 1) + wafer, self.SIDE)]
+        settings = values_of(Settings())
+        spread = {name: math.sqrt(math.log1p(settings["uncertainty/" + name] ** 2)) for name in ("work_of_adhesion", "youngs_modulus")}
+        forces = []
+        for pad in pads:
+            factors = {name: math.exp(deviation * random.standard_normal()) for name, deviation in spread.items()}
+            bodies = {"%s/youngs_modulus" % body: factors["youngs_modulus"] * settings["%s/youngs_modulus" % body] for body in ("lower", "upper")}
+            forces.append(mems_stiction.predict(pad, PITCH, **{WORK: factors["work_of_adhesion"] * settings[WORK]}, **bodies).pull_off_force)
+        return np.array(forces)
+
+    def test_a_stiffness_that_is_called_sure_opens_95_of_100_devices(self):
+        held = {"sure": 0, "even": 0}
+        designs = times(2, 20)
+        for number in range(designs):
+            scans = self.places(number, 128)[:3]
+            device = {"travel": 1e-6, "contact_area": (self.SIDE * PITCH) ** 2}
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = mems_stiction.design_sweep(scans, {STIFFNESS: (1e-4, 1e3, 1000)}, {"device": device, "device_force": {"realisations": 4}}, PITCH,
+                                                   workers=1)
+                forces = self.forces_of_devices(number)
+            row = found.rows[0]
+            self.assertAlmostEqual(row.margin_lower * row.pull_off_force_upper, row.restoring_force, delta=1e-9 * row.restoring_force)
+            sure = min(row[STIFFNESS] for row in found.rows if min(row.margin_lower, row.margin_transition) > 1.0)
+            even = min(row[STIFFNESS] for row in found.rows if row.margin > 1.0)
+            held["sure"] += int((forces >= sure * 1e-6).sum())
+            held["even"] += int((forces >= even * 1e-6).sum())
+        made = designs * self.DEVICES
+        self.assertLessEqual(held["sure"], 0.05 * made)
+        self.assertGreater(held["even"], 0.05 * made, "a margin of 1 is not sure")
 
 
 class SentenceTest(unittest.TestCase):
