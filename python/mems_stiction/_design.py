@@ -97,7 +97,8 @@ def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] =
 
     scans, pitch, upper, config, settings: as of predict_device(); the settings state the device.
     axes: one or two names of settings, each with its values: a list, or (from, to, count), which is filled by ratio where the ends lie
-    a factor of 10 or more apart. Beside settings, what processing makes of the scans' heights: roughness/scale, a factor of all
+    a factor of 10 or more apart. `hardness` [Pa] is that of both bodies, load/pressure what presses them before they are drawn apart.
+    Beside settings, what processing makes of the scans' heights: roughness/scale, a factor of all
     heights; roughness/polish [m], a wavelength that a Gaussian filter halves (shorter waves go, 0: none); roughness/etch, a factor of
     the waves that are shorter than etch_wavelength [m].
     output: a .csv file that gets the rows as they come; a run that finds rows of the same sweep there goes on after them.

@@ -8,8 +8,14 @@ STIFFNESS, TRAVEL, AREA = "device/spring_stiffness", "device/travel", "device/co
 OF_THE_SPRING = (STIFFNESS, TRAVEL)
 SCALE, POLISH, ETCH = "roughness/scale", "roughness/polish", "roughness/etch"
 OF_THE_SURFACE = {SCALE: "", POLISH: "m", ETCH: ""}  # with their units
-WORDS = {SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves", "device/contacts": "number of contacts"}
+OF_BOTH_BODIES = {"hardness": ("lower/hardness", "upper/hardness")}  # names that state a setting of each body
+WORDS = {"hardness": "hardness of both bodies", SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves", "device/contacts": "number of contacts"}
 BY_RATIO = 10.0  # ends of a range that lie further apart are filled by ratio
+
+
+def settings_named(name: str) -> Tuple[str, ...]:
+    """That an axis states, but for what is of the surface."""
+    return OF_BOTH_BODIES.get(name, (name,))
 
 
 class Axis(NamedTuple):

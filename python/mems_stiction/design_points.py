@@ -19,7 +19,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Surface
 from mems_stiction._settings import OptionsError, Settings, values_of
 from mems_stiction._warnings import SettingsWarning
-from mems_stiction.design_axes import AREA, BY_RATIO, ETCH, OF_THE_SPRING, OF_THE_SURFACE, POLISH, SCALE, STIFFNESS, TRAVEL, Axis
+from mems_stiction.design_axes import AREA, BY_RATIO, ETCH, OF_BOTH_BODIES, OF_THE_SPRING, OF_THE_SURFACE, POLISH, SCALE, STIFFNESS, TRAVEL, Axis, settings_named
 
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"
 MOST_AXES = 2
@@ -70,11 +70,13 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
     comments = _comments_of(settings)
     axes = []
     for name, values in given.items():
-        if name not in OF_THE_SURFACE and name not in known:
-            raise OptionsError("axes: there is no setting '%s'; must be one of doc/parameters.md, or %s" % (name, ", ".join(OF_THE_SURFACE)))
-        if name in known and (isinstance(known[name], bool) or not isinstance(known[name], (int, float))):
+        setting = settings_named(name)[0] if isinstance(name, str) else name
+        if name not in OF_THE_SURFACE and setting not in known:
+            raise OptionsError("axes: there is no setting '%s'; must be one of doc/parameters.md, or %s" % (
+                name, ", ".join([*OF_BOTH_BODIES, *OF_THE_SURFACE])))
+        if setting in known and (isinstance(known[setting], bool) or not isinstance(known[setting], (int, float))):
             raise OptionsError("axes: %s is no number, and cannot be swept" % name)
-        comment = comments.get(name, "")
+        comment = comments.get(setting, "")
         unit = OF_THE_SURFACE.get(name, comment[1:].partition("]")[0] if comment.startswith("[") else "")
         axis = Axis(str(name), unit, _values(name, values, "an integer" in comment))
         _check(axis, known, settings)
@@ -119,7 +121,7 @@ def _check(axis: Axis, known: Dict[str, Any], settings: Settings) -> None:
     if axis.name in OF_THE_SPRING + (AREA,) and axis.values[0] <= 0:
         raise OptionsError("axes: %s: %g is not allowed, must be > 0" % (axis.name, axis.values[0]))
     for value in (axis.values[0], axis.values[-1]):  # what lies between is allowed where they are
-        Settings(settings, **{axis.name: setting_value(value)})
+        Settings(settings, **{name: setting_value(value) for name in settings_named(axis.name)})
 
 
 def setting_value(value: float) -> Any:
@@ -165,7 +167,7 @@ class Holding:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             warnings.simplefilter("ignore", SettingsWarning)  # said of the axes
-            stated = {name: setting_value(value) for name, value in point.items() if name not in OF_THE_SURFACE}
+            stated = {name: setting_value(value) for axis, value in point.items() if axis not in OF_THE_SURFACE for name in settings_named(axis)}
             if point.get(POLISH):
                 stated[LOW_PASS] = max(point[POLISH], float(values_of(self.settings)[LOW_PASS]))
             settings = Settings(self.settings, **stated)

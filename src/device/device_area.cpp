@@ -236,6 +236,12 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (found.reach != AreaReach::kEnough) return followFrame(frame());
+  const bool is_pressed = model_.load.mechanical_load > 0.0 || model_.load.voltage != 0.0;
+  if (found.flows && is_pressed) {
+    warnOnce(
+        "the load makes contacts flow, and of the device's own they flow as whole contacts: a scan's prediction, by "
+        "places, tells better what the load does");
+  }
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
   stiffness_ = found.contact_stiffness / found.area;

@@ -9,6 +9,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/median.hpp"
 #include "prediction/contact_solvers.hpp"
+#include "separation/chosen_constants.hpp"
 #include "separation/contact_curve.hpp"
 
 namespace mems_stiction {
@@ -79,6 +80,7 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   answer.separation_at_rest = curve.meanGap();
   answer.contact_stiffness = curve.stiffness();
   answer.contact_count = static_cast<int>(curve.contacts().size());
+  answer.flows = curve.largestFullness() > chosen::kMayFlow;
   takeMedians(curve, options, answer);
   curve.part();
   const WayOut& way_out = curve.byContacts();

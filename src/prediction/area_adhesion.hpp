@@ -40,6 +40,7 @@ struct AreaAdhesion {
 
   Status status = Status::kNoEquilibrium;
   bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before
+  bool flows = false;                           ///< whether contacts may have flowed, as whole contacts
   double area = kUnknown;                       ///< of the valid cells [m^2]
   double pull_off_force = kUnknown;             ///< [N]
   double apparent_work_of_adhesion = kUnknown;  ///< [J/m^2]

@@ -172,6 +172,19 @@ Finding governingFinding(const Holding& holding, Finding of_force, Finding of_wo
   return finding;
 }
 
+/// What pressed the surfaces before they were drawn apart, if that changed them; else nothing.
+std::string historyOf(const Prediction& prediction) {
+  const bool flowed = prediction.elasto_plastic_count + prediction.plastic_count > 0;
+  const bool is_pressed = prediction.mechanical_load > 0.0 || prediction.voltage != 0.0;
+  if (!flowed || !is_pressed || !prediction.model.knows_every_load) return "";
+  const double pressure = prediction.mechanical_load / prediction.nominal_area;
+  std::string loads = pressure > 0.0 ? shortNumber(1e-6 * pressure) + " MPa" : "";
+  if (prediction.voltage != 0.0) {
+    loads += (loads.empty() ? "" : " and ") + shortNumber(std::abs(prediction.voltage)) + " V";
+  }
+  return "; after " + loads + ", under which contacts have flowed";
+}
+
 /// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
 /// - @p cell_area of the scan [m^2]
@@ -236,6 +249,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
     verdict.sticks = Sticks::kUnknown;
     verdict.reason = finding.reason + "; but " + lack;
   }
+  verdict.reason += historyOf(prediction);
   const bool is_plain = verdict.sticks == Sticks::kNo || verdict.sticks == Sticks::kYes;
   if (of_device != nullptr && !is_plain && !of_device->warnings.empty()) {
     verdict.reason += "; " + of_device->warnings.front();

@@ -71,6 +71,14 @@ class MarginTest(unittest.TestCase):
             self.assertAlmostEqual(row[name] / getattr(verdict, name), 1.0, delta=1e-12, msg=name)
         self.assertEqual(row["sticks"], verdict.sticks)
 
+    def test_softer_bodies_that_are_pressed_harder_hold_harder(self):
+        found = swept({"hardness": [0.5e9, 12e9], "load/pressure": [0.0, 50e6]})
+        force = found.rows["pull_off_force"].reshape(2, 2)
+        self.assertGreater(force[0, 1], 1.5 * force[0, 0])
+        self.assertGreater(force[0, 1], 1.2 * force[1, 1])
+        self.assertEqual(found.to_dict()["units"]["hardness"], "Pa")
+        self.assertIsOf(found.rows[1], verdict_of(lower={"hardness": 0.5e9}, upper={"hardness": 0.5e9}, load={"pressure": 50e6}))
+
     def test_springs_have_the_verdicts_of_predict_device_and_one_force(self):
         forces = []
         at = Holding.at

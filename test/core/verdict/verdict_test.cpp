@@ -73,6 +73,22 @@ TEST(Verdict, answersNoMarginalAndYes) {
   EXPECT_NE(stuck.reason.find("margin 0.1"), std::string::npos);
 }
 
+TEST(Verdict, saysWhatPressedTheContactsIfTheyFlowed) {
+  Options options;
+  options.lower.hardness = options.upper.hardness = 0.5e9;
+  const HeightMap surface = analytic::sphereArray(60, 60, 2 * kNm, 2 * kNm, {100 * kNm}, 2, 2);
+  const double area = 60 * 60 * kCell;
+  const auto reasonUnder = [&](double pressure) {
+    options.load.mechanical_load = pressure * area;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    return verdictOf(prediction, springOf(1e-6, area), UncertaintyOptions(), options, kCell).reason;
+  };
+  EXPECT_NE(reasonUnder(30e6).find("; after 30 MPa, under which contacts have flowed"), std::string::npos);
+  EXPECT_EQ(reasonUnder(0.0).find("after"), std::string::npos);
+  options.lower.hardness = options.upper.hardness = 1e12;
+  EXPECT_EQ(reasonUnder(30e6).find("after"), std::string::npos);
+}
+
 TEST(Verdict, writesNumbersForPeople) {
   const Spheres spheres;
   const double area = spheres.prediction.nominal_area;
