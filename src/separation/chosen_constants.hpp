@@ -122,10 +122,10 @@ constexpr int kLines = 48;
 /// line (2): map -1.0, 0; others -0.5, 0; brittle +1.7, +2.5
 constexpr int kLagsPerLine = 4;
 
-/// Surfaces that have flowed attract each other more: where contacts carry so many times as much
-/// then [-], they flow again, so many times at most.
+/// Surfaces that have flowed attract each other more: where contacts carry so many times as much then
+/// [-], they flow again, so many times in all.
 constexpr double kMoreCarried = 1.1;
-constexpr int kFlowRounds = 4;
+constexpr int kFlowRounds = 2;
 
 /// Share of a cell's own stiffness with which the search for places that flow begins, its steps,
 /// and cells along a side of its blocks, (S17). So 86 and 96 percent of 139 pressed frames are
