@@ -189,6 +189,12 @@ class PredictionFigures:
     """contacts at the pull-off that are smaller than tip_limit; -1 not known"""
     pull_off_contact_count: int
     """contacts that hold at the pull-off, on which flags and verdict rest; -1 not known"""
+    unresolved_height: float
+    """[m] rms height of the waves that pixels or tip do not show, continued from those that they do; NaN not known"""
+    unresolved_limit: float
+    """[m] of it, above which the scan does not show what holds: what adhesion bridges"""
+    needed_pitch: float
+    """[m] pixels of a scan that would show what holds; NaN where this one does"""
     formulation: str
     """whose answer it is"""
     regime_flags: int

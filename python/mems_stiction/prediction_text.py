@@ -15,7 +15,8 @@ FLAGS = {1: ("bonded", "the surfaces bond"), 2: ("no_equilibrium", "the search e
          32: ("few_contacts", "few contacts: another place of the surface may differ much"),
          64: ("near_bonding", "the pull-off force may be out by more than 1.3"),
          128: ("border", "most of the adhesion is of contacts at the frame's border: their summits may lie outside"),
-         256: ("one_pixel", "most of the adhesion is of contacts of one pixel")}
+         256: ("one_pixel", "most of the adhesion is of contacts of one pixel"),
+         512: ("unresolved", "the scan does not show what holds: its pixels or its tip are too coarse")}
 
 _COLUMNS = "%-18s  %-14s %8s %11s %9s %8s %6s %8s %7s %8s"
 _VERDICT = " %9s  %-8s"

@@ -21,6 +21,7 @@ DeviceEvidence deviceEvidence(const DeviceForce& force) {
   }
   evidence.linear_pull_off_force = force.linear_pull_off_force;
   evidence.warnings = force.warnings;
+  evidence.missing_scan = force.missing_scan;
   return evidence;
 }
 

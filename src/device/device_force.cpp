@@ -559,7 +559,10 @@ std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const Devi
   checkDevice(surfaces, area, options);
   const UsableScans usable = usableScans(surfaces);
   std::vector<DeviceForce> forces = forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
-  for (DeviceForce& force : forces) {
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    DeviceForce& force = forces[i];
+    force.missing_scan = missingShortWaves(usable.surfaces, models[i]);
+    if (!force.missing_scan.empty()) force.warnings.insert(force.warnings.begin(), force.missing_scan);
     force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());
   }
   return forces;

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
 #include "roughness/merged_spectrum.hpp"
+#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -13,6 +15,18 @@ constexpr double kRising = 1.0;
 /// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
+/// Of the finest scans, that which leaves out least.
+UnresolvedWaves leastUnresolved(const std::vector<NamedScan>& scans) {
+  const double finest = finestPitch(mapsOf(scans));
+  UnresolvedWaves least;
+  for (const NamedScan& scan : scans) {
+    if (!showsSummits(scan.surface, finest)) continue;
+    const UnresolvedWaves waves = scan.short_waves ? *scan.short_waves : unresolvedWaves(scan.surface, {}, 0.0);
+    if (!(least.rms_height <= waves.rms_height)) least = waves;
+  }
+  return least;
+}
+
 void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side,
                      std::vector<std::string>& warnings) {
   const double longest = law.longestWave();
@@ -55,6 +69,15 @@ std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const 
   warnOfLongWaves(laws.lower, surfaces.scans, side, warnings);
   if (laws.upper) warnOfLongWaves(*laws.upper, surfaces.counter_surface, side, warnings);
   return warnings;
+}
+
+std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model) {
+  const UnresolvedWaves below = leastUnresolved(surfaces.scans);
+  if (surfaces.counter_surface.empty()) return whatIsMissing(shortWaves(below, model), kNoScan);
+  const UnresolvedWaves above = leastUnresolved(surfaces.counter_surface);
+  UnresolvedWaves both = above.rms_height > below.rms_height ? above : below;
+  both.rms_height = std::hypot(below.rms_height, above.rms_height);
+  return whatIsMissing(shortWaves(both, model), kNoScan);
 }
 
 std::vector<std::string> contradictions(const DeviceSurfaces& surfaces) {

@@ -15,6 +15,10 @@ namespace mems_stiction {
 /// - @p side of a contact [m]
 std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws, double side);
 
+/// The fine scan without which the force is not known, since none of the finest ones shows what holds (verdict/missing_scan.hpp);
+/// empty if one does.
+std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model);
+
 /// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.
 std::vector<std::string> contradictions(const DeviceSurfaces& surfaces);
 

@@ -27,7 +27,7 @@ Configuration ofCounterSurface(Configuration configuration) {
 
 void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
   if (surfaces_.scans.empty()) first_ = prepared.surfaces;
-  surfaces_.scans.push_back({name, prepared.model_surfaces.lower});
+  surfaces_.scans.push_back({name, prepared.model_surfaces.lower, prepared.short_waves});
   const HeightMap& upper = prepared.model_surfaces.upper;
   if (upper.empty() || has_own_counter_surface_) return;
   const bool is_of_scan = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
@@ -35,7 +35,9 @@ void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
   const bool is_there = std::any_of(before.begin(), before.end(),
                                     [&](const NamedScan& other) { return haveSameGrid(other.surface, upper); });
   if (is_there && !is_of_scan) return;
-  surfaces_.counter_surface.push_back({"the counter-surface of " + name, upper});
+  UnresolvedWaves with_scan = prepared.short_waves;  // of the relief, which has them already
+  with_scan.rms_height = 0.0;
+  surfaces_.counter_surface.push_back({"the counter-surface of " + name, upper, with_scan});
 }
 
 std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name, const HeightMap& measured) {

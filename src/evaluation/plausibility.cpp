@@ -6,6 +6,7 @@
 #include "configuration/idle_settings.hpp"
 #include "configuration/usual_values.hpp"
 #include "evaluation/breakdown.hpp"
+#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -80,6 +81,8 @@ std::vector<std::string> warningsOf(const PreparedScan& prepared) {
 std::vector<std::string> predictionWarnings(const PreparedScan& prepared, const Configuration& configuration,
                                             const Prediction& prediction, const Options& options) {
   std::vector<std::string> lines = warningsOf(prepared);
+  const std::string missing = whatIsMissing(prediction.short_waves, kTheScan);
+  if (!missing.empty()) lines.push_back(missing);
   for (const std::vector<std::string>& more :
        {settingsWarnings(configuration), frameWarnings(prediction, options, configuration.device)}) {
     lines.insert(lines.end(), more.begin(), more.end());

@@ -166,8 +166,13 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
     if (!filled.empty()) prepared.warnings.push_back("output/spatial_roughness: " + filled);
   }
   if (tip_radius_ > 0.0) prepared.tip_limit = tipLimit(prepared.surfaces.lower, tip_radius_);
+  addShortWaves(prepared);
   prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
+}
+
+void ScanPreparer::addShortWaves(PreparedScan& prepared) {
+  prepared.short_waves = unresolvedWaves(prepared.surfaces.lower, prepared.surfaces.upper, prepared.tip_limit);
 }
 
 void ScanPreparer::addRoughness(PreparedScan& prepared) const {
@@ -191,6 +196,7 @@ void ScanPreparer::mount(PreparedScan& prepared) {
   prepared.model_surfaces.upper = refinedUpper(upper);
   prepared.surfaces.upper = upper;
   prepared.counter_warnings = counter_surface_->warnings(prepared.surfaces.lower);
+  addShortWaves(prepared);
 }
 
 }  // namespace mems_stiction

@@ -12,6 +12,7 @@
 #include "mems_stiction/verdict/resolution.hpp"
 #include "numeric/constants.hpp"
 #include "settings/time_limit.hpp"
+#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -128,6 +129,7 @@ Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& pr
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
   countBelowTip(prepared.tip_limit, prediction);
+  prediction.short_waves = shortWaves(prepared.short_waves, options_);
   if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
   prediction.processing_time += prepared.preparation_time;
   return std::move(prediction);

@@ -158,6 +158,13 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit({"pull_off_contact_count", "",
          "contacts that hold at the pull-off, on which flags and verdict rest; -1 not known"},
         prediction.pull_off_contact_count);
+  visit({"unresolved_height", "m",
+         "rms height of the waves that pixels or tip do not show, continued from those that they do; NaN not known"},
+        prediction.short_waves.waves.rms_height);
+  visit({"unresolved_limit", "m", "of it, above which the scan does not show what holds: what adhesion bridges"},
+        prediction.short_waves.limit);
+  visit({"needed_pitch", "m", "pixels of a scan that would show what holds; NaN where this one does"},
+        prediction.short_waves.needed_pitch);
 }
 
 /// The figures of one contact.

@@ -39,6 +39,7 @@ static_assert(static_cast<std::uint32_t>(kFewContactsFlag) == StictionPrediction
 static_assert(static_cast<std::uint32_t>(kNearBondingFlag) == StictionPrediction::FLAG_NEAR_BONDING, "regime_flags");
 static_assert(static_cast<std::uint32_t>(kBorderFlag) == StictionPrediction::FLAG_BORDER, "regime_flags");
 static_assert(static_cast<std::uint32_t>(kOnePixelFlag) == StictionPrediction::FLAG_ONE_PIXEL, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kUnresolvedFlag) == StictionPrediction::FLAG_UNRESOLVED, "regime_flags");
 
 /// At most so many points of a curve; of a longer one, every other, fourth, ... and its largest force.
 constexpr std::size_t kMostCurvePoints = 512;

@@ -8,6 +8,7 @@
 #include "prediction/asked_output.hpp"
 #include "surface/wear.hpp"
 #include "verdict/finding.hpp"
+#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -40,6 +41,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     throw OptionsError({"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
   }
   AdhesionModel model(withDeformedSurfaces(options));
+  const ShortWaves short_waves = shortWaves(unresolvedWaves(surfaces.lower, surfaces.upper, 0.0), options);
   ContactCyclesResult result;
   const HeightMap& grid = surfaces.lower;
   result.surfaces = {surfaces.lower.asDouble(), surfaces.upperIsPlane() ? HeightMap() : surfaces.upper.asDouble()};
@@ -48,7 +50,8 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
   for (int cycle = 1; cycle <= count; ++cycle) {
     if (control.isCancelled()) return result;
     const SurfacePair worn = wear.on(surfaces);
-    const Prediction prediction = model.predict(worn);
+    Prediction prediction = model.predict(worn);
+    prediction.short_waves = short_waves;
     requireDeformedSurfaces(prediction);
     Evidence evidence;
     if (scale) evidence.device = scale->under(prediction);

@@ -53,6 +53,7 @@ class RemainingContact {
   Options options_;
   AdhesionModel model_;
   SurfacePair surfaces_;
+  ShortWaves short_waves_;  ///< that the surfaces as given do not show
   bool has_contact_ = false;
   double largest_voltage_ = 0.0;  ///< in size [V]
   double largest_load_ = 0.0;     ///< [N]

@@ -19,7 +19,8 @@ constexpr double kToQuantile = 1.959963985;
 constexpr double kInside = 0.95;
 
 /// What lies outside the model's range so far that a scan cannot say "no", however many there are.
-constexpr std::uint32_t kNoStatementFlags = kBondedFlag | kNoEquilibriumFlag | kOnePixelFlag | kBorderFlag;
+constexpr std::uint32_t kNoStatementFlags =
+    kBondedFlag | kNoEquilibriumFlag | kOnePixelFlag | kBorderFlag | kUnresolvedFlag;
 /// Of a scan that says nothing: its adhesion may be higher than any other's.
 constexpr std::uint32_t kUnboundedFlags = kBondedFlag | kNoEquilibriumFlag;
 
@@ -34,6 +35,9 @@ bool lacksOnlyContacts(const ScanStatement& scan) {
 }
 
 bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan); }
+
+/// A scan that does not show what holds: it serves as a wide one, and is no objection to the others.
+bool isUnresolved(const ScanStatement& scan) { return (scan.regime_flags & kUnresolvedFlag) != 0; }
 
 double squared(double value) { return value * value; }
 
@@ -175,7 +179,7 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
 /// A scan whose adhesion may be higher than any other's; empty if there is none.
 std::string whatIsUnbounded(const std::vector<ScanStatement>& scans) {
   for (const ScanStatement& scan : scans) {
-    if (counts(scan) || (scan.regime_flags & kUnboundedFlags) == 0) continue;
+    if (counts(scan) || isUnresolved(scan) || (scan.regime_flags & kUnboundedFlags) == 0) continue;
     return scan.scan_name + " makes no statement, and may hold more than the others: " + scan.reason;
   }
   return "";
@@ -193,9 +197,11 @@ Finding objectionTo(const std::vector<ScanStatement>& scans, const PooledVerdict
   }
   const std::string unbounded = whatIsUnbounded(scans);
   if (!unbounded.empty()) return {Sticks::kUnknown, unbounded};
-  if (2 * part.counted_scans < part.scan_count) {
-    return {Sticks::kUnknown, "only " + std::to_string(part.counted_scans) + " of " +
-                                  countText(part.scan_count, "scan") + " make a statement"};
+  const auto asked = static_cast<int>(std::count_if(
+      scans.begin(), scans.end(), [](const ScanStatement& scan) { return counts(scan) || !isUnresolved(scan); }));
+  if (2 * part.counted_scans < asked) {
+    return {Sticks::kUnknown,
+            "only " + std::to_string(part.counted_scans) + " of " + countText(asked, "scan") + " make a statement"};
   }
   if (contacts < kFewestContactsForStatement && !is_without_adhesion) {
     return {Sticks::kUnknown, "the answer rests on " + countText(contacts, "contact") + ": scan more places"};

@@ -25,7 +25,8 @@
 /// The word is that of one scan (verdict.hpp), for this interval, with these exceptions:
 ///
 /// - One scan that by itself says "yes" makes a "no" marginal.
-/// - Scans that cannot count make a "no" unknown: one that bonds or has no equilibrium, or more than half of all.
+/// - A scan that does not show what holds (missing_scan.hpp) serves as a wide one, and is no objection to others.
+/// - Other scans that cannot count make a "no" unknown: one that bonds or has no equilibrium, or more than half of all.
 /// - A scan that may not say "no" for its few contacts alone counts, since contacts of several scans add up; together
 ///   they must be three.
 /// - A scan without adhesion (an infinite margin) counts, and is left out of the mean.

@@ -50,6 +50,7 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   if (prediction.status == Status::kBonded && !prediction.is_bonded_by_load) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
   if (prediction.model.doubt != nullptr) flags |= kNearBondingFlag;
+  if (prediction.short_waves.areUnresolved()) flags |= kUnresolvedFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.pull_off_contact_count == 0) return flags | kFewContactsFlag;
   if (prediction.model.assumes_jkr && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
@@ -66,7 +67,9 @@ std::string modelDoubt(const Prediction& prediction) {
   return prediction.model.doubt != nullptr ? prediction.model.doubt : "";
 }
 
-std::uint32_t flagsForHalfSpace(std::uint32_t flags) { return flags & (kNoEquilibriumFlag | kNearBondingFlag); }
+std::uint32_t flagsForHalfSpace(std::uint32_t flags) {
+  return (flags & kUnresolvedFlag) != 0 ? 0 : flags & (kNoEquilibriumFlag | kNearBondingFlag);
+}
 
 std::vector<std::string> regimeFlagList(std::uint32_t flags) {
   const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
@@ -77,7 +80,8 @@ std::vector<std::string> regimeFlagList(std::uint32_t flags) {
                                                       {kFewContactsFlag, "few_contacts"},
                                                       {kNearBondingFlag, "near_bonding"},
                                                       {kBorderFlag, "border"},
-                                                      {kOnePixelFlag, "one_pixel"}};
+                                                      {kOnePixelFlag, "one_pixel"},
+                                                      {kUnresolvedFlag, "unresolved"}};
   std::vector<std::string> list;
   for (const auto& entry : names) {
     if ((flags & entry.first) != 0) list.emplace_back(entry.second);

@@ -23,6 +23,7 @@ enum RegimeFlag : std::uint32_t {
   kNearBondingFlag = 64,   ///< the pull-off force may be out by more than 1.3 (ModelStatement::doubt)
   kBorderFlag = 128,       ///< more than half of the adhesion is of contacts at the frame's border
   kOnePixelFlag = 256,     ///< more than half of the adhesion is of contacts of one pixel
+  kUnresolvedFlag = 512,   ///< pixels or tip are coarser than what holds (missing_scan.hpp): the force is not known
 };
 
 /// Contacts of fewer cells (five across) do not show their curvature.

@@ -8,6 +8,7 @@
 #include "verdict/contact_size.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/margin_uncertainty.hpp"
+#include "verdict/missing_scan.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -222,13 +223,12 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   const AdhesionSpread spread = spread_of();
   verdict.place_deviation = spread.place_deviation;
   verdict.surface_reach = of_device != nullptr ? of_device->surface_reach : kReach95 * spread.place_deviation;
-  const bool is_missing = of_device == nullptr && !hasSizeOfScan(prediction, device);
-  const Holding holding{prediction,
-                        device,
-                        spread,
-                        of_device,
-                        evidence.cleaning.has_value(),
-                        is_missing ? whatSizeLacks(prediction, device, evidence.why_no_device) : ""};
+  std::string why_not =
+      of_device != nullptr ? of_device->missing_scan : whatIsMissing(prediction.short_waves, kTheScan);
+  if (why_not.empty() && of_device == nullptr && !hasSizeOfScan(prediction, device)) {
+    why_not = whatSizeLacks(prediction, device, evidence.why_no_device);
+  }
+  const Holding holding{prediction, device, spread, of_device, evidence.cleaning.has_value(), why_not};
   Finding finding{Sticks::kNo, ""};
   if (has_contact) finding = springFinding(holding, verdict);
   if (device.hasBeam()) {
@@ -251,7 +251,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   }
   verdict.reason += historyOf(prediction);
   const bool is_plain = verdict.sticks == Sticks::kNo || verdict.sticks == Sticks::kYes;
-  if (of_device != nullptr && !is_plain && !of_device->warnings.empty()) {
+  if (of_device != nullptr && why_not.empty() && !is_plain && !of_device->warnings.empty()) {
     verdict.reason += "; " + of_device->warnings.front();
   }
   return verdict;

@@ -15,12 +15,14 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mems_stiction/device/device_force_options.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/roughness/unresolved_waves.hpp"
 #include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
@@ -29,6 +31,7 @@ namespace mems_stiction {
 struct NamedScan {
   std::string name;  ///< for sentences about it
   HeightMap surface;
+  std::optional<UnresolvedWaves> short_waves = std::nullopt;  ///< that it does not show; nothing: as its pixels say
 };
 
 /// All that has been scanned of the two surfaces that meet, of any pitch and size.
@@ -97,7 +100,8 @@ struct DeviceForce {
   bool is_cut_from_scans = false;     ///< the realisations are places of the scans: no surface was made
   std::vector<BandOfWaves> spectrum;  ///< by descending wavelength
   std::vector<std::string> warnings;  ///< in words
-  HeightMap made_surface;  ///< the relief of the first one, to look at: pixels left out; empty where none was made
+  std::string missing_scan;  ///< without which the force is not known, since no scan shows what holds; empty: none
+  HeightMap made_surface;    ///< the relief of the first one, to look at: pixels left out; empty where none was made
 };
 
 /// - @p model the settings of the prediction; its voltage and load make the rest, as they do of a frame

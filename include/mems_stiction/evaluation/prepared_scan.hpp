@@ -22,6 +22,7 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "mems_stiction/roughness/unresolved_waves.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
@@ -41,6 +42,7 @@ struct PreparedScan {
   ArealParameters roughness;                  ///< of model_surfaces.lower, if output/roughness asks for it
   SpatialRoughness spatial_roughness;         ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
   double tip_limit = std::numeric_limits<double>::quiet_NaN();  ///< of surfaces.lower [m]; NaN where no tip is stated
+  UnresolvedWaves short_waves;                                  ///< of the relief of `surfaces`
   double preparation_time = 0.0;  ///< wall time of prepare() [s], part of the time of the scan's prediction
 };
 
@@ -84,6 +86,7 @@ class ScanPreparer {
  private:
   bool isRefining() const { return refinement_.refine.factor > 1; }
   void addRoughness(PreparedScan& prepared) const;
+  static void addShortWaves(PreparedScan& prepared);
   /// Empty stays empty.
   HeightMap refinedUpper(const HeightMap& upper) const;
 

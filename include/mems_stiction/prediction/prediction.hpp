@@ -12,6 +12,7 @@
 #include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "mems_stiction/roughness/unresolved_waves.hpp"
 
 namespace mems_stiction {
 
@@ -21,6 +22,16 @@ enum class BondingRegime : std::uint8_t { kBonding = 0, kAdherence = 1, kNonBond
 /// Which single-asperity theory the median Tabor parameter asks for (Johnson and Greenwood 1997): JKR above 5, DMT
 /// below 0.1, the transition between.
 enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2, kUnknown = 3 };
+
+/// What a scan leaves out, against what adhesion bridges (verdict/missing_scan.hpp). NaN: not known.
+struct ShortWaves {
+  UnresolvedWaves waves;
+  double limit = std::numeric_limits<double>::quiet_NaN();  ///< of their rms height [m]
+  double needed_pitch =
+      std::numeric_limits<double>::quiet_NaN();  ///< of a scan that would show what holds [m]; NaN: none
+
+  bool areUnresolved() const { return waves.rms_height > limit; }
+};
 
 /// Everything that AdhesionModel::predict() finds out about one pair of surfaces.
 struct Prediction {
@@ -107,6 +118,7 @@ struct Prediction {
   bool is_tip_limited = false;
   double tip_limit = std::numeric_limits<double>::quiet_NaN();
   int below_tip_count = -1;
+  ShortWaves short_waves;              ///< of the scan
   SpatialRoughness spatial_roughness;  ///< of the scan; NaN unless output/spatial_roughness is set
 };
 

@@ -47,6 +47,7 @@ struct DeviceEvidence {
   double surface_reach = kUnknown;
   double linear_pull_off_force = kUnknown;  ///< the scans' force by area, for comparison [N]
   std::vector<std::string> warnings;        ///< about the scans, in words
+  std::string missing_scan;                 ///< that no scan stands for: whatIsMissing(); empty: none
 };
 
 /// Each may be missing.

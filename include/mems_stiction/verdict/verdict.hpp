@@ -15,7 +15,8 @@
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
 ///     marginal  1 lies within
-///     unknown   the device is not stated, or the search found no equilibrium; the device's own force has not been found
+///     unknown   the device is not stated, or the search found no equilibrium; pixels or tip of the finest scan are coarser
+///               than what holds (missing_scan.hpp), and the reason says which scan is missing; the device's own force has not been found
 ///               and its contacts have not the scan's size (contact_size.hpp); the answer would be no, but rests on
 ///               contacts of one pixel; or the surfaces bond under paper or printed (the forces are then lower bounds:
 ///               they can say "yes", not "no")
