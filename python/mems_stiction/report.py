@@ -295,6 +295,9 @@ def summary(rows, drawn):
     if any("sticks" in row for row in predicted):
         counts = [(verdict_word(word), sum(row["sticks"] == word for row in predicted)) for word in ("no", "marginal", "yes", "unknown")]
         parts.append("The device, by scans: " + ", ".join("%s %d" % pair for pair in counts if pair[1]) + ".")
+    alone = sum("sticks" in row and not (row.get("part_id") or row.get("serial_id")) for row in predicted)
+    if alone > 1:
+        parts.append("%d scans state no part, and each is judged alone: if they are of one device, --part NAME judges them together." % alone)
     if len(drawn) < len(predicted):
         parts.append("Pictures of %d scans, evenly spread; the table and the trends have all." % len(drawn))
     return " ".join(parts)

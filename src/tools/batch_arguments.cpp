@@ -57,6 +57,9 @@ void describe(CLI::App& app, BatchArguments& arguments) {
                  "also write a row for each part: the scans of one part_id and serial_id, pooled to one verdict; with "
                  "--merge of all shards")
       ->type_name("PARTS.csv|PARTS.jsonl");
+  app.add_option("--part", arguments.part,
+                 "the part of all scans that state none: they are of one device. Goes before part/id")
+      ->type_name("NAME");
   app.add_option("-d,--dump", arguments.dump,
                  "also write surfaces, contacts and curves of each scan into FOLDER/NUMBER (.npy and JSON)")
       ->type_name("FOLDER");
@@ -113,6 +116,7 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
 Configuration configurationOf(const BatchArguments& arguments) {
   Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
+  if (!arguments.part.empty()) configuration.part.id = arguments.part;
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   return withFilesOfNow(std::move(configuration));

@@ -20,6 +20,7 @@ struct BatchArguments {
   std::string shard = "1/1";
   std::string output;
   std::string parts;
+  std::string part;
   std::string dump;
   std::string topic = "height";
   std::string input_list;

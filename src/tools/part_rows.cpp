@@ -112,6 +112,15 @@ RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& 
 
 }  // namespace
 
+std::size_t scansWithoutPart(const std::string& rows_path) {
+  std::size_t count = 0;
+  for (RowTexts& texts : rowTextsOf(rows_path)) {
+    const Row row(std::move(texts));
+    if (row.text("reason").empty() && row.text("part_id").empty() && row.text("serial_id").empty()) ++count;
+  }
+  return count;
+}
+
 std::size_t writeParts(const std::string& rows_path, const std::string& path,
                        const std::function<PartDevice(const std::vector<RowOfPart>&)>& device) {
   const RowFormat format = rowFormatOf(path, "--parts");

@@ -21,4 +21,7 @@ namespace mems_stiction {
 std::size_t writeParts(const std::string& rows_path, const std::string& path,
                        const std::function<PartDevice(const std::vector<RowOfPart>&)>& device);
 
+/// Scans of such a file that were predicted and state neither part_id nor serial_id. @throw FileError
+std::size_t scansWithoutPart(const std::string& rows_path);
+
 }  // namespace mems_stiction

@@ -53,6 +53,17 @@ bool isIgnored(const std::string& key, const Options& options) {
   return std::any_of(ignored.begin(), ignored.end(), [&](const IgnoredSetting& setting) { return setting.key == key; });
 }
 
+/// Says of scans that may be of one device, and do not say so, how they are judged together.
+void askForPart(const BatchArguments& arguments, const Configuration& configuration) {
+  if (!configuration.device.isStated()) return;
+  const std::size_t count = scansWithoutPart(arguments.output);
+  if (count < 2) return;
+  complain("stiction_batch", std::to_string(count) +
+                                 " scans state no part_id, and each is judged alone: if they are of one device, --part "
+                                 "NAME with --parts judges them together; of several, state part_id beside each scan "
+                                 "(SCAN.yaml)");
+}
+
 /// If they are asked for, by the rows that are there.
 /// - @p inputs, configuration that the rows were made of and with
 void pool(const BatchArguments& arguments, const std::vector<std::string>& inputs, const Configuration& configuration) {
@@ -186,6 +197,7 @@ int run(const BatchArguments& arguments) {
     complain("stiction_batch",
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
   }
+  askForPart(arguments, stated);
   pool(arguments, scans.inputs(), stated);
   return failed_count > 0 && failed_count == wanted_numbers.size()
              ? kNonePredicted
@@ -218,6 +230,7 @@ int merge(const BatchArguments& arguments) {
   if (!arguments.parts.empty()) {
     BatchArguments of_rows = arguments;
     const Configuration configuration = madeOf(shards.front(), settings, of_rows);
+    askForPart(arguments, configuration);
     pool(of_rows, of_rows.inputs, configuration);
   }
   return 0;

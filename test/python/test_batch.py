@@ -726,6 +726,62 @@ class BatchTest(unittest.TestCase):
         self.assertIn("--parts: must be another file", done.stderr)
         self.assertFalse((self.folder / "other.csv").exists())
 
+    def scans_of_one_surface(self):
+        """Two fine scans of a self-affine surface (H 0.8, roll-off 2 um, rms height 4 nm), and one of as coarse pixels as light has."""
+        paths = []
+        for seed, (name, side, pitch) in enumerate((("fine_1", 160, 5e-9), ("fine_2", 160, 5e-9), ("light", 160, 160e-9))):
+            frequency = np.hypot(np.fft.fftfreq(side, pitch)[:, None], np.fft.rfftfreq(side, pitch)[None, :])
+            gains = np.maximum(2e-6 * frequency, 1.0) ** -1.8  # flat below the roll-off
+            gains[0, 0] = 0.0
+            waves = np.fft.rfft2(np.random.RandomState(seed).standard_normal((side, side)))
+            np.save(str(self.folder / (name + ".npy")), np.fft.irfft2(waves * gains, s=(side, side)) * 4e-9 * 2e-6 / np.sqrt(2.25 * np.pi) / pitch)
+            (self.folder / (name + ".npy.yaml")).write_text("pitch_x: %g\npitch_y: %g\n" % (pitch, pitch))
+            paths.append(self.folder / (name + ".npy"))
+        return paths
+
+    def test_a_scan_that_does_not_show_what_holds_is_unknown_and_serves_its_part_as_a_wide_one(self):
+        config = self.folder / "own.yaml"
+        config.write_text(OWN_FORCE.replace("1.0e-11", "1.0e-12"))
+        scans = self.scans_of_one_surface()
+        for way in ((), ("--no-device-force",)):
+            rows, parts = "rows%d.csv" % len(way), "parts%d.csv" % len(way)
+            self.predict(rows, "--config", config, "--part", "plate", "--parts", self.folder / parts, *way, inputs=scans)
+            *fine, light = self.rows(rows)
+            self.assertEqual((light["sticks"], light["margin"]), ("unknown", "nan"))
+            self.assertIn("unresolved", light["regime_flag_names"])
+            self.assertIn("missing is AFM", light["verdict_reason"])
+            self.assertIn("missing is AFM", light["warnings"])
+            self.assertFalse(any("unresolved" in row["regime_flag_names"] for row in fine))
+            [part] = self.rows(parts)
+            self.assertEqual((part["part_id"], part["scan_count"]), ("plate", "3"))
+            self.assertIn(part["sticks"], ("no", "marginal", "yes"), part["reason"])
+        self.predict("light.csv", "--config", config, "--part", "plate", "--parts", self.folder / "light_parts.csv", inputs=scans[2:])
+        [part] = self.rows("light_parts.csv")
+        self.assertEqual(part["sticks"], "unknown")
+        self.assertIn("no scan shows what holds", part["reason"])
+
+        page = self.folder / "report.html"
+        done = run([program("stiction_report"), "--config", config, "--part", "plate", "--most", 1, "--steps", 0, "-o", page] + scans)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cells = re.findall('<td class="(no|marginal|yes|unknown)">([^<]*)</td>', page.read_text(encoding="utf-8"))
+        self.assertEqual(cells.count(("unknown", "not known")), 1, cells)
+        self.assertNotIn("state no part", page.read_text(encoding="utf-8"))
+
+    def test_scans_without_a_part_are_asked_for_theirs(self):
+        inputs = [self.inputs / "b.bag"]
+        said = "3 scans state no part_id, and each is judged alone"
+        self.assertIn(said, self.predict("rows.csv", inputs=inputs).stderr)
+        self.assertNotIn(said, self.predict("named.csv", "--part", "plate", inputs=inputs).stderr)
+        self.assertEqual({row["part_id"] for row in self.rows("named.csv")}, {"plate"})
+        self.assertNotIn("state no part_id", self.predict("stated.csv", "--part", "plate", inputs=[self.bag_of_parts()]).stderr)
+        self.assertEqual({row["part_id"] for row in self.rows("stated.csv")}, {"lot 3", "'=lot \"4\", left"}, "what a scan states stays")
+        (self.folder / "bare.yaml").write_text("load: {mechanical_load: 1.0e-6}\n")
+        self.assertNotIn(said, self.predict("bare.csv", "--config", self.folder / "bare.yaml", inputs=inputs).stderr)
+        page = self.folder / "report.html"
+        done = run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--most", 1, "--steps", 0, "-o", page] + inputs)
+        self.assertIn(said, done.stderr)
+        self.assertIn("3 scans state no part, and each is judged alone", page.read_text(encoding="utf-8"))
+
     def test_the_report_has_a_verdict_for_each_part(self):
         page = self.folder / "report.html"
         done = run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--most", 1, "--steps", 0, "-o", page, self.bag_of_parts()])
