@@ -67,18 +67,12 @@ bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline) {
   }
 }
 
-}  // namespace
-
+/// While a RunningChild is made. @return the child's id, or -1 if it could not be started
 pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                 const std::string& log_path, int input, const std::string& folder) {
+                 const std::string& log_path) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  if (input >= 0) {
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  } else {
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  }
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   // A process group of its own, so that a timeout also ends what the child has started; and default signals, since
@@ -107,14 +101,11 @@ pid_t startChild(const std::vector<std::string>& arguments, const std::vector<st
   return child;
 }
 
-void setEnd(int status, ChildResult& result) {
-  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
-}
+}  // namespace
 
 ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
                      const std::string& log_path, double timeout) {
-  const RunningChild running([&] { return startChild(arguments, environment, log_path, -1, ""); });
+  const RunningChild running([&] { return startChild(arguments, environment, log_path); });
   const pid_t child = running.id();
   ChildResult result;
   if (child < 0) return result;
@@ -127,7 +118,9 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::vecto
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!result.timed_out) setEnd(status, result);
+  if (result.timed_out) return result;
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   return result;
 }
 

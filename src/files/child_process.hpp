@@ -3,8 +3,6 @@
 /// @file
 /// Run another program and wait for it, for at most a stated time.
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
 
@@ -18,19 +16,8 @@ struct ChildResult {
   int signal = 0;          ///< the signal that ended it, else 0
 };
 
-/// Starts a program as the leader of a process group, with limited memory and without core files. To be called while a
-/// RunningChild is made.
-/// - @p arguments, @p environment, @p log_path as of runChild()
-/// - @p input descriptor that becomes its standard input; -1: there is none
-/// - @p folder where it works; empty: here
-/// @return its id, or -1 if it could not be started
-pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                 const std::string& log_path, int input, const std::string& folder);
-
-/// What waitpid() says of a child's end.
-void setEnd(int status, ChildResult& result);
-
-/// No shell: the arguments reach the program as they are. Input is empty; output and error go to `log_path`.
+/// No shell: the arguments reach the program as they are. Input is empty; output and error go to `log_path`. The program
+/// leads a process group of its own, with limited memory and without core files.
 /// - @p arguments the program (looked up in PATH) and its arguments
 /// - @p environment the whole environment, "NAME=value"
 /// - @p timeout [s]

@@ -18,6 +18,10 @@ namespace mems_stiction {
 /// @throw FileError with or without the file's name
 std::vector<FileChannel> readChannels(const std::string& path, const ImportOptions& options);
 
+/// Digits that change with the code of this room: rows of older readers must not pass for those of
+/// these.
+std::string readerVersion();
+
 /// TIFF files of heights, by libtiff: each full-size page is a channel. OpenCV knows neither pages nor tags, and scales
 /// pixels of fewer than 8 or 16 bits. Pages that are thumbnails or overviews by their tag, or masks, are left out.
 /// Integers of 1 to 32 bits are counts as they stand; float16, float32, float64. GDAL's missing value becomes NaN. The
@@ -140,18 +144,17 @@ Hdf5Channels channelsByH5py(const std::string& path, double timeout);
 /// @throw FileError crashed, timed out.
 std::vector<FileChannel> channelsByPackages(const std::string& path, double timeout);
 
-/// The file is of no format that gwyddion knows, or gwyddion is not installed.
+/// The file is of no format that Gwyddion knows, or Gwyddion's libraries are not there.
 class NoFormatOfGwyddion : public FileError {
  public:
   using FileError::FileError;
 };
 
-/// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
-/// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
-/// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so
+/// Instrument makers' files. Gwyddion's libraries read them in a process of its own
+/// (tools/read_by_gwyddion.cpp): a damaged file that crashes a reader ends that process and nothing
+/// else. The libraries are optional.
 /// @return every image channel of the file, whatever its unit.
 /// @throw NoFormatOfGwyddion; FileError in one line with the file and the cause: crashed, failed, timed out, unreadable.
-std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
-                                            const ImportOptions& options);
+std::vector<FileChannel> channelsByGwyddion(const std::string& path, const ImportOptions& options);
 
 }  // namespace mems_stiction

@@ -1,5 +1,6 @@
 #include "import/format_readers.hpp"
 
+#include <dlfcn.h>
 #include <string.h>
 
 #include <filesystem>
@@ -8,8 +9,6 @@
 #include "files/child_process.hpp"
 #include "files/interruption.hpp"
 #include "import/file_bytes.hpp"
-#include "import/import_cache.hpp"
-#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/words.hpp"
@@ -19,46 +18,56 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTarget = "scan.gwy";
-constexpr const char* kLog = "log";
+constexpr const char* kReader = "read_by_gwyddion";
+constexpr int kHasNoReaders = 127;  ///< exit status, also where its libraries are missing
 
-/// What gwyddion said first, without the file's name and if possible no remark of its libraries; empty if it said nothing.
-std::string complaint(const fs::path& log, const std::string& scan_path) {
+/// The program beside this library, or in the package's folder there; empty where it was not built.
+std::string builtReader() {
+  Dl_info place{};
+  if (dladdr(reinterpret_cast<const void*>(&channelsByGwyddion), &place) == 0 || place.dli_fname == nullptr) return "";
+  const fs::path folder = fs::absolute(place.dli_fname).parent_path();
+  for (const fs::path& reader : {folder / kReader, folder / "mems_stiction" / kReader}) {
+    std::error_code error;
+    if (fs::is_regular_file(reader, error)) return reader.string();
+  }
+  return "";
+}
+
+/// The last line: what was said before is of Gwyddion's libraries.
+std::string lastLine(const fs::path& log) {
   std::ifstream stream(log);
-  std::string first;
-  std::string remark;
+  std::string last;
   for (std::string line; std::getline(stream, line);) {
-    for (const std::string& name : {scan_path + ": ", kWaitingFileName + std::string(": ")}) {
-      if (startsWith(line, name)) return line.substr(name.size());
-    }
-    const bool is_of_library = line.find("-CRITICAL **") != std::string::npos ||
-                               line.find("-WARNING **") != std::string::npos || startsWith(line, "(process:") ||
-                               startsWith(line, "This indicates a bug") || startsWith(line, "The overwriting error") ||
-                               startsWith(line, "Cannot write ");  // the target, after what went wrong before
-    if (!line.empty() && !is_of_library && first.empty()) first = line;
-    if (remark.empty()) remark = line;
+    if (!line.empty()) last = line;
   }
-  return first.empty() ? remark : first;
+  return last;
 }
 
-/// By a gwyddion that waits, if there is one, else by one of its own.
-ChildResult runGwyddion(const fs::path& folder, const std::string& scan_path, const ImportOptions& options) {
-  if (options.waiting) {
-    if (const auto result = options.waiting->read(folder.string(), scan_path, options.timeout)) return *result;
-  }
-  return runChild(gwyddionArguments(options.program, (folder / kTarget).string(), scan_path),
-                  gwyddionEnvironment(folder.string()), (folder / kLog).string(), options.timeout);
+/// No display, one thread (threads take longer to start than a small file takes to read), and a
+/// home without plugins.
+std::vector<std::string> readerEnvironment(const std::string& home) {
+  return environmentWithout(
+      {"DISPLAY", "WAYLAND_DISPLAY", "XDG_CONFIG_HOME", "LANGUAGE", "HOME", "LC_ALL", "OMP_NUM_THREADS"},
+      {"HOME=" + home, "LC_ALL=C.UTF-8", "OMP_NUM_THREADS=1"});
 }
 
-/// The .gwy container that the program makes of the file. @throw FileError naming the file
-std::string converted(const std::string& path, const ImportOptions& options) {
+/// The .gwy container that Gwyddion's libraries make of the file. @throw FileError naming the file
+std::string containerOf(const std::string& path, const ImportOptions& options) {
+  const std::string reader = options.gwyddion_reader.empty() ? builtReader() : options.gwyddion_reader;
+  if (reader.empty()) {
+    throw NoFormatOfGwyddion(path +
+                             ": needs Gwyddion's libraries to be read, which this build was made without (Debian "
+                             "packages: gwyddion libgwyddion20-dev libgtk2.0-dev libgtkglext1-dev; then build again)");
+  }
   const PrivateFolder folder;
-  const std::string scan_path = fs::absolute(path).string();
-  const ChildResult result = runGwyddion(folder.path(), scan_path, options);
-  const fs::path target = folder.path() / kTarget;
-  if (!result.started) {
-    throw NoFormatOfGwyddion(path + ": needs the program " + options.program +
-                             " to be read, which is not installed (Debian package: gwyddion)");
+  const fs::path target = folder.path() / "scan.gwy";
+  const fs::path log = folder.path() / "log";
+  const ChildResult result = runChild({reader, fs::absolute(path).string(), target.string()},
+                                      readerEnvironment(folder.path().string()), log.string(), options.timeout);
+  if (!result.started || result.exit_code == kHasNoReaders) {
+    throw NoFormatOfGwyddion(path +
+                             ": needs Gwyddion's readers to be read, which are not installed (Debian package: "
+                             "gwyddion)");
   }
   if (result.timed_out) {
     throw FileError(path + ": gwyddion did not finish within " + numberText(options.timeout) + " s and was stopped");
@@ -67,7 +76,7 @@ std::string converted(const std::string& path, const ImportOptions& options) {
     throw FileError(path + ": gwyddion crashed on this file (" + strsignal(result.signal) + "): it is damaged");
   }
   if (result.exit_code != 0 || !fs::exists(target)) {
-    std::string cause = complaint(folder.path() / kLog, scan_path);
+    std::string cause = lastLine(log);
     if (cause.find("failed to report error") != std::string::npos) {
       cause = "it is of a known format, but cut off, damaged, or without an image; gwyddion does not say which";
     }
@@ -79,25 +88,14 @@ std::string converted(const std::string& path, const ImportOptions& options) {
   return readFileBytes(target.string());
 }
 
-/// Masks are the program's way to mark what was not measured: nothing to be said.
-std::vector<FileChannel> measured(std::vector<FileChannel> channels) {
-  for (FileChannel& channel : channels) channel.notes.clear();
-  return channels;
-}
-
 }  // namespace
 
-std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
-                                            const ImportOptions& options) {
-  std::string key;
-  if (options.use_cache) {
-    key = importCacheKey(bytes, fs::path(path).extension().string(), options.program, readerVersion());
-    if (const auto cached = cachedConversion(key)) return measured(parseGwy(*cached));
-  }
-  const std::string gwy = converted(path, options);
+std::vector<FileChannel> channelsByGwyddion(const std::string& path, const ImportOptions& options) {
+  const std::string container = containerOf(path, options);
   try {
-    std::vector<FileChannel> channels = measured(parseGwy(gwy));
-    if (options.use_cache) cacheConversion(key, gwy);
+    std::vector<FileChannel> channels = parseGwy(container);
+    // Masks are Gwyddion's way to mark what was not measured: nothing to be said.
+    for (FileChannel& channel : channels) channel.notes.clear();
     return channels;
   } catch (const FileError& error) {
     throw FileError(path + ": what gwyddion made of it cannot be read: " + error.what());

@@ -30,13 +30,13 @@ bool beginsWithOneOf(const std::string& bytes, std::initializer_list<std::string
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
 Channels readTiff(const std::string& path, const std::string& bytes, const ImportOptions& options) {
-  if (hasInstrumentTags(bytes)) return channelsByGwyddion(path, bytes, options);
+  if (hasInstrumentTags(bytes)) return channelsByGwyddion(path, options);
   Channels channels = parseTiff(bytes);
   const bool is_picture = std::all_of(channels.begin(), channels.end(),
                                       [](const FileChannel& channel) { return channel.values.channels() > 2; });
   if (!is_picture) return channels;
   try {
-    Channels inside = channelsByGwyddion(path, bytes, options);
+    Channels inside = channelsByGwyddion(path, options);
     chooseHeightChannel(inside, options.channel);
     return inside;
   } catch (const FileError&) {
@@ -47,7 +47,7 @@ Channels readTiff(const std::string& path, const std::string& bytes, const Impor
 Channels readNetcdf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (auto heights = parseNetcdfHeights(bytes)) return {*heights};
   const GxsmStatements stated = gxsmStatements(bytes);
-  Channels channels = channelsByGwyddion(path, bytes, options);
+  Channels channels = channelsByGwyddion(path, options);
   for (FileChannel& channel : channels) {
     if (!stated.other_unit.empty()) channel.unit_z = stated.other_unit;
     if (stated.pitch_x > 0.0 && channel.unit_xy == "m") channel.width = stated.pitch_x * channel.values.cols;
@@ -70,10 +70,10 @@ void checkX3pFolder(const std::vector<std::string>& names) {
   }
 }
 
-/// Gwyddion's container of another version than the one that is read here: if at all, gwyddion reads it.
+/// Gwyddion's container of another version than the one that is read here: if at all, Gwyddion reads it.
 Channels readOtherGwy(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   try {
-    Channels channels = channelsByGwyddion(path, bytes, options);
+    Channels channels = channelsByGwyddion(path, options);
     if (channels.empty()) throw FileError("gwyddion finds no image in it");
     return channels;
   } catch (const FileError& error) {
@@ -89,7 +89,7 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
   const std::string copy = (folder.path() / ("copy" + std::filesystem::path(path).extension().string())).string();
   writeFile(copy, bytes);
   try {
-    return channelsByGwyddion(copy, bytes, options);
+    return channelsByGwyddion(copy, options);
   } catch (const FileError& error) {
     const std::string text = error.what();
     throw FileError(startsWith(text, copy) ? path + text.substr(copy.size()) : text);
@@ -108,9 +108,9 @@ std::string packageFor(const std::string& path) {
 }
 
 /// By gwyddion, and what it has no reader for by packages of Python.
-Channels channelsByOthers(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+Channels channelsByOthers(const std::string& path, const ImportOptions& options) {
   try {
-    return channelsByGwyddion(path, bytes, options);
+    return channelsByGwyddion(path, options);
   } catch (const NoFormatOfGwyddion& error) {
     Channels channels = channelsByPackages(path, options.timeout);
     if (!channels.empty()) return channels;
@@ -148,7 +148,7 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
   Channels channels = parseNanoscope(bytes);
-  if (channels.empty()) channels = channelsByOthers(path, bytes, options);
+  if (channels.empty()) channels = channelsByOthers(path, options);
   for (FileChannel& channel : channels) {
     channel.reach = stated.reach;
     channel.identity = completed(stated.identity, channel.identity);
@@ -168,7 +168,7 @@ bool isHdf5(const std::string& bytes) {
 
 /// HDF5 has arrays of any meaning under any names: some layouts are read by h5py, some by gwyddion, no other is guessed.
 /// Without h5py none is: nothing else tells whether links in the file lead to others.
-Channels readHdf5(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+Channels readHdf5(const std::string& path, const ImportOptions& options) {
   const Hdf5Channels read = channelsByH5py(path, options.timeout);
   if (!read.channels.empty()) return read.channels;
   if (read.is_library_missing) {
@@ -177,7 +177,7 @@ Channels readHdf5(const std::string& path, const std::string& bytes, const Impor
         "installed (Debian package: python3-h5py)");
   }
   try {
-    return channelsByGwyddion(path, bytes, options);
+    return channelsByGwyddion(path, options);
   } catch (const FileError& error) {
     const std::string arrays = read.arrays.empty() ? "" : "its arrays are " + read.arrays + "; ";
     throw FileError(std::string(error.what()) + " (an HDF5 file: " + arrays +
@@ -209,7 +209,7 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
   } else if (isWsxmImage(bytes.substr(0, 200))) {
     channels = {parseWsxm(bytes)};
   } else if (isHdf5(bytes)) {
-    channels = readHdf5(path, bytes, options);
+    channels = readHdf5(path, options);
   } else if (beginsWithOneOf(bytes, {std::string("CDF\1", 4), std::string("CDF\2", 4)})) {
     channels = readNetcdf(path, bytes, options);
   } else {
@@ -251,5 +251,7 @@ std::vector<FileChannel> readChannels(const std::string& path, const ImportOptio
   for (FileChannel& channel : channels) channel.identity.checksum = checksum;
   return channels;
 }
+
+std::string readerVersion() { return MEMS_STICTION_READERS; }
 
 }  // namespace mems_stiction

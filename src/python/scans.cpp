@@ -1,10 +1,7 @@
 /// Heights in: from an array, from a file; and what can be asked of them before any contact.
 
 #include <pybind11/stl.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -16,7 +13,6 @@
 #include "evaluation/plausibility.hpp"
 #include "figures.hpp"
 #include "height_map/scan_sanity.hpp"
-#include "import/waiting_gwyddion.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
@@ -39,43 +35,12 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-/// What reads instrument makers' files for this process, and its PATH when that began.
-struct OwnGwyddions {
-  pid_t process = 0;
-  std::string path;
-  int reads = 0;
-  std::shared_ptr<WaitingGwyddions> waiting;
-};
-
-/// That of the parent where a process was forked: never deleted, since it would end what the parent waits for.
-OwnGwyddions* own_gwyddions = nullptr;
-
-/// For the interpreter's end.
-void endGwyddions() {
-  if (own_gwyddions != nullptr && own_gwyddions->process == getpid()) own_gwyddions->waiting.reset();
-}
-
-/// From the second file on: who reads one file needs none that waits. Under the interpreter's lock.
-std::shared_ptr<WaitingGwyddions> waitingGwyddions() {
-  const char* variable = std::getenv("PATH");
-  const std::string path = variable == nullptr ? "" : variable;
-  if (own_gwyddions == nullptr || own_gwyddions->process != getpid()) {
-    own_gwyddions = new OwnGwyddions{getpid(), path, 0, nullptr};
-  }
-  if (own_gwyddions->path != path) *own_gwyddions = OwnGwyddions{getpid(), path, 0, nullptr};
-  if (++own_gwyddions->reads == 2) {
-    own_gwyddions->waiting = std::make_shared<WaitingGwyddions>(ImportOptions().program);
-  }
-  return own_gwyddions->waiting;
-}
-
 ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& channel, bool ignore_mask) {
   ScanFileOptions options;
   options.pitch_x = pitch_x;
   options.pitch_y = pitch_y;
   options.import.channel = channel;
   options.import.ignore_mask = ignore_mask;
-  options.import.waiting = waitingGwyddions();
   return options;
 }
 
@@ -209,7 +174,6 @@ void bindScans(py::module& module) {
   py::class_<PreparedScan>(module, "PreparedScan").def_property_readonly("warnings", &warningsOf);
   module.def("prepare", &prepared, "scan"_a, "counter_surface"_a, "configuration"_a);
   module.def("scan_warnings", &scanWarnings, "scan"_a, py::call_guard<WithoutLock>());
-  py::module_::import("atexit").attr("register")(py::cpp_function(&endGwyddions));
   module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a, "ignore_mask"_a);
   module.def("channels", &channelsOf, "path"_a, "configuration"_a);
   module.def("clean", &cleaned, "scan"_a, "configuration"_a);

@@ -6,7 +6,6 @@
 #include "command_line.hpp"
 #include "configuration/named_files.hpp"
 #include "files/input_file.hpp"
-#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
@@ -67,9 +66,6 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       ->capture_default_str();
   addMaskOption(app, arguments.ignore_mask);
   addPlausibilityOptions(app, arguments);
-  app.add_flag("--no-cache", arguments.no_cache,
-               "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
-  app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");
   app.footer(
       "Exit status: 0 every scan has its row (the last line says how many failed), 1 so it has, but no scan of this "
       "call\n"
@@ -80,9 +76,7 @@ void describe(CLI::App& app, BatchArguments& arguments) {
 
 ScanFileOptions fileOptions(const BatchArguments& arguments) {
   ScanFileOptions options;
-  options.import.use_cache = !arguments.no_cache;
   options.import.ignore_mask = arguments.ignore_mask;
-  options.import.waiting = std::make_shared<WaitingGwyddions>(options.import.program);
   return options;
 }
 

@@ -29,8 +29,6 @@ struct BatchArguments {
   bool device_force = false;
   bool no_device_force = false;
   bool merge = false;
-  bool no_cache = false;
-  bool clear_cache = false;
   bool ignore_mask = false;
   bool accept_implausible = false;
   bool strict = false;

@@ -8,7 +8,7 @@
 
 #include "batch_rows.hpp"
 #include "files/output_file.hpp"
-#include "import/import_cache.hpp"
+#include "import/format_readers.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"

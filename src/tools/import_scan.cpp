@@ -1,5 +1,5 @@
 /// import_scan: instrument makers' files, and every other scan that can be read, into TIFF + YAML that need no
-/// gwyddion any more.
+/// Gwyddion any more.
 
 #include <sys/stat.h>
 
@@ -7,7 +7,6 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,7 +19,6 @@
 #include "height_map/scan_sanity.hpp"
 #include "height_map/validity.hpp"
 #include "import/scan_writer.hpp"
-#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "scans_ahead.hpp"
@@ -42,9 +40,9 @@ struct Arguments {
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
       "Turns scans into float TIFFs in metres with their pitch beside them (NAME.tiff, NAME.tiff.yaml), to the last\n"
-      "bit. predict_scan and make_scan_bag read those without the program gwyddion.");
+      "bit. predict_scan and make_scan_bag read those without Gwyddion.");
   app.add_option("SCAN", arguments.scans,
-                 "instrument makers' files (most are read by the program gwyddion), .gwy, TIFF, PNG or EXR images of "
+                 "instrument makers' files (most are read by Gwyddion's libraries), .gwy, TIFF, PNG or EXR images of "
                  "heights, .npy, text grids and lists of x, y, z")
       ->required()
       ->type_name("");
@@ -169,7 +167,6 @@ int run(const Arguments& arguments) {
   ScanFileOptions options;
   options.import.channel = arguments.channel;
   options.import.ignore_mask = arguments.ignore_mask;
-  if (arguments.scans.size() > 1) options.import.waiting = std::make_shared<WaitingGwyddions>(options.import.program);
   try {
     applyPitch(arguments.pitch, options);
     if (!arguments.list) {

@@ -67,7 +67,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option(
          "SCAN", arguments.scans,
          "TIFF, PNG or EXR image of heights, .npy, text (.txt, .asc, .csv, .xyz), .gwy, or an instrument maker's file "
-         "(those need the program gwyddion). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
+         "(most of those need Gwyddion's libraries). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
          "height_scale, ...")
       ->required()
       ->type_name("");

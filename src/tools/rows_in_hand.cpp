@@ -29,7 +29,6 @@ std::vector<std::string> probeCommand(const BatchArguments& arguments, const std
   command.emplace_back(arguments.rowsHaveDeviceForce() ? "--device-force" : "--no-device-force");
   if (arguments.accept_implausible) command.emplace_back("--accept-implausible");
   if (arguments.ignore_mask) command.emplace_back("--ignore-mask");
-  if (arguments.no_cache) command.emplace_back("--no-cache");
   command.insert(command.end(), {"--", input});
   return command;
 }

@@ -18,7 +18,6 @@
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "files/output_file.hpp"
-#include "import/import_cache.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "part_devices.hpp"
 #include "part_rows.hpp"
@@ -121,7 +120,6 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
 
 int run(const BatchArguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
-  if (arguments.clear_cache) clearImportCache();
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
   checkOutputs(arguments);

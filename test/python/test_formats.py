@@ -83,7 +83,7 @@ class ParquetTest(InFolder):
 
     def rows_of_batch(self, ending):
         (self.folder / "part.yaml").write_text(json.dumps(SETTINGS))
-        self.done("stiction_batch", "--no-cache", "--config", self.folder / "part.yaml", "-o", self.folder / ("rows." + ending), self.scan_bag(),
+        self.done("stiction_batch", "--config", self.folder / "part.yaml", "-o", self.folder / ("rows." + ending), self.scan_bag(),
                   self.folder / "missing.bag")
         self.done("rows_to_parquet", "-o", self.folder / (ending + ".parquet"), self.folder / ("rows." + ending))
         return self.table(ending + ".parquet")

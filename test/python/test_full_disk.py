@@ -52,7 +52,7 @@ class FullDiskTest(unittest.TestCase):
         return done
 
     def batch(self):
-        return self.run_program(find_node("mems_stiction", "stiction_batch")[0], "--config", self.config, "--no-cache", "-o",
+        return self.run_program(find_node("mems_stiction", "stiction_batch")[0], "--config", self.config, "-o",
                                 self.disk / "rows.csv", *self.scans)
 
     def test_a_batch_says_so_and_goes_on_when_there_is_room(self):

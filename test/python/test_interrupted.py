@@ -191,7 +191,7 @@ class InterruptedTest(unittest.TestCase):
             small.append(self.inputs / ("batch%02d.npy" % number))
             np.save(str(small[-1]), np.load(str(scan))[number:number + 256, :256])
         for name in ("rows.csv", "rows.jsonl"):
-            command = [program("stiction_batch"), "-c", self.config, "--no-cache", "-o", self.folder / name, *small]
+            command = [program("stiction_batch"), "-c", self.config, "-o", self.folder / name, *small]
             _, expected = self.whole_run(command)
             for path in self.folder.iterdir():
                 path.unlink()

@@ -1,9 +1,8 @@
-"""Makers' files that gwyddion reads, from Python: many in one process, and files that were cut off."""
+"""Makers' files that Gwyddion's libraries read, from Python: from threads and forks, and files that were cut off."""
 
 import os
 import pathlib
 import random
-import shutil
 import struct
 import subprocess
 import sys
@@ -49,12 +48,17 @@ def height_sum(path):
     return float(np.sum(mems_stiction.read(path).heights))
 
 
-@unittest.skipUnless(shutil.which("gwyddion"), "needs the program gwyddion")
 class VendorFileTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        try:
+            mems_stiction.read(self.write("any.bcrf", made_files()["a.bcrf"]))
+        except mems_stiction.FileError as error:
+            if "made without" not in str(error):
+                raise
+            self.skipTest("built without Gwyddion's libraries")
 
     def write(self, name, content):
         (self.folder / name).write_bytes(content)
@@ -90,21 +94,18 @@ class VendorFileTest(unittest.TestCase):
                 np.testing.assert_array_equal(heights, whole)
         self.assertGreater(refused, 1)
 
-    def test_many_reads_share_a_gwyddion_and_so_does_a_forked_process(self):
-        """With a script in place of gwyddion that counts its starts. A fork has one of its own: the parent's goes on."""
-        counter = self.folder / "starts"
-        program = self.write("gwyddion", ("#!/bin/sh\necho start >> %s\nexec %s \"$@\"\n" % (counter, shutil.which("gwyddion"))).encode())
-        program.chmod(0o755)
-        code = ("import os, sys; sys.path.insert(0, %r); import multiprocessing; from test_vendor_files import height_sum\n"
+    def test_threads_and_forked_processes_read_the_same_and_leave_nothing(self):
+        code = ("import sys; sys.path.insert(0, %r); import multiprocessing; from multiprocessing.pool import ThreadPool\n"
+                "from test_vendor_files import height_sum\n"
                 "paths = sys.argv[1:]\n"
                 "own = [height_sum(path) for path in paths]\n"
+                "with ThreadPool(3) as pool: assert pool.map(height_sum, paths) == own\n"
                 "with multiprocessing.get_context('fork').Pool(1) as pool: assert pool.map(height_sum, paths) == own\n"
-                "assert [height_sum(path) for path in paths] == own\n") % str(pathlib.Path(__file__).resolve().parent)
-        paths = [str(self.write("%d%s" % (number, name), content)) for number in range(3) for name, content in made_files().items()]
+                ) % str(pathlib.Path(__file__).resolve().parent)
+        paths = [str(self.write(name, content)) for name, content in made_files().items()]
         done = subprocess.run([sys.executable, "-c", code] + paths, stderr=subprocess.PIPE, universal_newlines=True, timeout=120,
-                              env=dict(os.environ, PATH="%s:%s" % (self.folder, os.environ["PATH"]), TMPDIR=str(self.folder)))
+                              env=dict(os.environ, TMPDIR=str(self.folder)))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertLess(len(counter.read_text().splitlines()), 8, "of 27 reads")
         self.assertEqual([path.name for path in self.folder.iterdir() if path.is_dir()], [], "what it worked in is gone")
 
 

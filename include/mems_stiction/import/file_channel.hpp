@@ -3,7 +3,6 @@
 /// @file
 /// One channel of a scan file, as the file states it: what every reader returns.
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,17 +33,13 @@ struct FileChannel {
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
 };
 
-class WaitingGwyddions;
-
 /// Which channel to take, and how to read it.
 struct ImportOptions {
-  std::string program = "gwyddion";  ///< looked up in PATH
-  double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
-  std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
-  bool use_cache = false;            ///< cache what gwyddion makes of a file for the next time, import_cache.hpp
-  std::shared_ptr<WaitingGwyddions> waiting;  ///< started once for many files; null = the program is started for each
-  bool ignore_mask = false;                   ///< pixels under the mask of a .gwy file are heights as the others
-  TextOptions text;                           ///< openScanFile() sets it from settings and sidecar
+  std::string gwyddion_reader;  ///< reads makers' files; empty = read_by_gwyddion beside this library
+  double timeout = 60.0;        ///< for one file [s]; usual files take 0.05 to 0.2 s
+  std::string channel;          ///< title or number of the channel to take; empty = the likeliest height channel
+  bool ignore_mask = false;     ///< pixels under the mask of a .gwy file are heights as the others
+  TextOptions text;             ///< openScanFile() sets it from settings and sidecar
 };
 
 }  // namespace mems_stiction

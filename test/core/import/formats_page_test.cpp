@@ -47,8 +47,7 @@ Example written(const std::string& name, const std::string& bytes, int missing) 
 
 Example byGwyddion(const std::string& name, const std::string& bytes, int missing = 0) {
   return {[=](const ScratchFolder& folder) {
-            const bool is_there = std::system("command -v gwyddion >/dev/null 2>&1") == 0;
-            return is_there ? folder.write(name, bytes) : std::string();
+            return MEMS_STICTION_HAS_GWYDDION ? folder.write(name, bytes) : std::string();
           },
           missing};
 }

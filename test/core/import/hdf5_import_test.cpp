@@ -106,7 +106,7 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
 )");
   EXPECT_EQ(channelsByH5py(several, 60.0).arrays, "'first' (5 x 4), 'group/second' (2 x 3)");
   ScanFileOptions options;
-  options.import.program = "false";
+  options.import.gwyddion_reader = "false";
   try {
     openScanFile(several, {}, options);
     FAIL();

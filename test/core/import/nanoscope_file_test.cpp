@@ -107,7 +107,7 @@ TEST(NanoscopeFile, WhatIsSaidInAnotherWayIsLeftToGwyddion) {
 TEST(NanoscopeFile, NeedsNoGwyddion) {
   const ScratchFolder folder;
   ScanFileOptions options;
-  options.import.program = "no-such-gwyddion";
+  options.import.gwyddion_reader = "no-such-program";
   const ScanFile scan = openScanFile(folder.write("scan.spm", nanoscope({{}, {}})), {}, options);
   EXPECT_EQ(scan.channel, "0: Height");
   EXPECT_DOUBLE_EQ(scan.surface.pitchX(), 1e-6 / 8);

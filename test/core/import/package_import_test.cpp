@@ -1,4 +1,4 @@
-/// Files that neither this project nor gwyddion reads: by SurfaceTopography, or AFMReader. A package of the same calls stands in for
+/// Files that neither this project nor Gwyddion reads: by SurfaceTopography, or AFMReader. A package of the same calls stands in for
 /// each, so that the tests do not hang on what is installed.
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ class Packages : public ::testing::Test {
     const char* before = std::getenv("PYTHONPATH");
     before_ = before == nullptr ? "" : before;
     setenv("PYTHONPATH", (folder_.file("") + ":" + before_).c_str(), 1);
-    options_.import.program = "no-such-gwyddion";
+    options_.import.gwyddion_reader = "no-such-program";
   }
   void TearDown() override { setenv("PYTHONPATH", before_.c_str(), 1); }
 
@@ -102,11 +102,10 @@ TEST_F(Packages, AfmReaderReadsTheFirstFrameOfAsd) {
 
 TEST_F(Packages, WhatTheyDoNotReadIsRefusedInTheWordsOfBefore) {
   for (const char* content : {"damaged", "anything is of this format"}) {
-    EXPECT_NE(refusalOf("scan.new", content).find("needs the program no-such-gwyddion to be read"), std::string::npos)
-        << content;
+    EXPECT_NE(refusalOf("scan.new", content).find("needs Gwyddion's readers to be read"), std::string::npos) << content;
   }
   folder_.write("SurfaceTopography.py", "raise ImportError\n");
-  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("needs the program"), std::string::npos);
+  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("needs Gwyddion's readers"), std::string::npos);
 }
 
 TEST_F(Packages, AFormatThatOnlyOneOfThemReadsSaysWhich) {
@@ -121,7 +120,7 @@ TEST_F(Packages, AFormatThatOnlyOneOfThemReadsSaysWhich) {
 TEST_F(Packages, DamagedFilesOfKnownFormatsAreNotGivenToThem) {
   EXPECT_NE(refusalOf("scan.x3p", "PK\3\4 cut off").find("zip archive"), std::string::npos);
   // Knows the format, or calls itself so, and has failed.
-  options_.import.program = "false";
+  options_.import.gwyddion_reader = "false";
   EXPECT_NE(refusalOf("scan.new", "a format of its own").find("gwyddion cannot read it"), std::string::npos);
 }
 

@@ -16,6 +16,7 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/import/scan_file.hpp"
+#include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -43,6 +44,17 @@ class ImportOutputs : public ::testing::Test {
   std::string grid(const std::string& name = "grid.txt") const {
     return folder_.write(name, "# Value units: nm\n1.5 2.5\n0.5 3.5\n");
   }
+  /// A folder where the core's library finds this script as its reader of makers' files; none where the script is empty.
+  std::string coreBeside(const std::string& script) const {
+    fs::create_directories(folder_.file("lib"));
+    const fs::path core = MEMS_STICTION_CORE;
+    fs::remove(folder_.file("lib") / core.filename());
+    fs::create_symlink(core, folder_.file("lib") / core.filename());
+    if (!script.empty()) {
+      fs::permissions(folder_.write("lib/read_by_gwyddion", script), fs::perms::owner_all);
+    }
+    return folder_.file("lib");
+  }
 
   ScratchFolder folder_;
 };
@@ -53,19 +65,16 @@ bool isAlive(pid_t group) { return kill(-group, 0) == 0; }
 TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     fs::create_directories(folder_.file("tmp"));
-    fs::create_directories(folder_.file("bin"));
     const std::string told = folder_.file("group");
     fs::remove(told);
-    folder_.write("bin/gwyddion",
-                  "#!/bin/sh\nsleep 600 &\nhead -c 100000 /dev/zero > \"${2#--convert-to-gwy=}\"\necho $$ > " + told +
-                      ".part\nmv " + told + ".part " + told + "\nsleep 600\n");
-    fs::permissions(folder_.file("bin/gwyddion"), fs::perms::owner_all);
+    const std::string libraries = coreBeside("#!/bin/sh\nsleep 600 &\nhead -c 100000 /dev/zero > \"$2\"\necho $$ > " +
+                                             told + ".part\nmv " + told + ".part " + told + "\nsleep 600\n");
     const std::string scan = folder_.write("scan.di", "not really");
     const pid_t tool = fork();
     ASSERT_GE(tool, 0);
     if (tool == 0) {
       setenv("TMPDIR", folder_.file("tmp").c_str(), 1);
-      setenv("PATH", (folder_.file("bin") + ":/usr/bin:/bin").c_str(), 1);
+      setenv("LD_LIBRARY_PATH", libraries.c_str(), 1);
       signal(number, SIG_DFL);  // a test that runs in the background ignores some
       execl(MEMS_STICTION_IMPORT_SCAN, "import_scan", "-o", folder_.file("o").c_str(), scan.c_str(), nullptr);
       _exit(127);
@@ -84,6 +93,28 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
     EXPECT_FALSE(isAlive(group));
     EXPECT_TRUE(fs::is_empty(folder_.file("tmp"))) << "signal " << number;
   }
+}
+
+TEST_F(ImportOutputs, WithoutGwyddionItSaysWhatToInstallAndReadsItsOwnFormats) {
+  const std::string environment = "LD_LIBRARY_PATH=" + coreBeside("") + " ";
+  const std::string arguments = "-o " + folder_.file("o") + " " + folder_.write("scan.al3d", "AliconaImaging");
+  EXPECT_EQ(run(environment + MEMS_STICTION_IMPORT_SCAN, arguments + " -p 1e-9 " + grid()), 2);
+  EXPECT_NE(errors().find("scan.al3d: needs Gwyddion's libraries to be read"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("libgwyddion20-dev"), std::string::npos) << errors();
+  EXPECT_EQ(errors().find("scan.al3d"), errors().rfind("scan.al3d")) << "one line";
+  EXPECT_TRUE(fs::exists(folder_.file("o/grid.tiff")));
+}
+
+TEST_F(ImportOutputs, AReaderThatCrashesCostsOneSentenceAndTheNextFileIsRead) {
+  const std::string script = "#!/bin/sh\ncase $1 in *bad*) kill -SEGV $$ ;; esac\ncp " +
+                             folder_.write("made.gwy", gwy_bytes::example()) + " \"$2\"\n";
+  const std::string environment = "LD_LIBRARY_PATH=" + coreBeside(script) + " ";
+  const std::string scans = folder_.write("bad.di", "damaged") + " " + folder_.write("good.di", "whole");
+  EXPECT_EQ(run(environment + MEMS_STICTION_IMPORT_SCAN, "-o " + folder_.file("o") + " " + scans), 2);
+  EXPECT_NE(errors().find("bad.di: gwyddion crashed on this file (Segmentation fault): it is damaged"),
+            std::string::npos);
+  EXPECT_EQ(errors().find("bad.di"), errors().rfind("bad.di")) << "one line: " << errors();
+  EXPECT_TRUE(fs::exists(folder_.file("o/good.tiff")));
 }
 
 TEST_F(ImportOutputs, FilesThatImportScanDidNotWriteAreNotReplaced) {
