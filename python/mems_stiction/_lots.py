@@ -137,7 +137,8 @@ def compare_lots(rows: Any, *, figure: Optional[str] = None, against: Optional[s
 
     rows: of stiction_batch: the path of a .csv, .jsonl or .parquet file, several paths, dictionaries, or a table of pandas; with lot_id, wafer_id, part_id,
     serial_id, site_x, site_y [m] as far as they are known.
-    figure: what is compared; the first of margin, peel_number, device_pull_off_force and pull_off_force that the rows have; of beams that are peeled peel_number comes first.
+    figure: what is compared; the first of margin, peel_number, device_pull_off_force and pull_off_force that the rows have. Of beams
+    that are peeled, peel_number comes first.
     against: the column of a condition under which the share that sticks is asked. Without it the voltage, where rows of several are there.
     The model knows no ageing: against a time stuck down only a column of measured times tells.
 

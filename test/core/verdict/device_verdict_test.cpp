@@ -107,7 +107,20 @@ TEST(DeviceVerdict, cleaningsAddInQuadrature) {
   EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin), expected, 0.03 * expected);
 }
 
-/// Settings at random: margin and force are two faces of one distribution, whoever judges.
+/// A beam of the same area that pulls with `margin` times that force.
+DeviceOptions beamOf(double margin, BeamType type, double length) {
+  DeviceOptions device;
+  device.beam_type = type;
+  device.beam_length = length;
+  device.beam_width = 50e-6;
+  device.beam_thickness = device.beam_gap = 2e-6;
+  device.beam_modulus = 160e9;
+  device.contact_area = 100.0 * kArea;
+  device.beam_modulus *= margin * kOfDevice / device.restoringForce();
+  return device;
+}
+
+/// Settings at random: margin and force are two faces of one distribution, whoever judges; of beams peel number and work.
 TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
   std::mt19937_64 engine(20021126);
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
@@ -115,8 +128,8 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
   SolvedHalfSpace solution;
   solution.status = HalfSpaceStatus::kSolved;
   solution.is_converged = solution.is_resolved = solution.is_step_converged = true;
-  int plain = 0;
-  for (int i = 0; i < 300; ++i) {
+  int plain = 0, pulled = 0, peeled = 0;
+  for (int i = 0; i < 600; ++i) {
     SCOPED_TRACE(i);
     UncertaintyOptions uncertainty;
     uncertainty.work_of_adhesion = draw(0.0, 0.5);
@@ -133,6 +146,10 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
     solution.work_of_adhesion = 0.01;
     if (chance()) evidence.half_space = &solution;
     DeviceOptions device = springOf(std::exp(draw(-2.0, 3.0)));
+    if (i % 2 == 1) {
+      device = beamOf(std::exp(draw(-2.0, 3.0)), chance() ? BeamType::kCantilever : BeamType::kDoublyClamped,
+                      std::exp(draw(-9.5, -7.5)));
+    }
     if (!has_own_force) device.contact_area = draw(0.6, 1.8) * kArea;
     const Verdict verdict = verdictOf(predicted(1 + i % 30), device, uncertainty, Options(), kCell, evidence);
     ASSERT_TRUE(std::isfinite(verdict.margin)) << verdict.reason;
@@ -145,16 +162,39 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
       const double moved = verdict.device_pull_off_force / evidence.device->pull_off_force;
       EXPECT_GE(verdict.device_pull_off_force_upper, own_upper * moved * (1.0 - round_off)) << "surer than the force";
     }
-    if (verdict.sticks == Sticks::kNo) {
+    const bool is_peeled = verdict.governed_by == kGovernedByPeeling;
+    pulled += static_cast<int>(verdict.governed_by == kGovernedByForce);
+    peeled += static_cast<int>(is_peeled);
+    EXPECT_EQ(verdict.governed_by.empty(), !device.hasBeam());
+    if (device.hasBeam()) {
+      const double own_work = peelNumber(device.beam(), 1.0);
+      const AdhesionSpread spread = adhesionSpread(predicted(1 + i % 30), Options(), uncertainty, evidence);
+      EXPECT_NEAR(verdict.peel_number * verdict.apparent_work_of_adhesion / own_work, 1.0, round_off);
+      EXPECT_NEAR(verdict.peel_number_lower * verdict.apparent_work_of_adhesion *
+                      quantile(spread.apparent_work, kUpperShare) / own_work,
+                  1.0, round_off);
+      EXPECT_NEAR(verdict.peel_number_upper * verdict.apparent_work_of_adhesion *
+                      quantile(spread.apparent_work, kLowerShare) / own_work,
+                  1.0, round_off);
+    }
+    if (verdict.sticks == Sticks::kNo && is_peeled) {
+      EXPECT_GT(verdict.peel_number_lower, 1.0);
+    } else if (verdict.sticks == Sticks::kNo) {
       EXPECT_LT(verdict.device_pull_off_force_upper, verdict.restoring_force);
+    }
+    if (verdict.sticks == Sticks::kNo) {
       EXPECT_GE(has_own_force ? evidence.device->contacts : 1 + i % 30, 3);
       ++plain;
     }
-    if (verdict.sticks == Sticks::kYes) {
+    if (verdict.sticks == Sticks::kYes && is_peeled) {
+      EXPECT_LT(verdict.peel_number_upper, 1.0);
+    } else if (verdict.sticks == Sticks::kYes) {
       EXPECT_GT(verdict.device_pull_off_force_lower, verdict.restoring_force);
     }
   }
-  EXPECT_GT(plain, 30);
+  EXPECT_GT(plain, 60);
+  EXPECT_GT(pulled, 30);
+  EXPECT_GT(peeled, 30);
 }
 
 TEST(DeviceVerdict, placesThatAreCutFromScansNeedThreeContactsForAPlainNo) {
