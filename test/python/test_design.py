@@ -115,7 +115,7 @@ class MarginTest(unittest.TestCase):
 
     def test_a_sure_spring_tells_a_doubt_that_the_verdict_has(self):
         """Contacts of one pixel: the verdict of a strong spring is unknown, that of a weak one is what it is."""
-        coarse = rough(64, 64, 6e-9, 1, 2)
+        coarse = rough(64, 64, 20e-9, 1, 10)
         row = swept({STIFFNESS: [100.0]}, coarse).rows[0]
         verdict = verdict_of(coarse, **{STIFFNESS: 100.0})
         self.assertEqual(verdict.sticks, "unknown")
