@@ -65,6 +65,8 @@ UnresolvedWaves unresolvedWaves(const HeightMap& lower, const HeightMap& upper, 
   UnresolvedWaves waves;
   waves.pitch = std::max(lower.pitchX(), lower.pitchY());
   waves.shortest_shown = std::max(2.0 * waves.pitch, least_wave > 0.0 ? least_wave : 0.0);
+  if (!upper.empty() && upper.heights().size() != lower.heights().size())
+    return waves;  // whoever brings them together says so
   const cv::Mat below = lower.asDouble().heights();
   const cv::Mat relief = upper.empty() ? below : cv::Mat(below - upper.asDouble().heights());
   std::vector<double> squares;

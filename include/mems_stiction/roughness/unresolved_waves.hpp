@@ -25,7 +25,7 @@
 
 namespace mems_stiction {
 
-/// NaN: the frame is too small to tell.
+/// NaN: the frame is too small to tell, or the surfaces do not fit on each other.
 struct UnresolvedWaves {
   double pitch = std::numeric_limits<double>::quiet_NaN();           ///< the longer one of the scan [m]
   double shortest_shown = std::numeric_limits<double>::quiet_NaN();  ///< l [m]

@@ -127,8 +127,10 @@ TEST(UnresolvedWaves, beginWithTheTipWhereThatIsBlunterThanThePixels) {
 TEST(UnresolvedWaves, OfFramesTooSmallToTellAreNotKnown) {
   const HeightMap small(cv::Mat(12, 12, CV_64FC1, cv::Scalar(0.0)), 1e-8, 1e-8);
   EXPECT_TRUE(std::isnan(unresolvedWaves(small, {}, kNoTip).rms_height));
+  const HeightMap other(cv::Mat(64, 60, CV_64FC1, cv::Scalar(0.0)), 1e-8, 1e-8);
   const HeightMap flat(cv::Mat(64, 64, CV_64FC1, cv::Scalar(0.0)), 1e-8, 1e-8);
   EXPECT_EQ(unresolvedWaves(flat, {}, kNoTip).rms_height, 0.0);
+  EXPECT_TRUE(std::isnan(unresolvedWaves(flat, other, kNoTip).rms_height));
 }
 
 }  // namespace
