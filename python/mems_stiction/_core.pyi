@@ -368,6 +368,7 @@ class LoadSweepResult:
     points: Records
     summaries: Records
     pull_in_voltage: float
+    pull_in_reason: str
 
 class MadeSurface:
     def __init__(self, scans: Sequence[DeviceScan], counter_surface: Sequence[DeviceScan], configuration: Configuration, number: int, depth: Optional[float]) -> None: ...
