@@ -23,6 +23,7 @@
 #include "numeric/constants.hpp"
 #include "numeric/mean.hpp"
 #include "numeric/median.hpp"
+#include "prediction/asked_output.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 
@@ -320,6 +321,7 @@ struct ModelRun {
 ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model) {
   ModelRun run;
   run.level = stiffModel(model);
+  run.level.output = figuresAlone();
   run.force.area = area.area;
   AdhesionModel adhesion(run.level);
   const double finest = finestPitch(mapsOf(surfaces.scans));

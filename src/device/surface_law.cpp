@@ -398,6 +398,12 @@ void SurfaceStudy::Findings::translate(TailForm form, SurfaceLaw& translated) co
   translated.numbers = mergedSpectrum(waves, trustOf(waves), law.heights.stretch);
 }
 
+SpectrumStretch SurfaceStudy::stretchOf(const std::vector<ScanWaves>& waves, const std::vector<ScanTrust>& trust,
+                                        const SurfaceStudy* like) {
+  if (like != nullptr && like->findings_->law.heights.stretch.ratio == 1.0) return {};
+  return mems_stiction::stretchOf(waves, trust);
+}
+
 SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces, const SurfaceStudy* like) {
   auto findings = std::make_unique<Findings>();
   findings->scans = scansOf(surfaces);
@@ -409,7 +415,7 @@ SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces, const Surface
   const std::vector<ScanWaves> waves = wavesOf(scans, heights);
   const std::vector<ScanTrust> trust = trustOf(waves);
   SurfaceLaw& law = findings->law;
-  law.heights = law.numbers = mergedSpectrum(waves, trust, stretchOf(waves, trust));
+  law.heights = law.numbers = mergedSpectrum(waves, trust, stretchOf(waves, trust, like));
   takeSlope(law);
   if (widest != nullptr) {
     const auto place = static_cast<std::size_t>(widest - scans.data());

@@ -45,7 +45,7 @@ class SurfaceStudy {
  public:
   /// - @p scans levelled or not, at least one
   /// - @p like a study of scans of the same sizes: heights are asked whether they are Gaussian where they told most there, and
-  ///   nowhere else, which takes most of the time
+  ///   nowhere else, which takes most of the time; and no stretch is sought where it found none
   /// @throw SurfaceError if they show no roughness
   explicit SurfaceStudy(const std::vector<HeightMap>& scans, const SurfaceStudy* like = nullptr);
   ~SurfaceStudy();
@@ -57,6 +57,9 @@ class SurfaceStudy {
   SurfaceLaw law(TailForm form = TailForm::kExponential) const;
 
  private:
+  static SpectrumStretch stretchOf(const std::vector<ScanWaves>& waves, const std::vector<ScanTrust>& trust,
+                                   const SurfaceStudy* like);
+
   struct Findings;
   std::unique_ptr<const Findings> findings_;
 };

@@ -112,13 +112,18 @@ void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
     return spectrum.densityAt(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)));
   };
   std::vector<double> sources;
-  for (const double y : transfer.sources) {
-    for (const double x : transfer.sources) {
-      const FrameWave wave{x, y};
-      sources.push_back(wave.count() < kLeastSource ? 0.0 : densityOf(wave));
+  const bool is_round = spectrum.stretch.ratio == 1.0 && scan.sideX() == scan.sideY();
+  const auto add = [&](const FrameWave& wave) {
+    sources.push_back(wave.count() < kLeastSource ? 0.0 : densityOf(wave));
+  };
+  if (is_round) {
+    for (const double length : transfer.lengths) add({length, 0.0});
+  } else {
+    for (const double y : transfer.sources) {
+      for (const double x : transfer.sources) add({x, y});
     }
   }
-  const cv::Mat arrived = transfer.shares * cv::Mat(sources);
+  const cv::Mat arrived = (is_round ? transfer.round_shares : transfer.shares) * cv::Mat(sources);
   struct Found {
     double count = 0.0;
     double expected = 0.0;

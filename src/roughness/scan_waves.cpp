@@ -28,6 +28,34 @@ Complex waveSum(double waves, const std::vector<double>& factors) {
   return sum;
 }
 
+/// Shares of sources that are equally long together.
+void addLengths(WaveTransfer& transfer) {
+  const auto count = static_cast<int>(transfer.sources.size());
+  std::vector<int> squares;  // of the lengths, in steps
+  for (int y = 0; y < count; ++y) {
+    for (int x = 0; x < count; ++x) {
+      const int from_y = y - count / 2;
+      const int from_x = x - count / 2;
+      squares.push_back(from_y * from_y + from_x * from_x);
+    }
+  }
+  std::vector<int> found = squares;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  for (const int square : found) transfer.lengths.push_back(kSourceStep * std::sqrt(static_cast<double>(square)));
+  transfer.round_shares = cv::Mat::zeros(transfer.shares.rows, static_cast<int>(found.size()), CV_64FC1);
+  std::vector<std::ptrdiff_t> places;
+  places.reserve(squares.size());
+  for (const int square : squares) {
+    places.push_back(std::lower_bound(found.begin(), found.end(), square) - found.begin());
+  }
+  for (int row = 0; row < transfer.shares.rows; ++row) {
+    const double* from = transfer.shares.ptr<double>(row);
+    double* to = transfer.round_shares.ptr<double>(row);
+    for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] += from[i];
+  }
+}
+
 WaveTransfer makeTransfer() {
   const std::vector<double> weights = windowWeights(kPixels, SpectrumWindow::kHann);
   std::vector<double> window(kPixels);
@@ -97,6 +125,7 @@ WaveTransfer makeTransfer() {
       }
     }
   }
+  addLengths(transfer);
   return transfer;
 }
 

@@ -76,6 +76,9 @@ struct WaveTransfer {
   std::vector<double> weights;   ///< 2, or 1 for those with x = 0 whose mirror image is there as well
   std::vector<double> sources;   ///< places of the waves of the surface, along either axis [-]
   cv::Mat shares;                ///< waves x (sources of y and x), CV_64FC1: share of the density that arrives
+  /// The same of round spectra on square frames, where sources of one length have one density: a twelfth of the work.
+  std::vector<double> lengths;  ///< of the sources [waves along a side]
+  cv::Mat round_shares;         ///< waves x lengths, CV_64FC1
 };
 const WaveTransfer& waveTransfer();
 

@@ -53,6 +53,8 @@ class RoundWaves {
   double roundWave(double wave_x, double wave_y) const {
     return std::sqrt(xx_ * wave_x * wave_x + 2.0 * xy_ * wave_x * wave_y + yy_ * wave_y * wave_y);
   }
+  /// Whether (x, y) and (x, -y) have one length.
+  bool isEven() const { return xy_ == 0.0; }
   /// |q'| of a wave of 1 rad/pixel in the direction in which it is least: no wave of this |q'| is shorter in pixels [rad/m].
   double unit() const { return unit_; }
   /// How many times further a kernel reaches over rows and columns than that of such waves in all directions. Without
@@ -236,7 +238,7 @@ class TiledSurface::Levels {
       const double pixel_area = pitch_x * pitch_y;
       const RadialTable power(shortest, [&](double q) { return spectrum.densityAt(q) / pixel_area; });
       whole_.emplace([&](double wave_x, double wave_y) { return power(waves.roundWave(wave_x, wave_y)); },
-                     static_cast<int>(rows), static_cast<int>(cols));
+                     static_cast<int>(rows), static_cast<int>(cols), waves.isEven());
       variance_ = whole_->variance();
       checkVariance(pitch_x, pitch_y);
       reseed(seed);

@@ -46,7 +46,7 @@ int packedNumber(int place) { return (place + 1) / 2; }
 
 }  // namespace
 
-WholeFrame::WholeFrame(const WavePower& power, int rows, int cols) : size_(cols, rows) {
+WholeFrame::WholeFrame(const WavePower& power, int rows, int cols, bool is_even) : size_(cols, rows) {
   const cv::Size frame(sideOfFrame(cols), sideOfFrame(rows));
   gains_.create(frame, CV_32FC1);
   waves_.create(frame, CV_32FC1);
@@ -55,11 +55,16 @@ WholeFrame::WholeFrame(const WavePower& power, int rows, int cols) : size_(cols,
     for (int col = 0; col < frame.width; ++col) {
       // The first and the last column hold the waves along y, packed; all others hold theirs at their rows.
       const bool is_along_y = col == 0 || col == frame.width - 1;
+      if (is_even && !is_along_y && row > frame.height / 2) {
+        line[col] = gains_.ptr<float>(frame.height - row)[col];
+        continue;
+      }
       const int number_x = packedNumber(col);
       const int number_y = is_along_y ? packedNumber(row) : row <= frame.height / 2 ? row : row - frame.height;
       const double found = powerOf(power, number_x, number_y, frame);
       line[col] = static_cast<float>(std::sqrt(found));
-      variance_ += found;
+      const bool is_twice = is_even && !is_along_y && row > 0 && 2 * row < frame.height;
+      variance_ += is_twice ? 2.0 * found : found;
     }
   }
   variance_ /= static_cast<double>(frame.area());

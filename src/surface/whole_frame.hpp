@@ -27,7 +27,8 @@ using WavePower = std::function<double(double wave_x, double wave_y)>;
 /// The surfaces of one spectrum and size, one seed after the other.
 class WholeFrame {
  public:
-  WholeFrame(const WavePower& power, int rows, int cols);
+  /// - @p is_even whether waves along (x, y) and (x, -y) have one power: half of them are asked for then
+  WholeFrame(const WavePower& power, int rows, int cols, bool is_even = false);
 
   void make(NumberedNoise noise);
   /// CV_32FC1, rows x cols [m]; empty before the first make().

@@ -155,5 +155,20 @@ TEST(MergedSpectrum, ScansThatContradictEachOtherAreTold) {
   EXPECT_NEAR(twice.deviation, same.deviation, 1e-9);
 }
 
+TEST(WaveTransfer, ofARoundSpectrumGoesByTheLengthOfItsWavesAlone) {
+  const WaveTransfer& transfer = waveTransfer();
+  const auto density = [](double count) { return std::pow(1.0 + count * count, -1.8); };
+  std::vector<double> by_place;
+  for (const double y : transfer.sources) {
+    for (const double x : transfer.sources) by_place.push_back(density(std::hypot(x, y)));
+  }
+  std::vector<double> by_length;
+  for (const double length : transfer.lengths) by_length.push_back(density(length));
+  EXPECT_LT(12 * by_length.size(), 2 * by_place.size());
+  const cv::Mat whole = transfer.shares * cv::Mat(by_place);
+  const cv::Mat round = transfer.round_shares * cv::Mat(by_length);
+  EXPECT_LT(cv::norm(whole, round, cv::NORM_INF), 1e-12 * cv::norm(whole, cv::NORM_INF));  // round-off of the sums
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -6,6 +6,7 @@
 
 #include "numeric/constants.hpp"
 #include "surface/tiled_surface.hpp"
+#include "surface/whole_frame.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -77,6 +78,19 @@ TEST(WholeFrame, doesNotMeetItselfAtItsEdges) {
     product += cv::mean(heights.col(0).mul(heights.col(kSide - 1)))[0] / count;
   }
   EXPECT_LT(std::abs(product), 0.25 * surface.variance()) << "neighbours would have nearly all of it";
+}
+
+TEST(WholeFrame, ofAnEvenSpectrumIsTheSameByHalfOfIt) {
+  const WavePower power = [](double x, double y) { return 1.0 / (0.01 + x * x + 2.0 * y * y); };
+  for (const int rows : {kSide, kSide - 3}) {
+    WholeFrame whole(power, rows, kSide);
+    WholeFrame half(power, rows, kSide, true);
+    EXPECT_NEAR(half.variance() / whole.variance(), 1.0, 1e-12);
+    whole.make(NumberedNoise(5, 0));
+    half.make(NumberedNoise(5, 0));
+    // means over cells of waves are summed the other way round
+    EXPECT_LT(cv::norm(whole.heights(), half.heights(), cv::NORM_INF), 1e-6 * cv::norm(whole.heights(), cv::NORM_INF));
+  }
 }
 
 }  // namespace
