@@ -175,6 +175,33 @@ class StationTest(unittest.TestCase):
         self.live(surface)
         self.assertEqual(self.cleaned(), cleaned + 2)
 
+    def test_4b_a_sweep_of_a_beam_says_where_it_lands_and_opens(self):
+        surface = rough_surface(2)
+        beam = dict(beam_type="cantilever", beam_length=1e-4, beam_width=2e-5, beam_thickness=2e-6, beam_gap=1e-6, beam_modulus=160e9,
+                    electrode_start=2e-5, electrode_length=8e-5)
+        self.settings.update_configuration(dict(beam, spring_stiffness=0.0, travel=0.0, electrode_area=0.0))
+        try:
+            self.assertGreater(self.live(surface).peel_number, 0.0)
+            state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 40.0], mechanical_loads=[0.0, LOAD]))
+            self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+            self.assertEqual(result.pull_in_reason, "")
+            self.assertTrue(10.0 < result.pull_in_voltage < 40.0, result.pull_in_voltage)
+            self.assertEqual([point.lands for point in result.points[:3]], [SweepPoint.LANDS_NO, SweepPoint.LANDS_NO, SweepPoint.LANDS_YES])
+            pressed = result.points[5]
+            self.assertEqual(pressed.mechanical_load, LOAD)
+            self.assertTrue(pressed.margin > 1.0 and pressed.peel_number > 1.0, pressed)
+            last = result.points[4]
+            self.assertTrue(last.is_open, "nothing but adhesion holds at 0 V, and the beam is stronger: margin %g, peel number %g" % (last.margin, last.peel_number))
+            self.assertEqual((last.lands, result.summaries[0].opening_voltage), (SweepPoint.LANDS_NO, max(point.voltage for point in result.points[:5] if point.is_open)))
+            self.settings.update_configuration({"electrode_area": 1e-8})
+            self.assertEqual(self.settings.get_configuration()["electrode_area"], 0.0, "refused: the beam's electrode is stated otherwise")
+            self.settings.update_configuration({"electrode_length": 0.0})
+            state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0]))
+            self.assertEqual((state, result.pull_in_reason), (GoalStatus.SUCCEEDED, "device/electrode_length"))
+            self.assertEqual(result.points[0].lands, SweepPoint.LANDS_UNKNOWN)
+        finally:
+            self.settings.update_configuration(dict(DEVICE, beam_type="none"))
+
     def test_5_refused_goals_say_why(self):
         for goal, reason in ((SweepLoadGoal(), "voltages"), (SweepLoadGoal(voltages=[51.0]), "voltage"),
                              (SweepLoadGoal(voltages=[2.0, 1.0]), "voltages")):
