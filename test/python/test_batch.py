@@ -175,8 +175,8 @@ class BatchTest(unittest.TestCase):
             kept = (self.folder / ("fresh." + kind)).read_text().splitlines()
             self.assertEqual(after[:first + 2] + after[first + 3:], kept[:first + 2] + kept[first + 3:])  # but the time of the touched one
             os.remove(str(scans[0]))
-            self.assertEqual(self.predict(rows, inputs=scans).stderr,
-                             "stiction_batch: %s: is no longer there; its row 1 stays as it was\n" % scans[0])
+            self.assertEqual(self.predict(rows, inputs=scans).stderr.splitlines()[0],
+                             "stiction_batch: %s: is no longer there; its row 1 stays as it was" % scans[0])
             self.assertEqual((self.folder / rows).read_text().splitlines(), after)
 
     def test_a_bag_that_was_recorded_anew_is_predicted_again(self):

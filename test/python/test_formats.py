@@ -184,8 +184,9 @@ class ParquetTest(InFolder):
         self.assertEqual(table.schema.metadata[b"mems_stiction.settings_hash"], b"abc")
 
     def test_a_design_keeps_the_units_of_its_axes(self):
-        random_heights = np.random.RandomState(1).normal(size=(32, 32)) * 4e-9
-        found = mems_stiction.design_sweep([random_heights], {"device/spring_stiffness": [1.0, 2.0]}, pitch=1e-8, workers=1,
+        waves = np.sin(np.arange(64) / 5.0)  # which its pixels show
+        heights = np.outer(waves, np.cos(np.arange(64) / 7.0)) * 2e-9
+        found = mems_stiction.design_sweep([heights], {"device/spring_stiffness": [1.0, 2.0]}, pitch=1e-8, workers=1,
                                            device={"travel": 1e-6, "contact_area": 1e-11}, device_force={"realisations": 3, "max_cells": 1e4})
         found.save_rows(self.folder / "design.parquet")
         table = self.table("design.parquet")

@@ -152,7 +152,7 @@ class GeneratedTest(unittest.TestCase):
 
     def test_the_spread_is_that_of_the_margin(self):
         settings = {"device": dict(DEVICE, contact_area=(64 * PITCH) ** 2), "device_force": {"enabled": False}, "load": {"mechanical_load": 1e-6}}
-        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, settings)
+        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2, length=12), PITCH, settings)
         spread = prediction.spread(settings)
         self.assertTrue(np.all(np.diff(spread) >= 0))
         lower, upper = 1 / np.quantile(spread, (0.975, 0.025))

@@ -278,6 +278,8 @@ def unlike(message, record, leaving_out=()):
             expected = [(point["displacement"], point["force"], point["is_separation"]) for point in expected]
         elif isinstance(expected, str):
             expected = expected.replace(",", ";")  # no text of a message breaks the columns of rostopic echo
+        elif isinstance(expected, list):
+            expected = [text.replace(",", ";") if isinstance(text, str) else text for text in expected]
         if not (not math.isfinite(value) if expected is None else value == expected):  # JSON has neither NaN nor infinity
             found.append((name, value, expected))
 
