@@ -173,6 +173,7 @@ TEST(Configuration, UnphysicalValuesAreRefused) {
   EXPECT_TRUE(mentions(refusal("lower/poisson_ratio: 0.6"), "lower/poisson_ratio: 0.6"));
   EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: .nan"), "interface/work_of_adhesion: nan"));
   EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: .inf"), "interface/work_of_adhesion: inf"));
+  EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: -.inf"), "interface/work_of_adhesion: -inf"));
   EXPECT_TRUE(mentions(refusal("scan/height_scale: 0"), "scan/height_scale: 0"));
   EXPECT_TRUE(mentions(refusal("scan/pitch_x: 1e-9"), "scan/pitch_x: 1e-09 m with scan/pitch_y 0 m"));
   EXPECT_TRUE(mentions(refusal("load/voltage: 5"), "interface/insulator_thickness: 0 m"));
