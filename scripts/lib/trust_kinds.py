@@ -182,13 +182,11 @@ def surface(kind, pixels, pitch, length, random):
     return (heights - heights.mean()) / heights.std()
 
 
-def draw(number, pixels, seed=SEED):
-    """As trust_frames.draw(): the kinds in turn."""
-    random = np.random.default_rng([seed, number])
-    kind = kind_of(number)
+def drawn(random, number, kind, pixels, moduli, works, hamaker_constants):
+    """A frame of its kind, with heights [m], whose pixels resolve what holds; each constant from its range."""
     while True:
-        modulus, work = log_uniform(random, 2e9, 200e9), log_uniform(random, 0.01, 0.12)
-        hamaker = log_uniform(random, 40e-21, 150e-21)
+        modulus, work = log_uniform(random, *moduli), log_uniform(random, *works)
+        hamaker = log_uniform(random, *hamaker_constants)
         length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
         longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
         shortest = max(3 * length / pixels, LEAST_PITCH)
@@ -196,29 +194,24 @@ def draw(number, pixels, seed=SEED):
             break
     pitch = log_uniform(random, shortest, longest)
     heights = rms * surface(kind, pixels, pitch, length, random)
-    pressure = log_uniform(random, 1e5, 1e8) if random.random() < 1 / LOAD_EVERY else 0.0
     frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
-             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": pressure,
-             "cohesive_length": cohesive_length(modulus, work, hamaker)}
+             "modulus": modulus, "work": work, "hamaker": hamaker, "cohesive_length": cohesive_length(modulus, work, hamaker)}
     return frame, heights.astype(np.float32)
+
+
+def draw(number, pixels, seed=SEED):
+    """As trust_frames.draw(): the kinds in turn."""
+    random = np.random.default_rng([seed, number])
+    frame, heights = drawn(random, number, kind_of(number), pixels, (2e9, 200e9), (0.01, 0.12), (40e-21, 150e-21))
+    frame["pressure"] = log_uniform(random, 1e5, 1e8) if random.random() < 1 / LOAD_EVERY else 0.0
+    return frame, heights
 
 
 def draw_pressed(number, pixels, seed):
     """As draw(), of all kinds in turn: stiffer, softer against the load, and pressed. Of every other frame one body alone flows."""
     random = np.random.default_rng([seed, number, 2])
-    kind = KINDS[number % len(KINDS)]
-    while True:
-        modulus, work = log_uniform(random, 10e9, 200e9), log_uniform(random, 0.02, 0.12)
-        hamaker = log_uniform(random, 40e-21, 400e-21)
-        length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
-        longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
-        shortest = max(3 * length / pixels, LEAST_PITCH)
-        if length / 500 < rms < length / 8 and shortest < longest:
-            break
-    pitch = log_uniform(random, shortest, longest)
-    heights = rms * surface(kind, pixels, pitch, length, random)
+    frame, heights = drawn(random, number, KINDS[number % len(KINDS)], pixels, (10e9, 200e9), (0.02, 0.12), (40e-21, 400e-21))
     hardness = log_uniform(random, *PRESSED_HARDNESSES)
-    frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
-             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": log_uniform(random, *PRESSED_BY), "hardness": hardness,
-             "upper_hardness": hardness if number // len(KINDS) % 2 == 0 else 10 * hardness, "cohesive_length": cohesive_length(modulus, work, hamaker)}
-    return frame, heights.astype(np.float32)
+    frame.update(pressure=log_uniform(random, *PRESSED_BY), hardness=hardness,
+                 upper_hardness=hardness if number // len(KINDS) % 2 == 0 else 10 * hardness)
+    return frame, heights
