@@ -22,12 +22,13 @@ constexpr std::size_t kFewestSquares = 16;
 /// Of a wave.
 constexpr int kFewestPixels = 2;
 
-/// Mean square of the fourth differences along an axis.
+/// Mean square of the fourth differences along an axis, of the heights less those of the upper surface.
+/// - @p upper empty for a plane
 /// - @p along_x along rows
 /// - @p lag of neighbouring places [pixels]
-double meanSquare(const cv::Mat& relief, bool along_x, int lag, std::vector<double>& squares) {
-  const int length = along_x ? relief.cols : relief.rows;
-  const int lines = along_x ? relief.rows : relief.cols;
+double meanSquare(const HeightMap& lower, const HeightMap& upper, bool along_x, int lag, std::vector<double>& squares) {
+  const int length = along_x ? lower.cols() : lower.rows();
+  const int lines = along_x ? lower.rows() : lower.cols();
   const int first = 2 * lag;
   const int count = length - 4 * lag;
   squares.clear();
@@ -36,7 +37,9 @@ double meanSquare(const cv::Mat& relief, bool along_x, int lag, std::vector<doub
   const int line_step = (lines + kLines - 1) / kLines;
   for (int line = line_step / 2; line < lines; line += line_step) {
     const auto at = [&](int place) {
-      return along_x ? relief.at<double>(line, place) : relief.at<double>(place, line);
+      const int row = along_x ? line : place;
+      const int col = along_x ? place : line;
+      return upper.empty() ? lower.height(row, col) : lower.height(row, col) - upper.height(row, col);
     };
     for (int place = first; place < first + count; place += step) {
       const double difference =
@@ -67,19 +70,17 @@ UnresolvedWaves unresolvedWaves(const HeightMap& lower, const HeightMap& upper, 
   waves.shortest_shown = std::max(2.0 * waves.pitch, least_wave > 0.0 ? least_wave : 0.0);
   if (!upper.empty() && upper.heights().size() != lower.heights().size())
     return waves;  // whoever brings them together says so
-  const cv::Mat below = lower.asDouble().heights();
-  const cv::Mat relief = upper.empty() ? below : cv::Mat(below - upper.asDouble().heights());
   std::vector<double> squares;
   double variance = 0.0;
   double exponent = 0.0;
   for (const bool along_x : {true, false}) {
     const double step = along_x ? lower.pitchX() : lower.pitchY();
-    const int most_lag = ((along_x ? relief.cols : relief.rows) - 1) / 8;
+    const int most_lag = ((along_x ? lower.cols() : lower.rows()) - 1) / 8;
     if (most_lag < kFewestPixels) return waves;
     // a frame that shows no more than its tip tells by the longest waves that it has
     const int lag = std::min(static_cast<int>(std::lround(waves.shortest_shown / step)), most_lag);
-    const double near = meanSquare(relief, along_x, lag, squares);
-    const double far = meanSquare(relief, along_x, 2 * lag, squares);
+    const double near = meanSquare(lower, upper, along_x, lag, squares);
+    const double far = meanSquare(lower, upper, along_x, 2 * lag, squares);
     if (std::isnan(near) || std::isnan(far)) return waves;
     if (near == 0.0 || far == 0.0) {  // nothing but what was left out
       exponent += 0.5 * kMostHurst;
