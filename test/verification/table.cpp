@@ -34,9 +34,11 @@ constexpr const char* kProperties =
     "  load P1 of its radius. An asperity that (6) loads beyond P1 resists more, and a larger load may then rest on\n"
     "  less area: on 3 of 10000 frames, all with such an asperity.\n";
 
-/// Of the page's tables of rows, and what marks a row that is out.
-constexpr const char* kHeader = "| quantity | computed | reference | source of the reference | error | allowed |\n";
+/// Of the page's tables, and what marks a row that is out.
+constexpr const char* kHeader = "| reference | rows | nearest to its limit | error | allowed | lowest order |\n";
 constexpr const char* kOutMark = "| **out:** ";
+/// Rows that differ by less agree but for round-off, of a few operations or of a sum.
+constexpr double kSumRoundOff = 1e-9;
 constexpr int kNameWidth = 56;
 constexpr int kValueWidth = 14;
 constexpr int kErrorWidth = 9;
@@ -116,17 +118,89 @@ std::string cell(std::string text) {
   return text;
 }
 
-void writeConvergence(const Section& section, std::ostringstream& page) {
-  const auto hasConvergence = [](const Row& row) { return row.convergence.has_value(); };
-  if (!std::any_of(section.rows.begin(), section.rows.end(), hasConvergence)) return;
-  page << "\nErrors by resolution:\n\n| quantity | counted in | errors | order | at least | why |\n"
-       << "|---|---|---|---|---|---|\n";
+bool isPublished(const Row& row) { return row.reason.find("published digit") != std::string::npos; }
+
+/// Agreement that no grid, step or sample limits: the page counts such rows.
+bool isToTheDigit(const Row& row) {
+  const bool is_round_off = row.tolerance > 0.0 && row.tolerance <= kSumRoundOff;
+  return !row.convergence && (is_round_off || isPublished(row));
+}
+
+/// Rows of a section with one reference.
+struct Group {
+  std::string source;
+  std::vector<const Row*> rows;
+
+  /// The row whose error is the largest share of what is allowed.
+  const Row& nearest() const {
+    const auto share = [](const Row* row) {
+      return row->tolerance > 0.0 ? row->error() / row->tolerance : row->error();
+    };
+    return **std::max_element(rows.begin(), rows.end(),
+                              [&](const Row* one, const Row* other) { return share(one) < share(other); });
+  }
+
+  /// Of the row that converges slowest; empty where no row has a grid.
+  std::string lowestOrder() const {
+    const Row* lowest = nullptr;
+    for (const Row* row : rows) {
+      const bool is_lower = row->convergence && (!lowest || row->convergence->order() < lowest->convergence->order());
+      if (is_lower) lowest = row;
+    }
+    return lowest ? orderText(*lowest) : "";
+  }
+};
+
+/// Rows whose agreement something limits, by reference, in the order of the section.
+std::vector<Group> groupsOf(const Section& section) {
+  std::vector<Group> groups;
   for (const Row& row : section.rows) {
-    if (!row.convergence) continue;
-    const Convergence& convergence = *row.convergence;
-    page << "| *" << cell(row.quantity) << "* | " << convergence.resolution << " | "
-         << errorsByResolution(convergence, "; ") << " | " << orderText(row) << " | "
-         << formatted("%g", convergence.least_order) << " | " << cell(convergence.reason) << " |\n";
+    if (!row.isWithin() || isToTheDigit(row)) continue;
+    auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.source == row.source; });
+    if (found == groups.end()) found = groups.insert(groups.end(), Group{row.source, {}});
+    found->rows.push_back(&row);
+  }
+  return groups;
+}
+
+/// "9 rows, of which 8 agree to round-off or to the published digits (sources)."
+std::string rowsText(const Section& section) {
+  std::vector<std::string> sources;
+  int to_the_digit = 0;
+  for (const Row& row : section.rows) {
+    if (!row.isWithin() || !isToTheDigit(row)) continue;
+    ++to_the_digit;
+    const bool is_new = std::find(sources.begin(), sources.end(), row.source) == sources.end();
+    if (isPublished(row) && is_new) sources.push_back(row.source);
+  }
+  const int count = static_cast<int>(section.rows.size());
+  const std::string share = to_the_digit == count ? "which all" : "of which " + std::to_string(to_the_digit);
+  std::string text = std::to_string(count) + " rows";
+  if (to_the_digit > 0) text += ", " + share + " agree to round-off";
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    text += (i == 0 ? " or to the published digits (" : "; ") + sources[i];
+  }
+  return text + (sources.empty() ? ".\n" : ").\n");
+}
+
+void writeRow(const char* begin, const std::string& source, const std::string& rows, const Row& row,
+              const std::string& order, std::ostringstream& page) {
+  page << begin << cell(source) << " | " << rows << " | " << cell(row.quantity) << " | " << errorText(row.error())
+       << " | " << toleranceText(row) << ": " << cell(row.reason) << " | " << order << " |\n";
+}
+
+void writeSection(const Section& section, std::ostringstream& page) {
+  const std::vector<Group> groups = groupsOf(section);
+  const bool has_out =
+      std::any_of(section.rows.begin(), section.rows.end(), [](const Row& row) { return !row.isWithin(); });
+  page << "\n## " << section.title << "\n\n" << rowsText(section);
+  if (groups.empty() && !has_out) return;
+  page << "\n" << kHeader << "|---|---|---|---|---|---|\n";
+  for (const Row& row : section.rows) {
+    if (!row.isWithin()) writeRow(kOutMark, row.source, "1", row, orderText(row), page);
+  }
+  for (const Group& group : groups) {
+    writeRow("| ", group.source, std::to_string(group.rows.size()), group.nearest(), group.lowestOrder(), page);
   }
 }
 
@@ -151,21 +225,32 @@ std::vector<std::string> rowNames(const std::vector<Section>& sections) {
   return names;
 }
 
-std::vector<std::string> rowNamesOfPage(const std::string& page) {
-  std::vector<std::string> names;
+std::vector<std::string> referencesOf(const std::vector<Section>& sections) {
+  std::vector<std::string> references;
+  for (const Section& section : sections) {
+    references.push_back(section.title + ": " + std::to_string(section.rows.size()) + " rows");
+    for (const Group& group : groupsOf(section)) references.push_back(section.title + ": " + cell(group.source));
+  }
+  return references;
+}
+
+std::vector<std::string> referencesOfPage(const std::string& page) {
+  std::vector<std::string> references;
   std::istringstream lines(page);
   std::string title;
   bool is_table = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("## ", 0) == 0) title = line.substr(3);
+    const std::size_t rows = line.find(" rows");
+    const bool is_count = rows > 0 && rows != std::string::npos &&
+                          std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(rows),
+                                      [](char letter) { return letter >= '0' && letter <= '9'; });
+    if (is_count) references.push_back(title + ": " + line.substr(0, rows) + " rows");
     is_table = line + "\n" == kHeader || (is_table && line.rfind("|", 0) == 0);
-    if (!is_table || line.rfind("| ", 0) != 0 || line + "\n" == kHeader) continue;
-    const std::size_t begin = line.rfind(kOutMark, 0) == 0 ? std::string(kOutMark).size() : 2;
-    std::string name = line.substr(begin, line.find(" | ", begin) - begin);
-    for (std::size_t at = name.find("\\|"); at != std::string::npos; at = name.find("\\|")) name.erase(at, 1);
-    names.push_back(title + ": " + name);
+    const bool is_row = line.rfind("| ", 0) == 0 && line.rfind(kOutMark, 0) != 0 && line + "\n" != kHeader;
+    if (is_table && is_row) references.push_back(title + ": " + line.substr(2, line.find(" | ", 2) - 2));
   }
-  return names;
+  return references;
 }
 
 std::string terminalTable(const std::vector<Section>& sections) {
@@ -196,27 +281,17 @@ std::string terminalTable(const std::vector<Section>& sections) {
 std::string markdownPage(const std::vector<Section>& sections) {
   std::ostringstream page;
   page << "# Verification\n\n"
-          "Every closed form of the model and every published number that it must give, beside what the code\n"
-          "computes. `scripts/verify` writes this page and fails when a row is out. References are published\n"
-          "numbers, or closed forms and quadratures written separately in test/verification. None comes from\n"
-          "this package's code.\n\n"
-          "- *error*: |computed/reference - 1|, or |computed| where the reference is 0.\n"
-          "- *allowed*: largest error, with its reason. *round-off*: of a few operations. *N published digits*:\n"
-          "  half a unit of the last one.\n"
-          "- Rows that depend on the grid have the value of the finest grid, at its worst position. A table below\n"
-          "  them has their errors by resolution and the *order* p in error ~ pitch^p.\n"
-          "- A row is out, and marked so, if its error exceeds what is allowed or its order is too low.\n\n"
+          "What the code computes, beside every closed form of the model and every published number that it\n"
+          "must give. References are published numbers, or closed forms and quadratures written separately in\n"
+          "test/verification. `scripts/verify` prints every row, writes this summary, and fails when a row is\n"
+          "out.\n\n"
+          "- A table has one line for each reference. The line names the row whose error is nearest to its\n"
+          "  limit. *error*: |computed/reference - 1|, or |computed| where the reference is 0.\n"
+          "- *lowest order*: of the rows that depend on a grid, p in error ~ pitch^p. Their error is that of the\n"
+          "  finest grid.\n"
+          "- A row is out if its error exceeds what is allowed, or if its order is too low.\n\n"
        << "**" << countText(countRows(sections)) << ".**\n";
-  for (const Section& section : sections) {
-    page << "\n## " << section.title << "\n\n" << kHeader << "|---|---|---|---|---|---|\n";
-    for (const Row& row : section.rows) {
-      page << (row.isWithin() ? "| " : kOutMark) << cell(row.quantity) << " | " << valueText(row, row.computed)
-           << (row.unit.empty() ? "" : " ") << row.unit << " | " << valueText(row, row.reference) << " | "
-           << cell(row.source) << " | " << errorText(row.error()) << " | " << toleranceText(row) << ": "
-           << cell(row.reason) << " |\n";
-    }
-    writeConvergence(section, page);
-  }
+  for (const Section& section : sections) writeSection(section, page);
   page << kProperties;
   return page.str();
 }

@@ -17,15 +17,19 @@ struct Count {
 
 Count countRows(const std::vector<Section>& sections);
 
-/// "section: quantity" of every row, in order: what two tables must share.
+/// "section: quantity" of every row, in order.
 std::vector<std::string> rowNames(const std::vector<Section>& sections);
 
-/// The same names read back from a page of markdownPage().
-std::vector<std::string> rowNamesOfPage(const std::string& page);
+/// What a page must share with the program: the count of rows of each section, and the references of its table.
+std::vector<std::string> referencesOf(const std::vector<Section>& sections);
+
+/// The same read back from a page of markdownPage().
+std::vector<std::string> referencesOfPage(const std::string& page);
 
 /// Some 112 columns wide; ends with "N rows, N out".
 std::string terminalTable(const std::vector<Section>& sections);
 
+/// A line for each reference whose rows a grid, step or sample limits; the other rows are counted.
 std::string markdownPage(const std::vector<Section>& sections);
 
 }  // namespace verification
