@@ -5,6 +5,7 @@ import pathlib
 import stat
 import tempfile
 import unittest
+from unittest import mock
 
 from mems_stiction.whole_file import CannotWrite, check_writable, whole
 
@@ -23,6 +24,15 @@ class WholeFileTest(unittest.TestCase):
         check_writable(self.path)
         with whole(self.path) as part:
             part.write_text("a,b\n")
+        self.assertEqual((victim.read_text(), self.path.read_text()), ("kept", "a,b\n"))
+
+    def test_a_link_by_the_very_name_that_was_drawn_is_not_followed(self):
+        victim = self.folder / "victim"
+        victim.write_text("kept")
+        (self.folder / ".rows.part-guessed.csv").symlink_to(victim)
+        with mock.patch("mems_stiction.whole_file.secrets.token_hex", side_effect=["guessed", "another"]):
+            with whole(self.path) as part:
+                part.write_text("a,b\n")
         self.assertEqual((victim.read_text(), self.path.read_text()), ("kept", "a,b\n"))
 
     def test_each_writer_has_a_place_of_its_own(self):
