@@ -70,7 +70,7 @@ def energy_extremum(facts):
         said.append("λ = %s: dE_t/dD is %s one step before and %s there; E_t has %s of its largest value, and %d of %d steps have more"
                     % (name.split("/")[1], with_unit(force[-2], "N"), with_unit(force[-1], "N"), percent(share),
                        np.sum(energy > energy[-1]), len(force)))
-    came_out = "; ".join(said) + ". The other %d bond before an extremum. (E_t itself jumps a little where contacts merge.)" \
+    came_out = "; ".join(said) + ". The other %d bond before an extremum." \
         % (len(maps) - len(rested)) if said else "no pair found an extremum"
     return Row("energy_extremum", "abstract, 2", "Equilibrium is an extremum of the free total energy.",
                "The energies of every step of figure 4's runs.", came_out, verdict(bool(holds) and all(holds), any(holds)))
@@ -108,8 +108,7 @@ def interface(facts):
     papers = [row["status"] == "EQUILIBRIUM" for row in rows[:2]]
     differs = depth[0] > depth[-1]
     reason = "" if all(papers) else (
-        " At the paper's 1 and 2.8 both pairs bond: no extremum exists before half of the area touches, and the contact that is "
-        "shown is the one at that limit. The difference that the paper draws there comes at larger parameters here.")
+        " At the paper's 1 and 2.8 both pairs bond before an extremum; the difference comes at larger parameters here.")
     return Row("interface", "3, fig. 4", "The interfacial energy decides where the plates come to rest; λ = 1 against 2.8.",
                "One silicon pair, work of adhesion %s." % ", ".join(
                    "%.2g" % cases.figure_4_work_of_adhesion(parameter) for parameter in cases.FIGURE_4_PARAMETERS) , said + "." + reason,
@@ -144,9 +143,8 @@ def bonding_limits(facts):
     end_is_near = 0.5 < weak / cases.NON_BONDING_LIMIT < 2
     gradual = all(end < 2 * cases.BONDING_LIMIT for end in ends.values())
     if not gradual:
-        came_out += " The gradual fall between 1 and 12 is missing: contacts that merge gain more adhesion than resistance, so a pair " \
-            "rests on few contacts or bonds."
-    return Row("bonding_limits", "3, with Gui et al.", "Bonding below an adhesion parameter of 1, adherence between, none above 12 (Gui et al., with whom the paper compares).",
+        came_out += " The gradual fall between 1 and 12 is missing: a pair rests on few contacts or bonds."
+    return Row("bonding_limits", "3, with Gui et al.", "Bonding below an adhesion parameter of 1, adherence between, none above 12.",
                "Figures 6 and 7.", came_out, verdict(all(below) and end_is_near and gradual, all(below)))
 
 
@@ -159,8 +157,7 @@ def theory_comparison(facts):
     jkr = crossing(fine, [theory.rest_of_jkr_summits(value).area for value in fine], level)
     caps = crossing(fine, [theory.rest_of_cap_summits(value).area for value in fine], level)
     came_out = "Contact falls below %s of the area at θ = %s in the model, %s in the theory: a factor of %s. With the paper's cut caps in " \
-        "place of JKR's approach the theory gives %s; what is left is that contacts of a real surface merge. Beyond, the theory of an " \
-        "endless surface goes on falling; a frame always has its first contact." % (
+        "place of JKR's approach the theory gives %s; contacts of a real surface merge." % (
             percent(level), number_text(model), number_text(jkr), number_text(model / jkr, 2), number_text(caps))
     return Row("theory_comparison", "3, figs. 6 and 7", "Results compared with the multi-asperity theory.",
                "Silicon, all-elastic, no van der Waals, as the theory assumes.", came_out,
@@ -223,20 +220,17 @@ def compare(facts, material, field):
     return "; ".join(said) or "no such pair", numbers
 
 
-EQUAL = " Equal where the few contacts that are not elastic do not change the level of rest."
-
-
 def larger_area(facts, material):
-    said, (smaller, equal, larger) = compare(facts, material, "contact_area")
+    said, (smaller, _, larger) = compare(facts, material, "contact_area")
     return Row("larger_area_" + material.name, "conclusions 4, fig. 7",
                "If asperities do not deform elastically, the real contact area is larger than in the elastic case: %s." % material.name,
                "Every pair of figure 7 with a contact that is not elastic, against the same pair all-elastic.",
-               said + "." + (EQUAL if equal else ""), verdict(larger > 0 and smaller == 0, larger > smaller))
+               said + ".", verdict(larger > 0 and smaller == 0, larger > smaller))
 
 
 def higher_pull_off(facts, material):
-    said, (smaller, equal, larger) = compare(facts, material, "pull_off_force")
-    note = " Smaller where contacts merge or get a smaller radius further down: (11) is proportional to the sum of radii." if smaller else ""
+    said, (smaller, _, larger) = compare(facts, material, "pull_off_force")
+    note = " Smaller where the sum of radii in (11) falls." if smaller else ""
     return Row("higher_pull_off_" + material.name, "conclusions 4, fig. 6", "... and the pull-off force is higher: %s." % material.name,
                "The same pairs.", said + "." + note, verdict(larger > 0 and smaller == 0, larger > smaller))
 

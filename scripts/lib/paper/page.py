@@ -6,36 +6,15 @@ import jinja2
 import numpy as np
 
 from mems_stiction.plots import with_unit
-from mems_stiction.quantities import percent
 from paper import cases, claims, figures
 from paper.data import HalfSpaceFrames, Sweep, crossing
 
 TEMPLATE = pathlib.Path(__file__).resolve().parent / "paper.md.jinja"
 WIDE_LENGTH = 100e-9  # a correlation length as of a polysilicon film, for comparison
-TABLE_PARAMETERS = (0.1, 1.0, 3.0, 12.0, 17.0, 30.0, 55.0, 100.0)
-
-
-def table_rows(sweep, material, series):
-    """Means over the pairs at some of the parameters."""
-    get = lambda field: sweep.values(material, series, field).mean(axis=1)  # noqa: E731
-    columns = {field: get(field) for field in ("adhesion_parameter", "contact_fraction", "asperity_count", "normalized_bonding_energy",
-                                               "pull_off_force_jkr", "van_der_waals_force", "nominal_area")}
-    bonded = sweep.bonded_share(material, series)
-    places = sorted({int(np.argmin(np.abs(np.log(sweep.parameters / wanted)))) for wanted in TABLE_PARAMETERS})
-    for place in places:
-        one = {field: values[place] for field, values in columns.items()}
-        yield {"parameter": claims.number_text(sweep.parameters[place]), "rms_height": with_unit(material.rms_height(sweep.parameters[place]), "m"),
-               "published": claims.number_text(one["adhesion_parameter"]), "bonded": percent(bonded[place]),
-               "fraction": percent(one["contact_fraction"]), "contacts": "%.0f" % one["asperity_count"],
-               "energy": claims.number_text(one["normalized_bonding_energy"]),
-               "jkr": with_unit(one["pull_off_force_jkr"] / one["nominal_area"], "Pa"),
-               "van_der_waals": with_unit(one["van_der_waals_force"] / one["nominal_area"], "Pa")}
 
 
 def material_facts(material):
-    return {"name": material.name, "config": material.config, "modulus": with_unit(material.contact_modulus, "Pa"),
-            "hardness": with_unit(material.hardness, "Pa"), "gamma": with_unit(material.work_of_adhesion, "J/m^2"),
-            "hamaker": "%.0f zJ" % (material.hamaker_constant * 1e21), "length": with_unit(material.correlation_length, "m"),
+    return {"name": material.name, "config": material.config, "length": with_unit(material.correlation_length, "m"),
             "pitch": with_unit(material.pitch, "m"), "lowest": with_unit(material.rms_height(0.1), "m"),
             "highest": with_unit(material.rms_height(100.0), "m"),
             "first_flow": claims.number_text(material.adhesion_parameter_at_index(0.6)),
@@ -84,8 +63,6 @@ def write(study, record, dump, folder):
         record=record, study=study, minutes="%.0f min" % max(1.0, record["seconds"] / 60) if record["seconds"] > 90 else "%.0f s" % record["seconds"],
         beside=[beside_facts(sweep, frames, material) for material in cases.MATERIALS], materials=[material_facts(material) for material in cases.MATERIALS], rows=rows,
         counts={name: sum(row.verdict == name for row in rows) for name in (claims.YES, claims.PART, claims.NO, claims.OPEN)},
-        tables=[{"title": "%s, %s" % (material.name, series.label), "rows": list(table_rows(sweep, material, series.name))}
-                for material in cases.MATERIALS for series in cases.SERIES if series.name in ("elastic", "regimes_vdw")],
         parameters=sweep.parameters, contact=contact, tilted=tilted, pressure=with_unit(cases.CONTACT_PRESSURE, "Pa"),
         load=with_unit(contact["mechanical_load"], "N"), map_side=with_unit(study.map_size * cases.SILICON.pitch, "m"),
         mixed_slope="%.2f" % figures.surface_slope(cases.MIXED_SLOPE), steep_slope="%.2f" % figures.surface_slope(cases.STEEP_SLOPE),
