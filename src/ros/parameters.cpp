@@ -75,12 +75,25 @@ YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vecto
   }
 }
 
-/// image_transport reads parameters of its own beside ours: `image_transport` names the transport of our subscriptions;
+/// Names the transport of a node's subscriptions to images.
+constexpr const char* kTransport = "image_transport";
+
+/// Heights come raw. What other transports' plugins receive is theirs: they allocate what a message states.
+void requireRawTransport(const YAML::Node& value, std::vector<std::string>& violations) {
+  if (value.IsScalar() && value.Scalar() == "raw") return;
+  const std::string stated =
+      value.IsScalar() ? "'" + shortened(value.Scalar(), kLongestQuotation) + "'" : "a list or map";
+  violations.push_back(std::string(kTransport) + ": " + stated +
+                       " is not allowed, must be raw: other transports decode before the size of a message is checked. "
+                       "`rosrun image_transport republish` decodes beside the node");
+}
+
+/// image_transport reads parameters of its own beside ours: `image_transport` names the transport of subscriptions;
 /// publishers in the private namespace keep their plugins' settings under the name of the topic.
 bool belongsToImageTransport(const std::string& key, const YAML::Node& value) {
   static constexpr std::array<const char*, 5> kPluginKeys = {"disable_pub_plugins", "image_transport", "compressed",
                                                              "compressedDepth", "theora"};
-  if (key == "image_transport") return true;
+  if (key == kTransport) return true;
   if (std::find(kImageTopics.begin(), kImageTopics.end(), key) == kImageTopics.end() || !value.IsMap()) return false;
   return std::all_of(value.begin(), value.end(), [](const auto& entry) {
     return std::find(kPluginKeys.begin(), kPluginKeys.end(), entry.first.Scalar()) != kPluginKeys.end();
@@ -258,6 +271,7 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
   YAML::Node ours(YAML::NodeType::Map);
   for (const auto& entry : tree) {
     const std::string key = entry.first.Scalar();
+    if (key == kTransport) requireRawTransport(entry.second, violations);
     const bool is_text = std::find(std::begin(kFileTexts), std::end(kFileTexts), key) != std::end(kFileTexts);
     if (key != kReconfigureParameters && key != kTakenParameters && !is_text &&
         !belongsToImageTransport(key, entry.second)) {

@@ -91,7 +91,6 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
           [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); },
           static_cast<std::size_t>(options_.max_waiting_memory)),
-      transport_(handle_),
       reconfigure_(
           service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); },
           [this] { master_->writeSoon(this); }),
@@ -142,10 +141,9 @@ StictionServer::~StictionServer() {
 
 void StictionServer::subscribe() {
   using ImagePtr = sensor_msgs::ImageConstPtr;
-  const image_transport::TransportHints hints("raw", ros::TransportHints(), private_handle_);
   const bool use_scan_info = options_.use_scan_info;
   const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
-                                 HeightSubscriber& image_subscriber, ros::Subscriber& info_subscriber) {
+                                 ros::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
     const auto addToPairs = [&](const auto& half) {
       pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 || info_subscriber.getNumPublishers() > 1);
       pairer.add(half, ros::WallTime::now());
@@ -172,12 +170,8 @@ void StictionServer::subscribe() {
         accounting_.counterSurfaceRejected(header, reason);
       }
     };
-    if (hints.getTransport() == "raw") {
-      image_subscriber.raw =
-          subscribeChecked<sensor_msgs::Image>(handle_, image_topic, kSubscriberQueue, {take, refuseImage, most});
-    } else {  // what its plugin receives is the plugin's
-      image_subscriber.other = transport_.subscribe(image_topic, kSubscriberQueue, take, {}, hints);
-    }
+    image_subscriber =
+        subscribeChecked<sensor_msgs::Image>(handle_, image_topic, kSubscriberQueue, {take, refuseImage, most});
     if (!use_scan_info) return;
     info_subscriber = subscribeChecked<ScanInfo>(handle_, info_topic, kSubscriberQueue,
                                                  {[=](const ScanInfoConstPtr& info) { addToPairs(info); },

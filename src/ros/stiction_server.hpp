@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -47,14 +46,6 @@
 #include "ros/work_queue.hpp"
 
 namespace mems_stiction {
-
-/// A subscription to an image: one of ours by the transport raw, whose messages are checked, else image_transport's.
-struct HeightSubscriber {
-  ros::Subscriber raw;
-  image_transport::Subscriber other;
-
-  std::uint32_t getNumPublishers() const { return raw ? raw.getNumPublishers() : other.getNumPublishers(); }
-};
 
 /// Lives as long as the node; everything happens on its own threads.
 class StictionServer {
@@ -143,10 +134,9 @@ class StictionServer {
   TransformGate gate_;                                          ///< touched by the topic thread only
   ScanPairer scans_;                                            ///< touched by the topic thread only
   ScanPairer counter_surfaces_;                                 ///< touched by the topic thread only
-  image_transport::ImageTransport transport_;
-  HeightSubscriber height_;
+  ros::Subscriber height_;
   ros::Subscriber scan_info_;
-  HeightSubscriber counter_height_;
+  ros::Subscriber counter_height_;
   ros::Subscriber counter_scan_info_;
   std::vector<ros::ServiceServer> services_;
   ReconfigureServer reconfigure_;

@@ -128,6 +128,15 @@ TEST(Parameters, ImageTransportMayKeepItsOwnKeys) {
             std::string::npos);
 }
 
+/// Their plugins allocate what a message states: 43 bytes took 4 GB.
+TEST(Parameters, HeightsComeRaw) {
+  for (const std::string transport : {"compressed", "compressedDepth", "theora", "''", "[raw]"}) {
+    const std::string text = violations("{image_transport: " + transport + "}");
+    EXPECT_EQ(text.find("image_transport: "), 0U) << text;
+    EXPECT_NE(text.find("is not allowed, must be raw"), std::string::npos) << text;
+  }
+}
+
 TEST(Parameters, TheFrameOfTheCounterSurfaceIsTheNodesAndExcludesAPose) {
   const NodeConfiguration configuration =
       fromText("{counter_surface: {type: flat, frame: chuck, transform_timeout: 2.0}}");
