@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """How often the intervals of calibrate() hold the truth: made measurements of several kinds, the whole of calibrate(), outliers and all.
 
-usage: calibration_study.py [--draws 200] [CASE...]
+usage: calibration_study.py [--draws 200] [--output FOLDER] [CASE...]
 
 A line for each case: draws, share of intervals that hold the work of adhesion the data were made with,
 bias, draws of which a sound measurement was left out, draws in which the Hamaker constant was fitted,
 too, and processor time. doc/process.md has them.
+
+FOLDER/draws.jsonl has a line for each draw and is gone on with: another calibrate() needs another folder.
+The case so far goes to the standard error after each draw.
 
 The cases of parts have ten parts with surfaces of their own (rms height 1 to 4 nm, work of adhesion 20 to
 150 mJ/m^2, both drawn for each set), whose forces are known to 15 %.
 """
 
 import argparse
+import json
 import math
 import pathlib
 import sys
@@ -21,7 +25,10 @@ import warnings
 import mems_stiction
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "test" / "python"))
+import trust_run
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "test" / "python"))
 from module_cases import rough  # noqa: E402  (the path comes first)
 
 PITCH = 10e-9
@@ -46,6 +53,7 @@ PARTS = {  # pixels along a part's side, scans of it or of others
 }
 SCANNED = 128  # pixels along a scan's side
 OF_PARTS = 0.15  # relative standard uncertainty
+FIGURES = ("work_of_adhesion", "work_of_adhesion_lower", "work_of_adhesion_upper", "hamaker_constant_lower", "scatter")
 
 
 def expected(kind, prediction):
@@ -83,29 +91,49 @@ def made_parts(random, side, scanned):
     return work, data
 
 
-def study(name, draws, make):
-    held, logs, outliers, hamaker, seconds = 0, [], 0, 0, 0.0
-    for draw in range(draws):
-        work, data = make(np.random.RandomState(1000 + draw))
-        begun = time.process_time()
-        found = mems_stiction.calibrate(data)
-        seconds += time.process_time() - begun
-        if math.isnan(found.work_of_adhesion):
-            continue
-        held += found.work_of_adhesion_lower < work < found.work_of_adhesion_upper
-        logs.append(math.log(found.work_of_adhesion / work))
-        outliers += bool(found.measurements.is_outlier.any())
-        hamaker += not math.isnan(found.hamaker_constant_lower)
+def drawn(random, make):
+    """What calibrate() says of a set, and the truth."""
+    work, data = make(random)
+    begun = time.process_time()
+    found = mems_stiction.calibrate(data)
+    seconds = time.process_time() - begun
+    figures = found.to_dict()
+    return {"truth": work, "seconds": seconds, "statements": list(found.statements),
+            "left_out": int(found.measurements.is_outlier.sum()),
+            **{name: figures[name] for name in FIGURES}}
+
+
+def summary(name, sets):
+    told = [one for one in sets if one["work_of_adhesion"] is not None]
+    held = sum(one["work_of_adhesion_lower"] < one["truth"] < one["work_of_adhesion_upper"] for one in told)
+    logs = [math.log(one["work_of_adhesion"] / one["truth"]) for one in told]
     bias = 100.0 * math.expm1(float(np.mean(logs)) if logs else math.nan)
-    print("%s: %d draws, %d with a number; %d hold the truth, bias %+.1f %%, %d lost a measurement, "
-          "Hamaker constant in %d, %.1f s of the processor each" % (
-              name, draws, len(logs), held, bias, outliers, hamaker, seconds / draws), flush=True)
+    return ("%s: %d draws, %d with a number; %d hold the truth, bias %+.1f %%, %d lost a measurement, "
+            "Hamaker constant in %d, %.1f s of the processor each" % (
+                name, len(sets), len(told), held, bias, sum(one["left_out"] > 0 for one in told),
+                sum(one["hamaker_constant_lower"] is not None for one in told),
+                float(np.mean([one["seconds"] for one in sets]))))
+
+
+def study(name, draws, make, path):
+    known = {line["draw"]: line for line in trust_run.lines_of(path) if line["case"] == name}
+    with open(path, "a") as file:
+        for draw in range(draws):
+            if draw in known:
+                continue
+            known[draw] = {"case": name, "draw": draw, **drawn(np.random.RandomState(1000 + draw), make)}
+            file.write(json.dumps(known[draw]) + "\n")
+            file.flush()
+            print(summary(name, list(known.values())), file=sys.stderr, flush=True)
+    print(summary(name, [known[draw] for draw in range(draws)]), flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("cases", nargs="*", metavar="CASE", help="of: %s" % ", ".join([*CASES, *PARTS]))
     parser.add_argument("--draws", type=int, default=200)
+    parser.add_argument("--output", type=pathlib.Path, default=REPOSITORY / "out" / "calibration_study", metavar="FOLDER",
+                        help="where draws are kept")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.cases if name not in CASES and name not in PARTS]
     if unknown:
@@ -113,11 +141,13 @@ def main():
     warnings.simplefilter("ignore")  # frames that are as drawn
     surfaces = [rough(96, 96, 3e-9, seed) for seed in range(3)]
     predictions = [mems_stiction.predict(heights, PITCH, interface={"work_of_adhesion": WORK}) for heights in surfaces]
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    path = arguments.output / "draws.jsonl"
     for name in arguments.cases or [*CASES, *PARTS]:
         if name in PARTS:
-            study(name, arguments.draws, lambda random: made_parts(random, *PARTS[name]))
+            study(name, arguments.draws, lambda random: made_parts(random, *PARTS[name]), path)
         else:
-            study(name, arguments.draws, lambda random: made_data(random, surfaces, predictions, CASES[name]))
+            study(name, arguments.draws, lambda random: made_data(random, surfaces, predictions, CASES[name]), path)
 
 
 if __name__ == "__main__":
