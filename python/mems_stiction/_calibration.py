@@ -21,7 +21,7 @@ WORK, HAMAKER, ANGLE = "interface/work_of_adhesion", "interface/hamaker_constant
 RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18)}  # that is searched [J/m^2, J]
 WIDEST_COSINES = (0.01, 1.0)
 COARSE_NODES = 13
-COARSE_NODES_MADE = 25  # more nodes at once cost less than surfaces that are made again
+COARSE_NODES_MADE = 21  # more nodes at once cost less than surfaces that are made again
 COARSE_NODES_SECOND = 7  # of a second constant
 FINE_NODES = 9
 FINE_NODES_MADE = 4
@@ -36,6 +36,7 @@ FAR_OFF = 3.0  # factor from a measured value to the nearest one that the consta
 MOST_ASKED = 3  # values that are asked for their unit
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
 NORMAL_95 = 1.959964
+MOST_WIDENING = 1.5  # of the interval of the work of adhesion, by a second constant
 BETTER = 6.635  # of the deviance, by one constant more: chi^2 at 1 %
 
 OnProgress = Callable[[float], None]
@@ -321,7 +322,7 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
         around = float(found.fit.parameters[0]) if found.axes[0].tells(found.intervals[0]) else None
         both = _Search(data, found.axes + [second], progress.step).run(around)
         # a second constant must not cost the work of adhesion, unless its configured value is wrong
-        keeps_work = around is None or both.axes[0].tells(both.intervals[0])
+        keeps_work = around is None or _keeps_work(both, found)
         if second.tells(both.intervals[1]) and (keeps_work or _fits_better(both, found)):
             found = both
             statements.append(_told(second, both))
@@ -329,6 +330,13 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
             statements.append(_not_told(second))
     progress.end()
     return _calibration(data, base, values, found, statements)
+
+
+def _keeps_work(both: _Found, found: _Found) -> bool:
+    """Whether the work of adhesion stays told; beside a Hamaker constant, which is known from optical spectra, nearly as well."""
+    widths = [one.intervals[0].upper - one.intervals[0].lower for one in (both, found)]
+    is_as_narrow = both.axes[1].is_cosine or widths[0] < MOST_WIDENING * widths[1]
+    return both.axes[0].tells(both.intervals[0]) and is_as_narrow
 
 
 def _fits_better(both: _Found, found: _Found) -> bool:

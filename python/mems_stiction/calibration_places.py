@@ -29,7 +29,8 @@ NO_CLEANING = {"preprocessing": {
 
 SAME_AREA = 0.05  # relative; areas are stated with two digits
 PARTS_IN_SCANS = 4  # fewer do not show how places scatter
-PLACES_WITH_ALL = 4  # of made surfaces; where there are more, each has fewer realisations
+PLACES_WITH_ALL = 3  # of made surfaces; where there are more, each has fewer realisations
+MOST_SHARE = 2.5  # of the realisations, where there are fewer: they are an error of all measurements
 FEWEST_REALISATIONS = 3
 SEEDS = 2 ** 31
 
@@ -105,7 +106,7 @@ class Place:
             return dict(FRAME_ALONE, **NO_CLEANING)
         if self.is_frame:
             return FRAME_ALONE
-        share = min(PLACES_WITH_ALL / max(made_places, 1), 1.0)
+        share = min(PLACES_WITH_ALL / max(made_places, 1), MOST_SHARE)
         fewest = min(self.realisations, FEWEST_REALISATIONS)
         self.realisations = max(math.ceil(self.realisations * share), fewest)
         device = {"seed": self._seed(), "realisations": self.realisations}

@@ -166,6 +166,16 @@ class MadeDataTest(unittest.TestCase):
         self.assertRegex(found.statements[-1], r"^the measurements tell the Hamaker constant, too: (29|30|31)[0-9.]* zJ \([0-9.]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.05)
 
+    def test_a_second_constant_that_costs_the_work_of_adhesion_stays_as_configured(self):
+        """Both intervals were closed, and that of the work of adhesion was twice as wide for it."""
+        surfaces = [rough(96, 96, 1.2e-9, seed) for seed in range(10)]
+        found = calibrated([measured(force_of(heights, work_of_adhesion=0.07), heights, 0.15) for heights in surfaces])
+        self.assertTrue(math.isnan(found.hamaker_constant_lower))
+        self.assertRegex(found.statements[-1], "do not tell the Hamaker constant apart")
+        self.assertLess(math.log(found.work_of_adhesion_upper / found.work_of_adhesion_lower), 0.3)
+        self.assertLess(found.work_of_adhesion_lower, 0.07)
+        self.assertGreater(found.work_of_adhesion_upper, 0.07)
+
     def test_the_part_of_humidity_where_several_were_measured(self):
         data = [measured(force_of(heights, relative_humidity=humidity, contact_angle=0.7), heights, 0.1, relative_humidity=humidity)
                 for humidity in (0.0, 0.3, 0.6) for heights in SURFACES[:2]]
@@ -290,7 +300,7 @@ class KindsTest(unittest.TestCase):
             measurement.prepare([{WORK: TRUTH}])
             device, = mems_stiction._device.predict_device_under(measurement.place.scans, 4e-12, None, [mems_stiction.Settings(measurement.place._base, **{WORK: TRUTH})])
         logs = np.log(device.realisations.pull_off_force)
-        self.assertEqual(len(logs), 3)
+        self.assertEqual(len(logs), 8)  # 2.5 times 3, for one place
         shift = math.log(device.pull_off_force) - np.median(logs)
         self.assertAlmostEqual(math.log(measurement.expected({WORK: TRUTH})), np.mean(logs) + shift, places=9)
         self.assertAlmostEqual(measurement.scatter({WORK: TRUTH}), np.std(logs, ddof=1), places=12)
@@ -362,13 +372,13 @@ class PlacesTest(unittest.TestCase):
         self.assertFalse(is_made((0.9, 1.0, 1.1, 0.95, 2.5)))  # one does not belong
         self.assertTrue(is_made((0.5, 0.7, 1.0, 1.4, 2.0)))
 
-    def test_many_places_have_fewer_realisations_each_and_tell_their_scatter_together(self):
+    def test_many_places_have_fewer_realisations_than_one_and_tell_their_scatter_together(self):
         data = checked([measured(1e-7, rough(32, 32, 3e-9, seed), area=1e-12) for seed in range(10)])
-        self.assertEqual({datum.place.realisations for datum in data}, {4})
+        self.assertEqual({datum.place.realisations for datum in data}, {3})
         scatters = pooled([0.2] * 9 + [0.8], data)
         mean = (9 * 0.2 ** 2 + 0.8 ** 2) / 10
-        self.assertAlmostEqual(scatters[9] ** 2, (3 * 0.8 ** 2 + 8 * mean) / 11)
-        self.assertEqual(checked([measured(1e-7, SURFACES[0], area=4e-12)])[0].place.realisations, 8)
+        self.assertAlmostEqual(scatters[9] ** 2, (2 * 0.8 ** 2 + 8 * mean) / 10)
+        self.assertEqual(checked([measured(1e-7, SURFACES[0], area=4e-12)])[0].place.realisations, 20)
 
 
 class OwnScansTest(unittest.TestCase):
