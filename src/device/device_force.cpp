@@ -252,20 +252,37 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
       " times as large for that, and the interval holds what of it may not go for the device");
 }
 
+/// By how much more a device holds each of whose contacts rests on such a place alone.
+PlaceExcess excessOf(const PlaceAlone& place, int contacts, const DeviceForce& force) {
+  const double contact_area = force.area / contacts;
+  const auto over = [](double figure, double median) {
+    return figure > 0.0 && median > 0.0 ? std::log(figure / median) : 0.0;
+  };
+  return {over(contacts * place.force * std::min(contact_area / place.area, 1.0), force.pull_off_force),
+          over(place.work * std::min(place.area / contact_area, 1.0), force.apparent_work_of_adhesion)};
+}
+
 /// Places that differ, in words: the upper end of the interval reaches what the one that holds most may do.
 /// - @p checks of both surfaces
-PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawCheck& scans, DeviceForce& force) {
+/// - @p contacts that share the area
+PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawCheck& scans, int contacts,
+                               DeviceForce& force) {
   PlaceExcess largest;
   for (const PlaceCheck& places : checks) {
     if (!places.isUneven()) continue;
-    const double force_excess = places.closes() ? places.forceExcess() : scans.largestForceExcess();
-    const double work_excess = places.closes() ? places.workExcess() : scans.largestWorkExcess();
+    const PlaceExcess alone = excessOf(places.alone(), contacts, force);
+    const PlaceExcess with_others = places.closes()
+                                        ? PlaceExcess{places.forceExcess(), places.workExcess()}
+                                        : PlaceExcess{scans.largestForceExcess(), scans.largestWorkExcess()};
+    const double force_excess = std::max(alone.force, with_others.force);
     largest.force = std::max(largest.force, force_excess);
-    largest.work = std::max(largest.work, work_excess);
+    largest.work = std::max({largest.work, alone.work, with_others.work});
     std::string sentence = places.sentence();
     if (force_excess > std::log(kToldMisfit)) {
       sentence += places.closes() ? ". By itself it bonds all over: if it does so in the device, that holds up to "
-                                  : ". If the device is like the scan that holds most, it holds up to ";
+                  : alone.force > with_others.force
+                      ? ". If the device rests on such a place alone, it holds up to "
+                      : ". If the device is like the scan that holds most, it holds up to ";
       sentence += shortNumber(std::exp(force_excess), 2) + " times as much, which the interval contains";
     }
     force.warnings.push_back(sentence);
@@ -371,7 +388,8 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
 }
 
 /// Medians and intervals of all realisations.
-void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, ModelRun& run) {
+/// - @p contacts that share the area
+void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, int contacts, ModelRun& run) {
   DeviceForce& force = run.force;
   const AreaGrowth growth = run.solver->growth();
   for (Realisation& realisation : force.realisations) {
@@ -391,7 +409,7 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, M
   const double student = studentQuantile(realisations - 1);
   if (run.check) takeMisfit(*run.check, force);
   PlaceExcess excess;
-  if (run.check) excess = placesThatHoldMost(run.places, *run.check, force);
+  if (run.check) excess = placesThatHoldMost(run.places, *run.check, contacts, force);
 
   UncertaintyOptions constants = uncertainty;
   constants.scan_sampling = uncertainty.scan_sampling && !run.check;  // few scans have few contacts
@@ -475,7 +493,7 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
     }
     progress((number + 1.0) / options.realisations);
   }
-  for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, *run);
+  for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, area.contacts, *run);
 }
 
 /// deviceForces() of usable scans.

@@ -185,6 +185,15 @@ bool PlaceCheck::closes() const {
   return uneven != nullptr && uneven->strongest->is_conforming;
 }
 
+PlaceAlone PlaceCheck::alone() const {
+  const Checked* uneven = place();
+  if (uneven == nullptr) return {};
+  const Strongest& strongest = *uneven->strongest;
+  const HeightMap& scan = scans_[uneven->scan].surface;
+  return {std::exp(strongest.force), std::exp(strongest.work),
+          strongest.texture.place.area() * scan.pitchX() * scan.pitchY()};
+}
+
 double PlaceCheck::excess(double Strongest::*figure) const {
   if (!closes() || made_.empty()) return 0.0;
   const Checked* uneven = place();

@@ -10,8 +10,9 @@
 ///
 /// What such a place may do to the device: if it bonds all over by itself, it may close in the device, too, and then holds
 /// as much more as it does beyond the strongest blocks of made scans. If not, rougher places keep the surfaces apart there
-/// as they do in the scan, and the scan that holds most says how much more (LawCheck). Blocks lie under a part of the
-/// counter-surface of their size, without its tilt; without one that is as large, under a plane.
+/// as they do in the scan, and the scan that holds most says how much more (LawCheck). In either case the device may rest
+/// on such a place alone, where it lies higher than in the scan. Blocks lie under a part of the counter-surface of their
+/// size, without its tilt; without one that is as large, under a plane.
 
 #include <optional>
 #include <string>
@@ -34,6 +35,13 @@ struct PlaceTexture {
 /// Of each block of which half was measured; none of a scan that is too small to be divided.
 std::vector<PlaceTexture> placeTextures(const HeightMap& scan);
 
+/// What the place that holds most does by itself.
+struct PlaceAlone {
+  double force = 0.0;  ///< pull-off force [N]
+  double work = 0.0;   ///< apparent work of adhesion [J/m^2]
+  double area = 0.0;   ///< [m^2]
+};
+
 /// Compares the places of scans with those of scans that were made like them. One object serves one thread.
 class PlaceCheck {
  public:
@@ -53,6 +61,8 @@ class PlaceCheck {
   std::string sentence() const;
   /// Whether the place that holds most bonds all over by itself.
   bool closes() const;
+  /// That place as a frame; all 0 if the scans are even.
+  PlaceAlone alone() const;
   /// Of ln F and ln w, by how much that place holds more than the strongest ones of made scans, where it closes; else 0 [-].
   double forceExcess() const { return excess(&Strongest::force); }
   double workExcess() const { return excess(&Strongest::work); }

@@ -11,6 +11,7 @@
 #include "device/device_area.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "preprocess/level.hpp"
 #include "roughness/half_spectrum.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/holed_surfaces.hpp"
@@ -242,6 +243,23 @@ TEST_F(DeviceForceTest, APlaceThatBondsByItselfIsNamedAndInTheInterval) {
   // less than the law of all scans says no place holds
   EXPECT_GT(uneven.pull_off_force_lower / uneven.pull_off_force, 0.3 * even.pull_off_force_lower / even.pull_off_force);
   EXPECT_FALSE(isTold(even, "its places differ"));
+}
+
+/// Where it does not bond all over it was judged by its scan alone, in which it may lie low.
+TEST_F(DeviceForceTest, TheIntervalContainsWhatThePlaceThatHoldsMostHoldsAlone) {
+  cv::Mat heights = surfaces_.scans[1].surface.heights().clone();
+  const cv::Rect place(64, 128, 64, 64);
+  heights(place) *= 0.15;
+  surfaces_.scans[1].surface = HeightMap(heights, kPitch, kPitch);
+  const Prediction alone = AdhesionModel(model_).predict(levelled(HeightMap(heights(place).clone(), kPitch, kPitch)));
+  ASSERT_FALSE(alone.is_conforming);
+  const DeviceForce one = force(areaOfPixels(400));
+  EXPECT_GT(alone.pull_off_force, 3.0 * one.pull_off_force);
+  EXPECT_GE(one.pull_off_force_upper, alone.pull_off_force);
+  EXPECT_GE(one.apparent_work_of_adhesion_upper, alone.apparent_work_of_adhesion * areaOfPixels(64) / one.area);
+  EXPECT_TRUE(isTold(one, "If the device rests on such a place alone, it holds up to "));
+  const DeviceForce four = force(4.0 * areaOfPixels(400), 4);
+  EXPECT_GE(four.pull_off_force_upper, 4.0 * alone.pull_off_force);
 }
 
 TEST_F(DeviceForceTest, APlaceOfTheCounterSurfaceIsNamed) {
