@@ -333,7 +333,10 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
 
 
 def _keeps_work(both: _Found, found: _Found) -> bool:
-    """Whether the work of adhesion stays told; beside a Hamaker constant, which is known from optical spectra, nearly as well."""
+    """Whether the work of adhesion stays told: beside a Hamaker constant nearly as well.
+
+    Optical spectra tell that constant, and nothing but measurements the angle of a liquid.
+    """
     widths = [one.intervals[0].upper - one.intervals[0].lower for one in (both, found)]
     is_as_narrow = both.axes[1].is_cosine or widths[0] < MOST_WIDENING * widths[1]
     return both.axes[0].tells(both.intervals[0]) and is_as_narrow

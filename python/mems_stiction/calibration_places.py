@@ -30,7 +30,7 @@ NO_CLEANING = {"preprocessing": {
 SAME_AREA = 0.05  # relative; areas are stated with two digits
 PARTS_IN_SCANS = 4  # fewer do not show how places scatter
 PLACES_WITH_ALL = 3  # of made surfaces; where there are more, each has fewer realisations
-MOST_SHARE = 2.5  # of the realisations, where there are fewer: they are an error of all measurements
+MOST_SHARE = 2.5  # of the realisations, where there are fewer: their chance is common to all
 FEWEST_REALISATIONS = 3
 SEEDS = 2 ** 31
 

@@ -7,8 +7,8 @@ A line for each case: draws, share of intervals that hold the work of adhesion t
 bias, draws of which a sound measurement was left out, draws in which the Hamaker constant was fitted,
 too, and processor time. doc/process.md has them.
 
-FOLDER/draws.jsonl has a line for each draw and is gone on with: another calibrate() needs another folder.
-The case so far goes to the standard error after each draw.
+FOLDER/draws.jsonl has a line for each draw and is gone on with: another calibrate() needs another
+folder. The case so far goes to the standard error after each draw.
 
 The cases of parts have ten parts with surfaces of their own (rms height 1 to 4 nm, work of adhesion 20 to
 150 mJ/m^2, both drawn for each set), whose forces are known to 15 %.
@@ -53,7 +53,8 @@ PARTS = {  # pixels along a part's side, scans of it or of others
 }
 SCANNED = 128  # pixels along a scan's side
 OF_PARTS = 0.15  # relative standard uncertainty
-FIGURES = ("work_of_adhesion", "work_of_adhesion_lower", "work_of_adhesion_upper", "hamaker_constant_lower", "scatter")
+ENDS = ("work_of_adhesion_lower", "work_of_adhesion_upper")
+FIGURES = ("work_of_adhesion", *ENDS, "hamaker_constant_lower", "scatter")
 
 
 def expected(kind, prediction):
@@ -105,7 +106,7 @@ def drawn(random, make):
 
 def summary(name, sets):
     told = [one for one in sets if one["work_of_adhesion"] is not None]
-    held = sum(one["work_of_adhesion_lower"] < one["truth"] < one["work_of_adhesion_upper"] for one in told)
+    held = sum(one[ENDS[0]] < one["truth"] < one[ENDS[1]] for one in told)
     logs = [math.log(one["work_of_adhesion"] / one["truth"]) for one in told]
     bias = 100.0 * math.expm1(float(np.mean(logs)) if logs else math.nan)
     return ("%s: %d draws, %d with a number; %d hold the truth, bias %+.1f %%, %d lost a measurement, "
@@ -121,7 +122,8 @@ def study(name, draws, make, path):
         for draw in range(draws):
             if draw in known:
                 continue
-            known[draw] = {"case": name, "draw": draw, **drawn(np.random.RandomState(1000 + draw), make)}
+            random = np.random.RandomState(1000 + draw)
+            known[draw] = {"case": name, "draw": draw, **drawn(random, make)}
             file.write(json.dumps(known[draw]) + "\n")
             file.flush()
             print(summary(name, list(known.values())), file=sys.stderr, flush=True)
@@ -132,8 +134,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("cases", nargs="*", metavar="CASE", help="of: %s" % ", ".join([*CASES, *PARTS]))
     parser.add_argument("--draws", type=int, default=200)
-    parser.add_argument("--output", type=pathlib.Path, default=REPOSITORY / "out" / "calibration_study", metavar="FOLDER",
-                        help="where draws are kept")
+    parser.add_argument("--output", type=pathlib.Path, metavar="FOLDER", help="where draws are kept",
+                        default=REPOSITORY / "out" / "calibration_study")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.cases if name not in CASES and name not in PARTS]
     if unknown:
@@ -145,9 +147,12 @@ def main():
     path = arguments.output / "draws.jsonl"
     for name in arguments.cases or [*CASES, *PARTS]:
         if name in PARTS:
-            study(name, arguments.draws, lambda random: made_parts(random, *PARTS[name]), path)
+            def make(random):
+                return made_parts(random, *PARTS[name])
         else:
-            study(name, arguments.draws, lambda random: made_data(random, surfaces, predictions, CASES[name]), path)
+            def make(random):
+                return made_data(random, surfaces, predictions, CASES[name])
+        study(name, arguments.draws, make, path)
 
 
 if __name__ == "__main__":
