@@ -50,15 +50,15 @@ constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/cont
                                     "interface/molar_volume"};
 
 /// What of a body's other side bears on nothing.
-/// - @p bends_bodies of the solver
-void addOfOtherSide(const Material& body, const std::string& name, bool bends_bodies,
+/// - @p doubts_thin_bodies of the solver
+void addOfOtherSide(const Material& body, const std::string& name, bool doubts_thin_bodies,
                     std::vector<IgnoredSetting>& ignored) {
   const auto add = [&](std::initializer_list<const char*> keys, const std::string& why) {
     for (const char* key : keys) ignored.push_back({name + key, why});
   };
   if (body.thickness == 0.0) {
     add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/thickness is 0");
-  } else if (!bends_bodies) {
+  } else if (!doubts_thin_bodies) {
     add({"/thickness", "/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
         "the separation curve and the half-space alone ask how thick bodies are");
   } else if (body.backing == Backing::kFree) {
@@ -137,8 +137,8 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, cons
     for (const UnusedSetting& unused : entry.unused(settings)) {
       ignored.push_back({unused.key, unused.why != nullptr ? unused.why : has_no_use});
     }
-    addOfOtherSide(settings.lower, "lower", entry.skills.bends_bodies, ignored);
-    addOfOtherSide(settings.upper, "upper", entry.skills.bends_bodies, ignored);
+    addOfOtherSide(settings.lower, "lower", entry.skills.doubts_thin_bodies, ignored);
+    addOfOtherSide(settings.upper, "upper", entry.skills.doubts_thin_bodies, ignored);
     if (settings.capillary.relative_humidity > 0.0) continue;
     for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});
   }

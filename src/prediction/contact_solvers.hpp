@@ -23,10 +23,10 @@ void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor);
 
 /// What a solver does that not every one does.
 struct SolverSkills {
-  bool bends_bodies = false;      ///< asks how thick bodies are
-  bool tilts_plates = false;      ///< device/guidance free
-  bool follows_areas = false;     ///< that come in tiles (area_adhesion.hpp)
-  bool calls_half_space = false;  ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
+  bool doubts_thin_bodies = false;  ///< asks how thick bodies are, and doubts itself where they are thin
+  bool tilts_plates = false;        ///< device/guidance free
+  bool follows_areas = false;       ///< that come in tiles (area_adhesion.hpp)
+  bool calls_half_space = false;    ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
 };
 
 /// Of a formulation; none of those if there is no such one.

@@ -94,15 +94,9 @@ constexpr ModelError kSureError{0.09, 0.065};
 constexpr ModelError kDoubtError{0.43, 0.20};
 constexpr double kErrorPower = 1.0 / 6.0;
 
-/// Bodies bend if closing the relief takes less than this share of what thick bodies need [-]. No force hangs on it.
-constexpr double kBends = 0.85;
-/// Contacts of bodies that bend may grow together where flattening costs less than so often what adhesion gives [-]. No force hangs
-/// on it: the flag and the interval do.
-constexpr double kBentTogether = 4.0;
-/// Standard deviations of the logarithm of force and work where bodies bend and may grow together, of contacts and of surfaces that
-/// conform: of 28 and 58 frames of plates (doc/separation_evidence.md, "Thin bodies").
-constexpr ModelError kBentError{0.25, 0.25};
-constexpr ModelError kBentConformingError{0.2, 0.2};
+/// Bodies count as thick where the longest wave of the frame meets this share of a half-space's stiffness or more, and no more
+/// than its inverse: free ones from 0.45 of the longer side of the frame on. No force hangs on it: the doubt does.
+constexpr double kThickShare = 0.85;
 
 // ---------------------------------------------------------------- steps: they cost accuracy or time, not physics
 // Half of each step, and twice as many parts and lines, change no figure of thick bodies by more than 0.4 percent of frames.
@@ -134,22 +128,6 @@ constexpr int kFlowRounds = 2;
 constexpr double kFirstStiffness = 0.3;
 constexpr int kFlowSteps = 4;
 constexpr int kFlowBlock = 4;
-
-// Of bodies that bend. What each moves was tried on 113 frames of plates (scripts/plates, 80 from 1000 and 120 from 7000 on,
-// as far as they are resolved): frames whose force changes by more than 1 and 5 percent, and the largest change of all.
-
-/// Bodies that all forces bend by less than this share of the law's range count as thick. Half of it, twice: no frame; 0.9 %.
-constexpr double kLeastBending = 0.02;
-/// Where the way of a body that bends begins and ends, over first touch, in ranges of the law. Twice: 29 frames, 7; 14 %, but for
-/// one frame that comes to either of two rests, with 0.25 or 0.99 of the half-space's force, whichever a step meets first.
-constexpr double kApart = 3.0;
-/// The way in has no figure but its end: so many times as long as the others are its steps. Half: 38 frames, 7; 15 %.
-constexpr double kStepsIn = 3.0;
-/// Where bodies jump while the force is largest, steps become so many times shorter. Half: 16 frames, 3; 7 %.
-constexpr double kShortestStep = 0.1;
-/// Blocks of the relief are so many times shorter than the thinner body: shorter waves do not reach through it. Twice: 14 frames,
-/// 2; 14 %.
-constexpr double kBlocksPerThickness = 4.0;
 
 }  // namespace chosen
 }  // namespace mems_stiction

@@ -27,14 +27,10 @@ Exponents flatteningExponents(double flattening_energy, double work) {
 }  // namespace
 
 void ConformingContact::start(const GapField& field, const ContactTraction& law, double contact_modulus,
-                              double flattening_energy, const BentBodies* bent) {
-  bent_ = bent != nullptr ? *bent : BentBodies{};
+                              double flattening_energy) {
   field_ = &field;
   law_ = &law;
   bodies_ = {contact_modulus, law.workOfAdhesion(), law.range(), flattening_energy, field.rmsGap()};
-  if (bent_.compliance != nullptr) {
-    bodies_.bending = bent_.compliance->cohesiveLength(bodies_.cohesiveLength()) / bodies_.cohesiveLength();
-  }
   has_relief_ = false;
   branch_.clear();
 }
@@ -56,7 +52,7 @@ const std::vector<SpringState>& ConformingContact::branch() {
   return branch_;
 }
 
-double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy - bent_.energy); }
+double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy); }
 
 double ConformingContact::flatteningByWaves() {
   fine_relief_.take(*field_, 0.0);
@@ -67,7 +63,6 @@ double ConformingContact::flatteningByWaves() {
 }
 
 void ConformingContact::takeWork(const WayOut& by_contacts, WayOut& way_out) {
-  if (bent_.compliance != nullptr) return;
   const double flattening = flatteningByWaves();
   const std::vector<SpringState> springs = springsOf(flattening);
   const double gained = std::max(0.0, -restOf(springs, 0.0)->energy);
@@ -124,7 +119,7 @@ double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
 
 double ConformingContact::strengthOfShortWaves() {
   const double cohesive_length = bodies_.cohesiveLength();
-  waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length, bent_.compliance);
+  waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
   const double short_rms =
       takeShortWaves(waves_.weakestPlace(), std::max(chosen::kTearingZone * cohesive_length, cell));
@@ -153,26 +148,15 @@ WayOut ConformingContact::fromOpenValleys(double pressure) {
   return way_out;
 }
 
-double ConformingContact::strengthOfBent(double strength) const {
-  if (bent_.compliance == nullptr || !(strength > 0.0) || !(bodies_.bending < 1.0)) return strength;
-  // Griffith's balance of a wave of the mean stiffness, p^2/(2 K) = Gamma, as in (S10d)
-  const double energy = bodies_.flattening_energy + bent_.energy;
-  const double stiffness = 2.0 * energy / (bent_.rms_height * bent_.rms_height);
-  const double brittle = std::exp(-chosen::kDecay * energy / bodies_.work_of_adhesion) *
-                         std::sqrt(2.0 * stiffness * bodies_.work_of_adhesion);
-  const double share = 1.0 - bodies_.bending * bodies_.bending;
-  return 1.0 / (1.0 / strength + share / brittle);
-}
-
 WayOut ConformingContact::asAWhole(double pressure, double least_force) {
   const double of_place = strengthOfShortWaves();
   const double at_once = of_place - waves_.largestTension();
   double by_contacts = least_force / area();
-  if (bent_.compliance == nullptr && at_once < by_contacts) {
+  if (at_once < by_contacts) {
     by_contacts = strengthAgainstCracks(relief(), bodies_, of_place, by_contacts);
   }
   const double strength = std::max(at_once, by_contacts);
-  WayOut way_out = upTo(strengthOfBent(strength), pressure);
+  WayOut way_out = upTo(strength, pressure);
   const bool has_cracks = bodies_.equalRadius(law_->strength()) < bodies_.longestCrack();
   if (has_cracks && way_out.force < chosen::kNearlyWhole * law_->strength() * area()) {
     way_out.doubt = "the surfaces are bonded and part by cracks, which go by details of the relief";

@@ -18,7 +18,6 @@
 
 #include "approach/gap_field.hpp"
 #include "separation/contact_traction.hpp"
-#include "separation/extra_compliance.hpp"
 #include "separation/flattening.hpp"
 #include "separation/open_valleys.hpp"
 #include "separation/relief_waves.hpp"
@@ -27,22 +26,13 @@
 
 namespace mems_stiction {
 
-/// Bodies that have bent until the gap is what thick ones would have to close.
-struct BentBodies {
-  double energy = 0.0;                          ///< of the bending, per area [J/m^2]
-  double rms_height = 0.0;                      ///< of the gap before [m]
-  const ExtraCompliance* compliance = nullptr;  ///< what they yield
-};
-
 /// Bonded surfaces of one frame. Keeps its memory between frames.
 class ConformingContact {
  public:
   /// What the next calls are about. Everything must outlive them; nothing is computed yet.
   /// - @p flattening_energy U/A [J/m^2], >= 0
   /// - @p contact_modulus E [Pa], > 0
-  /// - @p bent nullptr: thick bodies
-  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy,
-             const BentBodies* bent = nullptr);
+  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy);
 
   /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
   double work();
@@ -50,7 +40,7 @@ class ConformingContact {
   /// grooves along one of them, 1.11 of grooves between, and no waves that are long against the frame.
   double flatteningByWaves();
   /// Puts the work of a way out that this object made in place of the springs': with flatteningByWaves(), and with what jumps lose;
-  /// that of contacts where it is more. Nothing changes for bodies that bend.
+  /// that of contacts where it is more.
   void takeWork(const WayOut& by_contacts, WayOut& way_out);
   /// Whether valleys stay open under a pressure [Pa], >= 0.
   bool hasOpenValleys(double pressure);
@@ -64,8 +54,6 @@ class ConformingContact {
   WayOut upTo(double strength, double pressure);
   /// Strength of the short waves at the place where the long ones pull most [Pa].
   double strengthOfShortWaves();
-  /// The same of bodies that bend: they tear from open places over the length of a crack that bending makes easy, too (S15a).
-  double strengthOfBent(double strength) const;
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
   double takeShortWaves(cv::Point2d place, double radius);
   /// Of springs that store this energy when all is flat [J/m^2].
@@ -77,7 +65,6 @@ class ConformingContact {
   const GapField* field_ = nullptr;
   const ContactTraction* law_ = nullptr;
   BondedBodies bodies_;
-  BentBodies bent_;                  ///< of thick bodies: none
   std::vector<SpringState> branch_;  ///< empty until it is asked for
   ReliefSpectrum relief_;
   bool has_relief_ = false;

@@ -17,11 +17,16 @@ std::vector<UnusedSetting> CurveStatement::unusedSettings(const ContactSettings&
   return unused;
 }
 
-ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion, bool bends) {
+ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion, bool are_thin) {
   ModelStatement statement;
   statement.is_bound_where_bonded = false;
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
+  if (are_thin) {  // how far plates bend from contact to contact does not go by the flattening ratio
+    statement.doubt = "the bodies are thin, and the curve takes them as thick";
+    statement.error = chosen::kDoubtError;
+    return statement;
+  }
   statement.doubt = solution.model.doubt;
   const double flattening_ratio = solution.flattening_energy / work_of_adhesion;
   if (statement.doubt == nullptr && !solution.is_conforming && flattening_ratio < 1.0) {
@@ -31,10 +36,6 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   if (flattening_ratio > 1.0 && std::isfinite(flattening_ratio)) {
     const double share = std::pow(flattening_ratio, -chosen::kErrorPower);
     statement.error = {share * statement.error.pull_off, share * statement.error.work};
-  }
-  if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
-    statement.doubt = "the bodies are thin and bend from contact to contact";
-    statement.error = solution.is_conforming ? chosen::kBentConformingError : chosen::kBentError;
   }
   return statement;
 }

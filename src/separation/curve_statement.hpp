@@ -17,8 +17,8 @@ class CurveStatement {
 
   /// - @p solution whose model already has the doubt of the way out; it is doubted, too, where bonded surfaces have less energy
   /// - @p work_of_adhesion Gamma [J/m^2]
-  /// - @p bends whether the bodies bend under the long waves of their relief
-  static ModelStatement of(const ContactSolution& solution, double work_of_adhesion, bool bends = false);
+  /// - @p are_thin whether the longest wave of the frame meets another stiffness than that of thick bodies, which the curve follows
+  static ModelStatement of(const ContactSolution& solution, double work_of_adhesion, bool are_thin = false);
 };
 
 }  // namespace mems_stiction

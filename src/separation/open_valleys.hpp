@@ -32,12 +32,10 @@ struct BondedBodies {
   double flattening_energy = 0.0;  ///< U [J/m^2], > 0
   double rms_height = 0.0;         ///< sigma of the gap [m], > 0
 
-  double bending = 1.0;  ///< what the bodies' bending leaves of the cohesive length [-]
-
-  double cohesiveLength() const { return bending * contact_modulus * range * range / work_of_adhesion; }
+  double cohesiveLength() const { return contact_modulus * range * range / work_of_adhesion; }
   /// a0, radius of the crack that needs as much by Irwin as an interface of this strength [Pa] does without one [m].
   double equalRadius(double strength) const {
-    return 0.5 * kPi * bending * contact_modulus * work_of_adhesion / (strength * strength);
+    return 0.5 * kPi * contact_modulus * work_of_adhesion / (strength * strength);
   }
   /// Half a wave of the relief: beyond there is no more tension [m].
   double longestCrack() const { return kPi / waveNumber(); }

@@ -17,11 +17,7 @@ int blockSize(int cells, double pitch, double longest) {
   return std::max(static_cast<int>(by_length), (cells + chosen::kParts - 1) / chosen::kParts);
 }
 
-/// How many blocks of a size there are, or a few more that are quicker to transform.
-int blockCount(int cells, int size, bool is_for_many) {
-  const int count = (cells + size - 1) / size;
-  return is_for_many ? std::min(cells, cv::getOptimalDFTSize(count)) : count;
-}
+int blockCount(int cells, int size) { return (cells + size - 1) / size; }
 
 /// q of a row or column of a spectrum [1/m].
 double waveNumber(int index, int count, double width) {
@@ -34,18 +30,12 @@ double rmsOf(const cv::Mat1d& heights) {
 
 }  // namespace
 
-void ReliefSpectrum::take(const GapField& field, double longest_block, bool is_for_many) {
-  takeBlocks(field, longest_block, is_for_many);
+void ReliefSpectrum::take(const GapField& field, double longest_block) {
+  takeBlocks(field, longest_block);
   frame_ = heights_;
   if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
   cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
   takeWaveNumbers();
-}
-
-void ReliefSpectrum::filter(const cv::Mat1d& image, const cv::Mat1d& weights, cv::Mat1d& filtered) {
-  cv::dft(image, packed_spectrum_);
-  cv::multiply(packed_spectrum_, weights, packed_spectrum_);
-  cv::dft(packed_spectrum_, filtered, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
 }
 
 void ReliefSpectrum::takeWaveNumbers() {
@@ -58,10 +48,10 @@ void ReliefSpectrum::takeWaveNumbers() {
   }
 }
 
-void ReliefSpectrum::takeBlocks(const GapField& field, double longest_block, bool is_for_many) {
+void ReliefSpectrum::takeBlocks(const GapField& field, double longest_block) {
   const int block_rows = blockSize(field.rows(), field.pitchY(), longest_block);
   const int block_cols = blockSize(field.cols(), field.pitchX(), longest_block);
-  blocks_ = {blockCount(field.cols(), block_cols, is_for_many), blockCount(field.rows(), block_rows, is_for_many)};
+  blocks_ = {blockCount(field.cols(), block_cols), blockCount(field.rows(), block_rows)};
   block_width_ = field.cols() * field.pitchX() / blocks_.width;
   block_height_ = field.rows() * field.pitchY() / blocks_.height;
   heights_.create(blocks_);

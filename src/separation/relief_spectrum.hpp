@@ -18,8 +18,7 @@ namespace mems_stiction {
 class ReliefSpectrum {
  public:
   /// - @p longest_block a side of a block [m], where pixels and the most blocks there may be allow it
-  /// - @p is_for_many whether many sums of waves are to come: a few blocks more may make them quicker
-  void take(const GapField& field, double longest_block, bool is_for_many = false);
+  void take(const GapField& field, double longest_block);
 
   /// The sum of the waves, each times weigh(q), q its wave number [1/m]: at every block, and at those of the mirror
   /// images behind. Valid until the next call.
@@ -28,30 +27,17 @@ class ReliefSpectrum {
   /// Sum over the waves of |h_q|^2, each times weigh(q).
   template <typename Weigh>
   double meanSquare(const Weigh& weigh) const;
-  /// The same of an image of weighedSize(), in place of the relief.
-  template <typename Weigh>
-  const cv::Mat1d& weighed(const cv::Mat1d& image, const Weigh& weigh);
-  /// What multiplies each wave, in the order in which filter() meets them.
-  template <typename Weigh>
-  cv::Mat1d filterOf(const Weigh& weigh) const;
-  /// The sum of an image's waves, each times its weight: weighed(image, ...) at half of the cost.
-  void filter(const cv::Mat1d& image, const cv::Mat1d& weights, cv::Mat1d& filtered);
-  /// Of what weighed() returns: mirror images included.
-  cv::Size weighedSize() const { return frame_.size(); }
-  double blockArea() const { return block_width_ * block_height_; }  ///< [m^2]
-  double blockWidth() const { return block_width_; }                 ///< along x [m]
-  double blockHeight() const { return block_height_; }               ///< along y [m]
+  double blockWidth() const { return block_width_; }    ///< along x [m]
+  double blockHeight() const { return block_height_; }  ///< along y [m]
   /// Rows and columns of blocks of the frame itself.
   cv::Size blocks() const { return blocks_; }
   /// Whether the frame repeats itself, or is mirrored.
   bool repeats() const { return frame_.size() == blocks_; }
 
  private:
-  void takeBlocks(const GapField& field, double longest_block, bool is_for_many);
+  void takeBlocks(const GapField& field, double longest_block);
   void takeWaveNumbers();
   bool repeatsItself() const;
-  template <typename Weigh>
-  const cv::Mat1d& backFrom(const cv::Mat2d& spectrum, const Weigh& weigh);
 
   cv::Size blocks_;
   double block_width_ = 0.0;   ///< along x [m]
@@ -61,26 +47,10 @@ class ReliefSpectrum {
   std::vector<double> line_;
   cv::Mat1d frame_;  ///< with mirror images
   cv::Mat2d spectrum_;
-  cv::Mat2d image_spectrum_;
-  cv::Mat1d packed_spectrum_;
   cv::Mat1d wave_numbers_;  ///< [1/m]
   cv::Mat2d weighed_spectrum_;
   cv::Mat1d weighed_;
 };
-
-template <typename Weigh>
-cv::Mat1d ReliefSpectrum::filterOf(const Weigh& weigh) const {
-  // a spectrum of real numbers holds each wave once: real and imaginary parts lie side by side along rows, but for the columns
-  // without a partner, where they lie one above the other
-  cv::Mat1d weights(wave_numbers_.size());
-  for (int row = 0; row < weights.rows; ++row) {
-    for (int col = 0; col < weights.cols; ++col) {
-      const bool is_alone = col == 0 || (col == weights.cols - 1 && weights.cols % 2 == 0);
-      weights(row, col) = weigh(wave_numbers_(is_alone ? (row + 1) / 2 : row, (col + 1) / 2));
-    }
-  }
-  return weights;
-}
 
 template <typename Weigh>
 double ReliefSpectrum::meanSquare(const Weigh& weigh) const {
@@ -97,21 +67,10 @@ double ReliefSpectrum::meanSquare(const Weigh& weigh) const {
 
 template <typename Weigh>
 const cv::Mat1d& ReliefSpectrum::weighed(const Weigh& weigh) {
-  return backFrom(spectrum_, weigh);
-}
-
-template <typename Weigh>
-const cv::Mat1d& ReliefSpectrum::weighed(const cv::Mat1d& image, const Weigh& weigh) {
-  cv::dft(image, image_spectrum_, cv::DFT_COMPLEX_OUTPUT);
-  return backFrom(image_spectrum_, weigh);
-}
-
-template <typename Weigh>
-const cv::Mat1d& ReliefSpectrum::backFrom(const cv::Mat2d& spectrum, const Weigh& weigh) {
-  weighed_spectrum_.create(spectrum.size());
-  for (int row = 0; row < spectrum.rows; ++row) {
-    for (int col = 0; col < spectrum.cols; ++col) {
-      weighed_spectrum_(row, col) = spectrum(row, col) * weigh(wave_numbers_(row, col));
+  weighed_spectrum_.create(spectrum_.size());
+  for (int row = 0; row < spectrum_.rows; ++row) {
+    for (int col = 0; col < spectrum_.cols; ++col) {
+      weighed_spectrum_(row, col) = spectrum_(row, col) * weigh(wave_numbers_(row, col));
     }
   }
   cv::dft(weighed_spectrum_, weighed_, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);

@@ -26,15 +26,8 @@ void ReliefWaves::splitHeights(ReliefSpectrum& relief, cv::Size cells, double co
   takeLong(relief, cells, contact_modulus, [=](double q) { return 1.0 / (1.0 + length * q * length * q); });
 }
 
-void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length,
-                        const ExtraCompliance* bending) {
-  // of bodies that bend a wave is long by its stiffness, against that of the wave which is as long as the cohesive length
-  const double as_thick = bending != nullptr ? bending->stiffnessRatio(1.0 / cohesive_length) : 1.0;
-  const auto long_part = [=](double q) {
-    if (bending == nullptr) return 1.0 / (1.0 + cohesive_length * q * cohesive_length * q);
-    const double stiffness = cohesive_length * q * bending->stiffnessRatio(q) / as_thick;
-    return 1.0 / (1.0 + stiffness * stiffness);
-  };
+void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length) {
+  const auto long_part = [=](double q) { return 1.0 / (1.0 + cohesive_length * q * cohesive_length * q); };
   const cv::Mat1d& tension = relief.weighed([=](double q) { return -0.5 * contact_modulus * q * long_part(q); });
   cv::Point weakest;
   cv::minMaxLoc(tension, nullptr, &largest_tension_, nullptr, &weakest);

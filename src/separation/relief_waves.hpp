@@ -15,7 +15,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "separation/extra_compliance.hpp"
 #include "separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
@@ -27,9 +26,7 @@ class ReliefWaves {
   /// - @p cells columns and rows of the frame
   /// - @p contact_modulus E [Pa], > 0
   /// - @p cohesive_length l [m], > 0
-  /// - @p bending of bodies whose cohesive length this is; nullptr: of thick ones. What is long is told by their stiffness.
-  void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length,
-             const ExtraCompliance* bending = nullptr);
+  void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length);
 
   /// energy() and longHeights() alone, with another length in place of l [m], > 0.
   void splitHeights(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double length);

@@ -7,6 +7,7 @@
 #include "contact/prepared_maps.hpp"
 #include "deformation/modified_topography.hpp"
 #include "mechanics/transition.hpp"
+#include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
 
@@ -20,61 +21,47 @@ double carriedAtRest(const ContactCurve& curve, const LoadOptions& load) {
   return curve.rest().force() + curve.rest().carried + load.mechanical_load;
 }
 
+/// Whether the longest wave of a frame reaches through the bodies, so that it meets another stiffness than a half-space's.
+bool areThin(const GapField& field, const WaveStiffness& bodies) {
+  if (bodies.isThick()) return false;
+  const double longest = std::max(field.cols() * field.pitchX(), field.rows() * field.pitchY());
+  const double thick = 1.0 / (bodies.lower().planeCompliance() + bodies.upper().planeCompliance());
+  const double share = bodies.modulus(2.0 * kPi / longest) / thick;
+  return std::min(share, 1.0 / share) < chosen::kThickShare;
+}
+
 }  // namespace
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
-  const double gamma = settings.interface.work_of_adhesion;
   const GapField& settled = settings.guidance == Guidance::kGuided ? problem.gap : tilt_.settle(problem.gap, settings);
-  const bool is_thick = WaveStiffness(settings.lower, settings.upper).isThick();
-  const GapField& pressed = is_thick ? settled : bent_.solve(settled, settings);
-  std::optional<BentContact::Closed> closed;
-  if (!is_thick) closed = bent_.closed();
-  const GapField& at_rest =
-      comeToRest({problem.surfaces, pressed, problem.composite_rms_height, settings}, is_thick, solution);
+  const GapField& at_rest = comeToRest({problem.surfaces, settled, problem.composite_rms_height, settings}, solution);
   const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
-  const GapField& left_to_close = closed ? *closed->gap : at_rest;
-  const double flattening_energy = flattening_.of(left_to_close, contact_modulus);
-  solution.flattening_energy = flattening_energy + (closed ? closed->bodies.energy : 0.0);
-  const bool bends = closed && solution.flattening_energy < chosen::kBends * flattening_.of(settled, contact_modulus);
+  solution.flattening_energy = flattening_.of(at_rest, contact_modulus);
 
-  const bool stays_straight = is_thick || bent_.isStiff();
-  curve_.part(stays_straight ? forceFromNextRest(curve_.frame(), settings, curve_.wayIn()) : 0.0);
-  conforming_.start(left_to_close, curve_.frame().law(), contact_modulus, flattening_energy,
-                    closed ? &closed->bodies : nullptr);
+  curve_.part(forceFromNextRest(curve_.frame(), settings, curve_.wayIn()));
+  conforming_.start(at_rest, curve_.frame().law(), contact_modulus, solution.flattening_energy);
   const std::optional<WayOut> conforming =
       conformingWayOut(curve_.byContacts(), joined_share, conforming_,
                        solution.flattening_energy / curve_.frame().law().workOfAdhesion(),
                        settings.load.mechanical_load / curve_.frame().area());
   takeDecision(conforming.has_value(), solution);
-  if (conforming || stays_straight) {
-    takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
-    listPullOffContacts(standing, solution);
-    if (stays_straight) doubtPlaces(at_rest, solution);
-  } else {
-    solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
-    const double contact_area = curve_.byContacts().contact_area;
-    const BentContact::Parting& parting = bent_.parting();
-    const ContactProblem strongest = {problem.surfaces, bent_.strongest(), problem.composite_rms_height, settings};
-    curve_.comeToRest(strongest.gap, settings);
-    curve_.part();
-    takeWayOut(bentWayOut(parting, contact_area), solution);
-    listPullOffContacts(strongest, solution);
-  }
+  takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
+  listPullOffContacts(standing, solution);
+  doubtPlaces(at_rest, solution);
   doubtFlow(solution);
-  solution.model = CurveStatement::of(solution, gamma, bends);
+  solution.model = CurveStatement::of(solution, settings.interface.work_of_adhesion,
+                                      areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
 }
 
-const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, bool flows, ContactSolution& solution) {
+const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
   curve_.appendWayIn(solution.curve);
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
-  const bool may_flow = mayFlow(problem.settings.load);
-  has_flowed_ = may_flow && flows && flow(problem);
-  flows_as_patches_ = may_flow && !flows;
+  has_flowed_ = mayFlow(problem.settings.load) && flow(problem);
   const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
   const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height, problem.settings};
   takeRest(standing, solution);
@@ -121,18 +108,6 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
   return has_flowed;
 }
 
-WayOut SeparationSolver::bentWayOut(const BentContact::Parting& parting, double contact_area) const {
-  WayOut way_out;
-  way_out.force = parting.force;
-  way_out.work = parting.work;
-  way_out.contact_area = contact_area;
-  way_out.force_exponents = curve_.byContacts().force_exponents;
-  way_out.work_exponents = curve_.byContacts().work_exponents;
-  way_out.curve = parting.curve;
-  way_out.doubt = curve_.byContacts().doubt;
-  return way_out;
-}
-
 void SeparationSolver::takeDecision(bool is_conforming, ContactSolution& solution) const {
   solution.is_conforming = is_conforming;
   solution.status = is_conforming ? Status::kBonded : curve_.wayIn().status;
@@ -152,13 +127,9 @@ void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& soluti
 }
 
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
-  if (solution.model.doubt != nullptr) return;
-  if (flows_as_patches_) {
-    solution.model.doubt = "contacts have flowed, and of thin bodies where is known of whole contacts alone";
-  } else if (has_flowed_ && attracts_more_) {
-    solution.model.doubt =
-        "contacts have flowed until the surfaces attract each other much more, and how far is not sure";
-  }
+  if (solution.model.doubt != nullptr || !has_flowed_ || !attracts_more_) return;
+  solution.model.doubt =
+      "contacts have flowed until the surfaces attract each other much more, and how far is not sure";
 }
 
 void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {

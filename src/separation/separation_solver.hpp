@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "contact/contact_solver.hpp"
-#include "separation/bent_contact.hpp"
 #include "separation/closing_places.hpp"
 #include "separation/conforming_contact.hpp"
 #include "separation/contact_curve.hpp"
@@ -38,9 +37,8 @@ class SeparationSolver : public ContactSolver {
 
  private:
   /// All that a solution says of the surfaces at rest.
-  /// - @p flows whether places that bear the hardness may flow one by one: of thick bodies
   /// @return the gap at rest, as flow leaves it
-  const GapField& comeToRest(const ContactProblem& problem, bool flows, ContactSolution& solution);
+  const GapField& comeToRest(const ContactProblem& problem, ContactSolution& solution);
   /// Whether loads press contacts so hard that places of them may flow.
   bool mayFlow(const LoadOptions& load) const;
   /// Whether surfaces that have flowed attract each other so much more than they would without flow
@@ -58,24 +56,19 @@ class SeparationSolver : public ContactSolver {
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
   /// Which way the surfaces part, of two that have come to rest.
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
-  /// Of bodies that spring back on the way, once the curve has followed the relief where they hold most.
-  /// - @p contact_area at rest [m^2]
-  WayOut bentWayOut(const BentContact::Parting& parting, double contact_area) const;
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The doubt of surfaces whose texture changes from place to place, where there is no other.
   void doubtPlaces(const GapField& field, ContactSolution& solution);
-  /// The doubt of contacts that may have flowed here and there, where there is no other.
+  /// The doubt of contacts that have flowed, where there is no other.
   void doubtFlow(ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
   PlateTilt tilt_;
-  BentContact bent_;
   ContactCurve curve_;
   FlowingPlaces places_that_flow_;
   bool has_flowed_ = false;                 ///< place by place
   bool attracts_more_ = false;              ///< by flow
-  bool flows_as_patches_ = false;           ///< may have flowed, and where is known of whole contacts alone
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;

@@ -3,6 +3,7 @@
 #include "evaluation/half_space_call.hpp"
 
 #include <atomic>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,18 @@ TEST(HalfSpaceCall, FlagsAskWhereADeviceIsStated) {
   Configuration beam;
   beam.device.beam_type = BeamType::kCantilever;
   EXPECT_TRUE(mayCallHalfSpace(beam));
+}
+
+TEST(HalfSpaceCall, ThinBodiesAskForTheirOwnStiffness) {
+  Configuration plate = withDevice();
+  plate.model.lower.thickness = 8e-9;  // of a frame of 320 nm
+  const Case thin(plate, kRough);
+  ASSERT_TRUE(thin.call().is_made);
+  const SolvedHalfSpace answer = thin.answer();
+  ASSERT_EQ(answer.status, HalfSpaceStatus::kSolved) << answer.message;
+  Configuration thick = withDevice();
+  thick.half_space.enabled = HalfSpaceUse::kAlways;
+  EXPECT_GT(std::abs(answer.pull_off_force / Case(thick, kRough).answer().pull_off_force - 1.0), 0.03);
 }
 
 TEST(HalfSpaceCall, PublishedFormulationsAreAskedForWhatWasPublished) {

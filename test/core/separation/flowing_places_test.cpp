@@ -195,14 +195,6 @@ TEST(SeparationFlow, isDoubtedWhereAttractionGrowsByIt) {
   EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
 }
 
-TEST(SeparationFlow, isDoubtedOfThinBodies) {
-  const HeightMap surface = gaussianFrame(1.2e-9, 310);
-  Options options = flowing(100e9, 1.2e9, 80e6 * surface.rows() * surface.cols() * surface.cellArea());
-  EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
-  options.lower.thickness = 2e-6;
-  EXPECT_TRUE(isDoubted(surface, options, "thin bodies"));
-}
-
 TEST(SeparationFlow, aSecondPressingUnderTheSameLoadChangesLittle) {
   const HeightMap surface = gaussianFrame(1.2e-9, 310);
   Options options = flowing(100e9, 1.2e9, 80e6 * 64 * 64 * 16e-18);

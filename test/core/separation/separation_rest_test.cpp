@@ -98,5 +98,30 @@ TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
   EXPECT_NEAR(prediction.van_der_waals_force + load, elastic, 2e-3 * elastic);
 }
 
+/// Rough surfaces far from bonding, on a frame of 256 nm.
+Prediction predictWithLowerBody(double thickness, Backing backing, double substrate_modulus = 0.0) {
+  Options options = separation_cases::elastic(40e9);
+  options.lower.thickness = thickness;
+  options.lower.backing = backing;
+  options.lower.substrate.youngs_modulus = substrate_modulus;
+  options.lower.substrate.poisson_ratio = options.lower.poisson_ratio;
+  return AdhesionModel(options).predict(samples::gaussian(64, 64, 4e-9, 4e-9, 3e-9, 20e-9, 5));
+}
+
+TEST(ThinBodies, haveTheFiguresOfThickOnesAndADoubt) {
+  const double width = 64 * 4e-9;
+  const Prediction thick = predictWithLowerBody(0.0, Backing::kFree);
+  EXPECT_EQ(thick.model.doubt, nullptr);
+  for (const Backing backing : {Backing::kFree, Backing::kBonded}) {
+    const Prediction thin = predictWithLowerBody(width / 8.0, backing);
+    EXPECT_TRUE(separation_cases::sameFigures(thin, thick));
+    ASSERT_NE(thin.model.doubt, nullptr);
+    EXPECT_NE(std::string(thin.model.doubt).find("thin"), std::string::npos);
+    EXPECT_EQ(predictWithLowerBody(2.0 * width, backing).model.doubt, nullptr);
+  }
+  // nor does a wave feel where a body ends on a thick one of the same material
+  EXPECT_EQ(predictWithLowerBody(width / 8.0, Backing::kBonded, 40e9).model.doubt, nullptr);
+}
+
 }  // namespace
 }  // namespace mems_stiction
