@@ -74,10 +74,6 @@ def moved_by(results, case, variation):
     return math.exp(statistics.mean(math.log(statistics.median(changed) / statistics.median(values)) for changed, values in pairs))
 
 
-def most_moving(results, case):
-    return max(cases.VARIATIONS, key=lambda variation: abs(math.log(moved_by(results, case, variation))))
-
-
 def separation_rows(study):
     """DelRio's own check: the work beside that of two planes at the mean separation, H/(12 pi D_ave^2)."""
     case = cases.CASES[0]
@@ -129,8 +125,7 @@ def device_section(study):
     text += ["",
              "What can be said now: %s. The interval is that of plates of the same statistics; what roughness and constants leave open stands in "
              "[the table of assumptions](#what-the-assumptions-move). The frames' force by area "
-             "counts the force of one frame for each part of the plate, although the whole plate "
-             "rests on few summits." % (
+             "ignores that the whole plate rests on few summits." % (
                  "of the rms heights that were tried, the measured force lies within the 95 %% interval of the whole plate at %s alone"
                  % " and ".join("%g nm" % round(rms_height * 1e9, 3) for rms_height in inside) if inside else
                  "the measured force lies outside of the 95 % interval of the whole plate for each of these rms heights"), "",
@@ -226,15 +221,14 @@ def page(study):
              "| | %s |" % " | ".join(case.key for case in cases.CASES), "|---|%s" % ("---|" * len(cases.CASES))]
     text += ["| %s | %s |" % (variation.name, " | ".join(number(moved_by(results, case, variation)) for case in cases.CASES))
              for variation in cases.VARIATIONS]
-    text += ["", "What moves each most: %s." % "; ".join("%s, %s" % (case.key, most_moving(results, case).name) for case in cases.CASES), "",
+    text += ["",
              "The rms height is that of both surfaces together: a source that gives one surface "
              "leaves a factor open. A larger frame has a higher highest summit, which keeps the "
              "surfaces further apart. Real plates are larger still, but not flat over their "
              "length. Surfaces grown on each other fit each other, so their composite roughness "
              "is smaller than either's (DelRio et al. 2005).", "",
-             "## Found, but not predicted", "", "The available text lacks the roughness, or the force:", "",
-             "| source | read | says |", "|---|---|---|"]
-    text += ["| %s | %s | %s |" % found for found in cases.FOUND]
+             "## Found, but not predicted", "",
+             "The available text of these lacks the roughness, or the force: %s." % "; ".join(cases.FOUND)]
     text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `scripts/lib/measured_cases.py` and run `scripts/measured` again.", ""]
     return "\n".join(text)
 

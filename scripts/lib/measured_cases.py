@@ -103,23 +103,17 @@ VARIATIONS = (
     Variation("self-affine, H = 0.8, down to 4 pixels", 1.0, 1.0, 1, {}, True),
 )
 
+# Measurements whose available text lacks the roughness, or the force.
 FOUND = (
-    Source("Thimons, Gujrati, Sanner, Pastewka, Jacobs, doi 10.1007/s11340-021-00733-6 (2021)", "abstract",
-           "Ruby spheres of 0.5 mm on four diamond coatings: effective 0.08 to 7.15 mJ/m^2 of an intrinsic 46.3, range of adhesion 5.6 nm; roughness of 43 to 1.8 nm "
-           "lateral size decides. The rms heights and spectra of the four coatings were not to be had"),
-    Source("DelRio, Dunn, Phinney, Bourdon, de Boer, Appl. Phys. Lett. 90 (2007) 163104", "abstract",
-           "Polysilicon beams over humidity: below a threshold van der Waals forces of areas that do not touch, above it water, towards 144 mJ/m^2. No energies or roughness"),
-    Source("de Boer et al., Acta Materialia 48 (2000) 4531", "abstract",
-           "Coated beams: no hysteresis at low humidity, and the adhesion is van der Waals attraction across nanometre asperities. No energies or roughness"),
-    Source("textured beams, River Publishers, e-book 9788770048422, p. 183", "one page",
-           "Crack lengths of 96 +- 5 um (smooth) and 475 +- 30 um (textured): a factor (475/96)^4 = 600 in energy. The roughness is on another page"),
-    Source("Liu, Martin, Burnham, Optimal roughness for minimal adhesion (2007); ASME IJTC 2008, 593", "abstract",
-           "AFM tips on etched silicon: adhesion falls significantly above 1 to 2 nm rms, for larger tips later. No forces"),
-    Source("Chai, Liu, Lu, He, ACS Appl. Mater. Interfaces 2014, doi 10.1021/am4053333", "abstract", "ZnO films of 0.7 to 4.28 nm rms: the force falls with roughness. No forces"),
-    Source("van Zwol, Palasantzas, De Hosson, Appl. Phys. Lett. 91 (2007), doi 10.1063/1.2768919", "abstract",
-           "Gold on gold in air, 1 to 10 nm rms: capillary force. No forces"),
-    Source("Soldatenkov, Svetovoy, Physics 6 (2024) 1204", "abstract", "A silicon cantilever stuck on ruthenium, roughness far from normal. No energy, no roughness"),
-    Source("Experimental evaluation and numerical modeling of adhesion phenomena in polysilicon MEMS (2013)", "abstract", "Energies and roughness were measured; neither was to be had"),
+    "Thimons, Gujrati, Sanner, Pastewka, Jacobs, doi 10.1007/s11340-021-00733-6 (2021)",
+    "DelRio, Dunn, Phinney, Bourdon, de Boer, Appl. Phys. Lett. 90 (2007) 163104",
+    "de Boer et al., Acta Materialia 48 (2000) 4531",
+    "textured beams, River Publishers, e-book 9788770048422, p. 183",
+    "Liu, Martin, Burnham, Optimal roughness for minimal adhesion (2007); ASME IJTC 2008, 593",
+    "Chai, Liu, Lu, He, ACS Appl. Mater. Interfaces 2014, doi 10.1021/am4053333",
+    "van Zwol, Palasantzas, De Hosson, Appl. Phys. Lett. 91 (2007), doi 10.1063/1.2768919",
+    "Soldatenkov, Svetovoy, Physics 6 (2024) 1204",
+    "Experimental evaluation and numerical modeling of adhesion phenomena in polysilicon MEMS (2013)",
 )
 
 
