@@ -21,7 +21,6 @@ DOCUMENTS = pathlib.Path(__file__).resolve().parents[2] / "doc"
 COLOURS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
 QUANTITIES = (("pull_off_force", "pull-off force"), ("apparent_work_of_adhesion", "work of adhesion"),
               ("contact_area", "contact area"), ("mean_gap", "mean gap"))
-MOVED = 1e-3  # a scan counts as moved when its pull-off force changes by more than this
 FEWEST_CONTACTS = 10  # as FLAG_FEW_CONTACTS has it
 UNTOUCHED = 5e-5  # smaller changes print as 0.0 %
 
@@ -111,11 +110,6 @@ class Surface:
         mean, scatter = percent(statistics.mean(changes)), percent(statistics.stdev(changes), sign=False)
         return "0" if (mean, scatter) == ("0", "0") else "%s ± %s" % (mean, scatter)
 
-    def moved(self, case):
-        """How many scans the case moves, and the largest change of the pull-off force."""
-        changes = self.changes(case, "pull_off_force")
-        return sum(abs(change) > MOVED for change in changes), max(changes, key=abs)
-
     def spread(self, quantity):
         return spread(self.values(quantity))
 
@@ -195,9 +189,18 @@ def defaults_table(study):
     return table(["setting", "default", "pull-off force [%]", "contact area [%]", "mean gap [%]", "why"], rows)
 
 
+def shift_titles(study):
+    return ["pull-off force of %s [%%]" % surface.name for surface in study.surfaces] + ["largest mean shift of the contact area [%]"]
+
+
+def shifts_of(study, cases):
+    """Cells of a row: change of the pull-off force on each surface, and the largest mean one of the contact area."""
+    areas = [statistics.mean(surface.changes(case, "contact_area")) for surface, case in zip(study.surfaces, cases)]
+    return [surface.changes_as_text(case, "pull_off_force") for surface, case in zip(study.surfaces, cases)] + [percent(max(areas, key=abs))]
+
+
 def setting_section(study, key):
     what, _, more = SETTINGS[key]
-    quantities = list(QUANTITIES)
     lines = ["### %s" % ("pitch" if key == "pitch" else "`%s`" % key), "", what, ""]
     rows = []
     unmoved = []
@@ -205,19 +208,14 @@ def setting_section(study, key):
         if cases[0]["is_default"]:
             continue
         label = study.label(cases)
-        entries = []
-        for surface, case in zip(study.surfaces, cases):
-            moved, largest = surface.moved(case)
-            statuses = sorted({outcome["status"] for outcome in case["outcomes"]} - {"EQUILIBRIUM"})
-            entries.append([label, surface.name] + [surface.changes_as_text(case, name) for name, _ in quantities]
-                           + ["%d of %d%s" % (moved, len(surface.default), ", to %s" % percent(largest) if moved else "")
-                              + (" (%s)" % ", ".join(statuses) if statuses else "")])
-        if all(entry[2:6] == ["0"] * 4 for entry in entries):
+        texts = [surface.changes_as_text(case, name) for surface, case in zip(study.surfaces, cases) for name, _ in QUANTITIES]
+        statuses = sorted({outcome["status"] for case in cases for outcome in case["outcomes"]} - {"EQUILIBRIUM"})
+        if set(texts) == {"0"}:
             unmoved.append(label)
         else:
-            rows += entries
+            rows.append([label + (" (%s)" % ", ".join(statuses) if statuses else "")] + shifts_of(study, cases))
     if rows:
-        lines += table(["value", "surface"] + [title + " [%]" for _, title in quantities] + ["scans that move"], rows)
+        lines += table(["value"] + shift_titles(study), rows)
     if unmoved:
         lines += ["Nothing moves with %s." % ", ".join(unmoved), ""]
     if more:
@@ -226,13 +224,9 @@ def setting_section(study, key):
 
 
 def yardstick_table(study):
-    rows = []
-    for key, title in YARDSTICKS.items():
-        for cases in study.cases(key):
-            for surface, case in zip(study.surfaces, cases):
-                rows.append(["%s %s" % (title, case["value"]), surface.name]
-                            + [surface.changes_as_text(case, name) for name, _ in QUANTITIES])
-    return table(["constant", "surface"] + [title + " [%]" for _, title in QUANTITIES], rows)
+    rows = [["%s %s" % (title, cases[0]["value"])] + shifts_of(study, cases)
+            for key, title in YARDSTICKS.items() for cases in study.cases(key)]
+    return table(["constant"] + shift_titles(study), rows)
 
 
 def near_bonding_table(study):
@@ -240,26 +234,22 @@ def near_bonding_table(study):
     limits = [case["value"] for case in surfaces[0].cases]
     rows = []
     for surface in surfaces:
-        row = [surface.name]
+        row = [surface.name, "%.2g" % statistics.mean(outcome["pull_off_force"] for outcome in surface.default)]
         for case in surface.cases:
-            outcomes = case["outcomes"]
-            bonded = sum(outcome["status"] == "BONDED" for outcome in outcomes)
-            force = statistics.mean(outcome["pull_off_force"] for outcome in outcomes)
-            row.append("%d of %d, %.2g N" % (bonded, len(outcomes), force))
+            row.append("%d of %d" % (sum(outcome["status"] == "BONDED" for outcome in case["outcomes"]), len(case["outcomes"])))
         resting = [outcome["contact_fraction"] for outcome in surface.cases[-1]["outcomes"]
                    if outcome["status"] == "EQUILIBRIUM"]
         row.append("%.2g to %.2g" % (min(resting), max(resting)) if resting else "none")
         rows.append(row)
-    return table(["rms height"] + ["limit %s" % limit for limit in limits] + ["contact fractions at rest, limit 1"], rows)
+    return table(["rms height", "pull-off force [N]"] + ["bonded, limit %s" % limit for limit in limits] + ["contact fractions at rest, limit 1"], rows)
 
 
 def intervals_table(study):
-    rows = []
-    for interval in study.record["intervals"]:
-        for row in interval["rows"]:
-            rows.append([interval["name"], "%d" % row["samples"], "%.2f ± %s %%" % (row["lower"], percent(row["lower_scatter"], False)),
-                         "%.2f ± %s %%" % (row["upper"], percent(row["upper_scatter"], False))])
-    return table(["surface", "samples", "lower end over the prediction", "upper end"], rows)
+    intervals = study.record["intervals"]
+    rows = [["%d" % of_samples[0]["samples"]] + [
+        "%.2f ± %s %% to %.2f ± %s %%" % (row["lower"], percent(row["lower_scatter"], False), row["upper"], percent(row["upper_scatter"], False))
+        for row in of_samples] for of_samples in zip(*(interval["rows"] for interval in intervals))]
+    return table(["samples"] + [interval["name"] for interval in intervals], rows)
 
 
 def in_short(study):
@@ -320,10 +310,8 @@ def page(study, figure, is_generated):
              "*Written by `scripts/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
              "Each numerical setting is changed alone, on every scan. Tables give the mean change "
              "of the prediction and its standard deviation over the scans, in percent. A shift "
-             "below the spread from scan to scan cannot be seen in practice. A scan *moves* when "
-             "its pull-off force changes by more than %g %%. Words: [terminology](terminology.md); "
-             "keys: [parameters](parameters.md)."
-             % (100 * MOVED), "",
+             "below the spread from scan to scan cannot be seen in practice. Keys: "
+             "[parameters](parameters.md).", "",
              "## In short", ""]
     lines += in_short(study)
     lines += ["![Change of pull-off force and contact area with each setting](%s)" % figure, "",
@@ -341,11 +329,10 @@ def page(study, figure, is_generated):
         lines += setting_section(study, key)
     lines += ["## Near bonding", "",
               "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction closes them. Here are Gaussian ones with a "
-              "correlation length of 80 nm, without mechanical load: how many of the scans bond, and the mean pull-off force.", ""]
+              "correlation length of 80 nm, without mechanical load.", ""]
     lines += near_bonding_table(study)
     lines += ["The limit matters only for the smoothest surface: bonded with a low limit, at rest "
-              "with a higher one, at nearly the same force. 0.5 separates surfaces that rest from "
-              "surfaces that have closed.", "",
+              "with a higher one, at nearly the same force.", "",
               "## Samples of the interval", "",
               "The margin's 95 %% interval is drawn at random. The table gives its ends, as "
               "pull-off force over the predicted one, and their scatter from seed to seed. "
