@@ -28,6 +28,8 @@ constexpr double kRounding = 0.05;
 constexpr std::int64_t kFrameSide = 4096;
 /// The same of a plate that tilts, which comes to rest again and again.
 constexpr std::int64_t kTiltedSide = 2048;
+/// So many of the highest cells tell nearly always: all others are kept only if they do not.
+constexpr std::int64_t kFewCells = 1 << 16;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
 
@@ -123,11 +125,11 @@ bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
 /// The cells of the device, and those of its quarters where it goes on beyond them.
 class DeviceAreaSolver::Gatherer {
  public:
-  explicit Gatherer(const DevicePieces& pieces)
+  explicit Gatherer(const DevicePieces& pieces, const AreaCellLimits& limits = {})
       : pieces_(pieces),
-        cells_(pieces.size.pitch_x, pieces.size.pitch_y),
+        cells_(pieces.size.pitch_x, pieces.size.pitch_y, limits),
         goes_on_(pieces.is_part && pieces.area_ratio > kGoesOn) {
-    if (goes_on_) quarters_.assign(kQuarters, AreaCells(pieces.size.pitch_x, pieces.size.pitch_y));
+    if (goes_on_) quarters_.assign(kQuarters, cells_);
   }
 
   void add(int piece, std::int64_t row, std::int64_t col, const cv::Mat& relief) {
@@ -141,6 +143,8 @@ class DeviceAreaSolver::Gatherer {
     quarters_[static_cast<std::size_t>(quarter)].add(at, col, relief);
   }
 
+  /// Whether every cell is kept.
+  bool keepsAll() const { return cells_.validCount() <= cells_.limits().most_cells; }
   const AreaCells& cells() const { return cells_; }
   const std::vector<AreaCells>& quarters() const { return quarters_; }
 
@@ -171,13 +175,30 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     if (shown) shown->add(0, 0, frame);
     for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame));
   } else {
-    Gatherer gatherer(pieces);
+    AreaCellLimits few_cells;
+    few_cells.most_cells = kFewCells;
+    Gatherer few(pieces, few_cells);
     surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-      gatherer.add(piece, row, col, tile);
+      few.add(piece, row, col, tile);
       if (shown && piece == 0) shown->add(row, col, tile);
     });
+    std::optional<Gatherer> all;
+    const auto frame = [&] { return frameOf(surface); };
     for (DeviceAreaSolver* solver : solvers) {
-      found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return frameOf(surface); }));
+      std::optional<Realisation> by_few;
+      if (!few.keepsAll() && !solver->tilts()) by_few = solver->followCells(few.cells(), few.quarters(), false);
+      if (by_few) {
+        found.push_back(*by_few);
+        continue;
+      }
+      if (!few.keepsAll() && !all) {
+        all.emplace(pieces);
+        surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+          all->add(piece, row, col, tile);
+        });
+      }
+      const Gatherer& gatherer = all ? *all : few;
+      found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), frame));
     }
   }
   if (shown) {
@@ -233,9 +254,27 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                                      const std::function<cv::Mat()>& frame) {
   if (tilts()) return followFrame(frame());
+  const std::optional<Realisation> found = followCells(cells, quarters, true);
+  return found ? *found : followFrame(frame());
+}
+
+std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells, const std::vector<AreaCells>& quarters,
+                                                         bool are_all) {
+  const auto isEnough = [&](const AreaAdhesion& found) {
+    return found.reach == AreaReach::kEnough && (are_all || !found.took_all_cells);
+  };
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
-  if (found.reach != AreaReach::kEnough) return followFrame(frame());
+  if (!isEnough(found)) return std::nullopt;
+  double force = 0.0;
+  double work = 0.0;
+  for (const AreaCells& quarter : quarters) {
+    if (quarter.validCount() == 0) continue;
+    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(model_, loaded_area_, quarter.area()));
+    if (!isEnough(part)) return std::nullopt;
+    force += part.pull_off_force / kQuarters;
+    work += part.apparent_work_of_adhesion / kQuarters;
+  }
   const bool is_pressed = model_.load.mechanical_load > 0.0 || model_.load.voltage != 0.0;
   if (found.flows && is_pressed) {
     warnOnce(
@@ -251,15 +290,6 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
   realisation.contacts = found.pull_off_contact_count;
   realisation.separation_at_rest = found.separation_at_rest;
   if (quarters.empty()) return realisation;
-  double force = 0.0;
-  double work = 0.0;
-  for (const AreaCells& quarter : quarters) {
-    if (quarter.validCount() == 0) continue;
-    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(model_, loaded_area_, quarter.area()));
-    if (part.reach != AreaReach::kEnough) return followFrame(frame());
-    force += part.pull_off_force / kQuarters;
-    work += part.apparent_work_of_adhesion / kQuarters;
-  }
   force_growths_.push_back(std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters));
   work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters));
   return realisation;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,9 @@ class DeviceAreaSolver {
 
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
+  /// - @p are_all whether they are all cells of the surface: of fewer, those that are deep enough to say so count alone
+  /// @return nothing where they do not suffice
+  std::optional<Realisation> followCells(const AreaCells& cells, const std::vector<AreaCells>& quarters, bool are_all);
   Realisation followFrame(const cv::Mat& relief);
   bool tilts() const { return model_.guidance != Guidance::kGuided; }
   void warnOnce(const std::string& warning);

@@ -421,6 +421,27 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
   for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);
 }
 
+/// Places of scans that differ by more than chance: where one bonds all over, the scans that were made are made once more and
+/// its strength is compared with theirs.
+void comparePlaces(const std::vector<ModelRun*>& runs, const DeviceForceOptions& options, Surfaces& known) {
+  std::vector<std::pair<PlaceCheck*, bool>> closing;  // and whether it is of the upper surface
+  for (ModelRun* run : runs) {
+    for (PlaceCheck& places : run->places) {
+      if (places.find()) closing.emplace_back(&places, &places != &run->places.front());
+    }
+  }
+  for (int number = 0; !closing.empty() && number < options.realisations; ++number) {
+    const Surfaces::MadeScans scans = known.scansAgain(number, realisationSeed(options, number) + 1);
+    for (const auto& [places, is_upper] : closing) {
+      if (!is_upper) {
+        places->compare(scans.lower, scans.upper);
+      } else {
+        places->compare(turned(scans.upper), turned(scans.lower));
+      }
+    }
+  }
+}
+
 /// Of all models, the surfaces of which are made once.
 void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std::vector<ModelRun*>& runs,
                const std::vector<Guidance>& guidances, const UncertaintyOptions& uncertainty,
@@ -478,14 +499,11 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
       const bool has_upper = !scans.upper.empty();
       const std::vector<HeightMap> from_above = turned(scans.upper);
-      const std::vector<HeightMap> from_below = has_upper ? turned(scans.lower) : std::vector<HeightMap>();
       for (ModelRun* run : runs) {
         const ModelRun* first = run == runs.front() ? nullptr : runs.front();
         run->check->add(scans.lower, scans.upper);
-        run->places.front().add(scans.lower, scans.upper, first != nullptr ? &first->places.front() : nullptr);
-        if (has_upper) {
-          run->places.back().add(from_above, from_below, first != nullptr ? &first->places.back() : nullptr);
-        }
+        run->places.front().add(scans.lower, first != nullptr ? &first->places.front() : nullptr);
+        if (has_upper) run->places.back().add(from_above, first != nullptr ? &first->places.back() : nullptr);
       }
       const DeviceLaws again = known.lawsAgain(number, scans);
       DeviceSurface surface(again, pieces, seed + 2);
@@ -493,6 +511,7 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
     }
     progress((number + 1.0) / options.realisations);
   }
+  comparePlaces(runs, options, known);
   for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, area.contacts, *run);
 }
 

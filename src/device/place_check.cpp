@@ -113,16 +113,24 @@ PlaceCheck::Range PlaceCheck::rangeOf(const std::vector<PlaceTexture>& textures)
   return range;
 }
 
-void PlaceCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface,
-                     const PlaceCheck* same_scans) {
+void PlaceCheck::add(const std::vector<HeightMap>& made, const PlaceCheck* same_scans) {
   for (std::size_t i = 0; i < checked_.size(); ++i) {
     checked_[i].made.push_back(same_scans != nullptr ? same_scans->checked_[i].made.back()
                                                      : rangeOf(placeTextures(made[checked_[i].scan])));
   }
+}
+
+bool PlaceCheck::find() {
   for (Checked& checked : checked_) {
-    if (!mayBeBeyond(checked)) continue;
-    if (!checked.strongest) checked.strongest = strongestOf(scans_[checked.scan].surface, counter_surface_);
-    if (checked.strongest->is_conforming) made_.push_back(strongestOf(made[checked.scan], made_counter_surface));
+    if (isBeyond(checked)) checked.strongest = strongestOf(scans_[checked.scan].surface, counter_surface_);
+  }
+  return closes();
+}
+
+void PlaceCheck::compare(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
+  for (const Checked& checked : checked_) {
+    if (!checked.strongest || !checked.strongest->is_conforming) continue;
+    made_.push_back(strongestOf(made[checked.scan], made_counter_surface));
   }
 }
 
@@ -134,14 +142,6 @@ std::vector<double> PlaceCheck::madeLike(const Checked& checked, double Range::*
     for (const Range& made : other.made) figures.push_back(made.*figure);
   }
   return figures;
-}
-
-bool PlaceCheck::mayBeBeyond(const Checked& checked) const {
-  const auto isMore = [&](double Range::*figure) {
-    const std::vector<double> made = madeLike(checked, figure);
-    return checked.own.*figure > kBeyondMost * *std::max_element(made.begin(), made.end());
-  };
-  return !checked.made.empty() && (isMore(&Range::gradient) || isMore(&Range::height));
 }
 
 bool PlaceCheck::isBeyond(const Checked& checked) const {
@@ -174,7 +174,7 @@ PlaceCheck::Strongest PlaceCheck::strongestOf(const HeightMap& scan, const std::
 const PlaceCheck::Checked* PlaceCheck::place() const {
   const Checked* found = nullptr;
   for (const Checked& checked : checked_) {
-    if (!checked.strongest || !isBeyond(checked)) continue;
+    if (!checked.strongest) continue;
     if (found == nullptr || checked.strongest->force > found->strongest->force) found = &checked;
   }
   return found;

@@ -53,8 +53,12 @@ class PlaceCheck {
   /// - @p made like the scans, in their order
   /// - @p same_scans a check of the same scans under another model, to which @p made has been added: they differ as there; may
   ///   be null
-  void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface,
-           const PlaceCheck* same_scans = nullptr);
+  void add(const std::vector<HeightMap>& made, const PlaceCheck* same_scans = nullptr);
+  /// After the last of them: looks for the place that holds most where places differ, and nowhere else, since to predict
+  /// blocks takes longer than all the rest.
+  /// @return whether that place bonds all over, so that compare() is to get all made scans once more
+  bool find();
+  void compare(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
 
   bool isUneven() const { return place() != nullptr; }
   /// Which scan has the place that holds most, where, and what it is like; empty if the scans are even.
@@ -90,9 +94,7 @@ class PlaceCheck {
   static Range rangeOf(const std::vector<PlaceTexture>& textures);
   /// Of a figure of all scans that were made on the grid of this one: its law is that of all.
   std::vector<double> madeLike(const Checked& checked, double Range::*figure) const;
-  /// Whether its places differ by more than those of all made ones so far.
-  bool mayBeBeyond(const Checked& checked) const;
-  /// Whether they differ by more than chance.
+  /// Whether its places differ by more than chance.
   bool isBeyond(const Checked& checked) const;
   Strongest strongestOf(const HeightMap& scan, const std::vector<HeightMap>& counter_surface);
   double excess(double Strongest::*figure) const;

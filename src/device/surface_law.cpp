@@ -86,6 +86,44 @@ struct SamplingVariance {
   double independent = 0.0;  ///< places: the area over the integral of rho^2 [-]
 };
 
+/// The power of a spectrum above a split, asked for by rising wave numbers: MergedSpectrum::densityAt() with its logarithms at hand.
+class RisingDensities {
+ public:
+  RisingDensities(const MergedSpectrum& spectrum, double longest, double split)
+      : largest_(spectrum.largest_wave_number), longest_(longest), split_(split) {
+    for (const SpectrumBand& band : spectrum.bands) {
+      bands_.push_back({band.wave_number, std::log(band.wave_number), std::log(band.density), 0.0});
+    }
+    for (std::size_t i = 0; i + 1 < bands_.size(); ++i) {
+      bands_[i].slope = (bands_[i + 1].log_density - bands_[i].log_density) /
+                        (bands_[i + 1].log_wave_number - bands_[i].log_wave_number);
+    }
+  }
+
+  void restart() { place_ = 0; }
+  double at(double q) {
+    if (q < longest_ || q > largest_) return 0.0;
+    while (place_ + 1 < bands_.size() && bands_[place_ + 1].wave_number <= q) ++place_;
+    const Band& band = bands_[place_];
+    const double beyond = q > band.wave_number ? std::log(q) - band.log_wave_number : 0.0;
+    const double pass = highPass(q, split_);
+    return std::exp(band.log_density + band.slope * beyond) * pass * pass;
+  }
+
+ private:
+  struct Band {
+    double wave_number;
+    double log_wave_number;
+    double log_density;
+    double slope;  ///< up to the next one
+  };
+  std::vector<Band> bands_;
+  double largest_;
+  double longest_;
+  double split_;
+  std::size_t place_ = 0;
+};
+
 SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, double longest, double area) {
   constexpr int kSide = 512;
   constexpr int kSteps = 2000;
@@ -108,11 +146,13 @@ SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, 
   const double resolved = from * std::exp(static_cast<double>(reached) * step);
   const double pitch = std::max(kPi / resolved, 3.0 * 2.0 * kPi / longest / kSide);
   cv::Mat powers(kSide, kSide, CV_64FC1);
+  RisingDensities densities(spectrum, longest, split);
   // One eighth of the plane has all wave numbers.
   const auto opposite = [](int place) { return (kSide - place) % kSide; };
   for (int row = 0; row <= kSide / 2; ++row) {
+    densities.restart();
     for (int col = row; col <= kSide / 2; ++col) {
-      const double power = densityAt(2.0 * kPi * std::hypot(row, col) / (kSide * pitch));
+      const double power = densities.at(2.0 * kPi * std::hypot(row, col) / (kSide * pitch));
       for (const int one : {row, opposite(row)}) {
         for (const int other : {col, opposite(col)}) {
           powers.at<double>(one, other) = power;
@@ -121,19 +161,26 @@ SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, 
       }
     }
   }
+  // A correlation has no imaginary part: of what cv::dft() packs every other value is 0.
   cv::Mat correlation;
-  cv::dft(powers, correlation, cv::DFT_COMPLEX_OUTPUT);
-  const double variance = correlation.at<cv::Vec2d>(0, 0)[0];
+  cv::dft(powers, correlation);
+  const double variance = correlation.at<double>(0, 0);
   double squares = 0.0;
   double cubes = 0.0;
   double fourths = 0.0;
+  const auto add = [&](double value, double count) {
+    const double rho = value / variance;
+    squares += count * rho * rho;
+    cubes += count * rho * rho * rho;
+    fourths += count * rho * rho * rho * rho;
+  };
   for (int row = 0; row < kSide; ++row) {
-    for (int col = 0; col < kSide; ++col) {
-      const double rho = correlation.at<cv::Vec2d>(row, col)[0] / variance;
-      squares += rho * rho;
-      cubes += rho * rho * rho;
-      fourths += rho * rho * rho * rho;
-    }
+    const double* line = correlation.ptr<double>(row);
+    for (int col = 1; col + 1 < kSide; col += 2) add(line[col], 2.0);
+  }
+  for (const int col : {0, kSide - 1}) {
+    for (const int row : {0, kSide - 1}) add(correlation.at<double>(row, col), 1.0);
+    for (int row = 1; row + 1 < kSide; row += 2) add(correlation.at<double>(row, col), 2.0);
   }
   const double cell = pitch * pitch / area;
   return {6.0 * cell * std::abs(cubes), 24.0 * cell * fourths, 1.0 / (cell * squares)};

@@ -2,16 +2,12 @@
 
 #include <fftw3.h>
 
+#include "numeric/fftw_planner.hpp"
+
 #include "line_transform.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// FFTW's planner is not to be called by two threads at once.
-std::mutex& plannerMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 /// FFTW's names for one precision. Plans are estimated, never timed, so that they are the same in every run.
 template <typename Scalar>

@@ -55,31 +55,46 @@ struct ScanGroup {
   std::map<int, BandSum> bands;
 };
 
+/// Waves of scans that are alike, all together: each lies in one band, whatever the scan.
+void addWaves(const std::vector<const ScanWaves*>& alike, const SpectrumStretch& stretch, ScanGroup& group) {
+  const ScanWaves& first = *alike.front();
+  group.first = &first;
+  group.count = static_cast<double>(alike.size());
+  const double least_square = group.trust.least_waves * group.trust.least_waves;
+  const double most_square = group.trust.most_wave_number * group.trust.most_wave_number;
+  int last_band = 0;
+  BandSum* sum = nullptr;  // of the wave before, which often lies in the same band
+  ScanWaves::visit(alike, [&](const FrameWave& wave, double power, double weight) {
+    const double q_x = first.waveNumberX(wave.x);
+    const double q_y = first.waveNumberY(wave.y);
+    if (wave.x * wave.x + wave.y * wave.y < least_square || q_x * q_x + q_y * q_y > most_square) return;
+    const double wave_number = stretch.roundWave(q_x, q_y);
+    const int band = bandOf(wave_number, kBandsPerOctave);
+    if (sum == nullptr || band != last_band) sum = &group.bands[band];
+    last_band = band;
+    sum->power += weight * power;
+    sum->count += weight * group.count;
+    sum->log_wave_number += weight * group.count * std::log(wave_number);
+  });
+}
+
 std::vector<ScanGroup> groupsOf(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
                                 const SpectrumStretch& stretch) {
+  std::vector<std::vector<const ScanWaves*>> alike;
   std::vector<ScanGroup> groups;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    const ScanWaves& scan = scans[i];
-    const auto alike = std::find_if(groups.begin(), groups.end(), [&](const ScanGroup& group) {
-      return group.first->isAlike(scan) && group.trust.least_waves == trust[i].least_waves;
-    });
-    ScanGroup& group = alike != groups.end() ? *alike : groups.emplace_back();
-    if (group.first == nullptr) {
-      group.first = &scan;
-      group.trust = trust[i];
+    std::size_t place = 0;
+    while (place < groups.size() &&
+           !(alike[place].front()->isAlike(scans[i]) && groups[place].trust.least_waves == trust[i].least_waves)) {
+      ++place;
     }
-    group.count += 1.0;
-    scan.visit([&](const FrameWave& wave, double power, double weight) {
-      const double q_x = scan.waveNumberX(wave.x);
-      const double q_y = scan.waveNumberY(wave.y);
-      if (wave.count() < trust[i].least_waves || std::hypot(q_x, q_y) > trust[i].most_wave_number) return;
-      const double wave_number = stretch.roundWave(q_x, q_y);
-      BandSum& sum = group.bands[bandOf(wave_number, kBandsPerOctave)];
-      sum.power += weight * power;
-      sum.count += weight;
-      sum.log_wave_number += weight * std::log(wave_number);
-    });
+    if (place == groups.size()) {
+      groups.emplace_back().trust = trust[i];
+      alike.emplace_back();
+    }
+    alike[place].push_back(&scans[i]);
   }
+  for (std::size_t i = 0; i < groups.size(); ++i) addWaves(alike[i], stretch, groups[i]);
   return groups;
 }
 

@@ -22,7 +22,7 @@ struct SpectrumStretch {
 
   /// |q'| of a wave number vector, round after the stretch [rad/m].
   double roundWave(double q_x, double q_y) const {
-    if (ratio == 1.0) return std::hypot(q_x, q_y);
+    if (ratio == 1.0) return std::sqrt(q_x * q_x + q_y * q_y);
     const double cosine = std::cos(direction);
     const double sine = std::sin(direction);
     return std::hypot((cosine * q_x + sine * q_y) * std::sqrt(ratio), (cosine * q_y - sine * q_x) / std::sqrt(ratio));

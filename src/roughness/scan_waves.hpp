@@ -7,6 +7,7 @@
 /// reaches each of them, so that what a spectrum would give there can be compared with what is found.
 
 #include <cmath>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -44,6 +45,9 @@ class ScanWaves {
   /// visit(FrameWave, power [m^4], weight): weight 2 for a wave and its mirror image; without the wave 0.
   template <typename Visit>
   void visit(const Visit& visit) const;
+  /// The same of scans that are alike, at least one, with the sum of their powers.
+  template <typename Visit>
+  static void visit(const std::vector<const ScanWaves*>& alike, const Visit& visit);
 
  private:
   int rows_ = 0;
@@ -56,13 +60,22 @@ class ScanWaves {
 
 template <typename Visit>
 void ScanWaves::visit(const Visit& visit) const {
-  for (int x = 0; x < powers_.rows; ++x) {
-    const float* line = powers_.ptr<float>(x);
-    const double weight = x > 0 && 2 * x < cols_ ? 2.0 : 1.0;
-    for (int y = 0; y < rows_; ++y) {
+  ScanWaves::visit({this}, visit);
+}
+
+template <typename Visit>
+void ScanWaves::visit(const std::vector<const ScanWaves*>& alike, const Visit& visit) {
+  const ScanWaves& first = *alike.front();
+  for (int x = 0; x < first.powers_.rows; ++x) {
+    const double weight = x > 0 && 2 * x < first.cols_ ? 2.0 : 1.0;
+    for (int y = 0; y < first.rows_; ++y) {
       if (x == 0 && y == 0) continue;
-      const FrameWave wave{static_cast<double>(x), static_cast<double>(2 * y <= rows_ ? y : y - rows_)};
-      visit(wave, unit_ * static_cast<double>(line[y]), weight);
+      const FrameWave wave{static_cast<double>(x), static_cast<double>(2 * y <= first.rows_ ? y : y - first.rows_)};
+      double power = 0.0;
+      for (const ScanWaves* scan : alike) {
+        power += scan->unit_ * static_cast<double>(scan->powers_.ptr<float>(x)[y]);
+      }
+      visit(wave, power, weight);
     }
   }
 }

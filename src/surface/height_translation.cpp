@@ -39,10 +39,11 @@ HeightTranslation::HeightTranslation(double lowest, double highest, const std::v
                          " values; must have at least 2");
   }
   for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (Range::any().contains(heights[i]) && (i == 0 || !(heights[i] < heights[i - 1]))) continue;
     const std::string name = "translation/heights[" + std::to_string(i) + "]: " + numberText(heights[i]);
     if (!Range::any().contains(heights[i])) {
       violations.push_back(name + " is not allowed; must be " + Range::any().text());
-    } else if (i > 0 && heights[i] < heights[i - 1]) {
+    } else {
       violations.push_back(name + " is not allowed; must be at least the one before it, " + numberText(heights[i - 1]));
     }
   }

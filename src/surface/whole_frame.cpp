@@ -41,41 +41,39 @@ double powerOf(const WavePower& power, int number_x, int number_y, const cv::Siz
   return sum / (kSamplesOfCell * kSamplesOfCell);
 }
 
-/// Number of the wave at a place of a packed line, whose first is 0 and whose last of an even count is count/2.
-int packedNumber(int place) { return (place + 1) / 2; }
-
 }  // namespace
 
-WholeFrame::WholeFrame(const WavePower& power, int rows, int cols, bool is_even) : size_(cols, rows) {
-  const cv::Size frame(sideOfFrame(cols), sideOfFrame(rows));
-  gains_.create(frame, CV_32FC1);
-  waves_.create(frame, CV_32FC1);
-  for (int row = 0; row < frame.height; ++row) {
-    float* line = gains_.ptr<float>(row);
-    for (int col = 0; col < frame.width; ++col) {
-      // The first and the last column hold the waves along y, packed; all others hold theirs at their rows.
-      const bool is_along_y = col == 0 || col == frame.width - 1;
-      if (is_even && !is_along_y && row > frame.height / 2) {
-        line[col] = gains_.ptr<float>(frame.height - row)[col];
+WholeFrame::WholeFrame(const WavePower& power, int rows, int cols, bool is_even)
+    : size_(cols, rows),
+      frame_(sideOfFrame(cols), sideOfFrame(rows)),
+      gains_(frame_.width / 2 + 1, frame_.height, CV_32FC1),
+      filter_(frame_, rows) {
+  const double pixels = frame_.area();
+  for (int number_x = 0; number_x < gains_.rows; ++number_x) {
+    float* line = gains_.ptr<float>(number_x);
+    const bool is_half = number_x > 0 && 2 * number_x < frame_.width;  // the wave (-x, -y) is there, too
+    for (int row = 0; row < frame_.height; ++row) {
+      const int number_y = 2 * row <= frame_.height ? row : row - frame_.height;
+      if (is_even && number_y < 0) {
+        line[row] = line[-number_y];
         continue;
       }
-      const int number_x = packedNumber(col);
-      const int number_y = is_along_y ? packedNumber(row) : row <= frame.height / 2 ? row : row - frame.height;
-      const double found = powerOf(power, number_x, number_y, frame);
-      line[col] = static_cast<float>(std::sqrt(found));
-      const bool is_twice = is_even && !is_along_y && row > 0 && 2 * row < frame.height;
-      variance_ += is_twice ? 2.0 * found : found;
+      const double found = powerOf(power, number_x, number_y, frame_);
+      line[row] = static_cast<float>(std::sqrt(found) / pixels);
+      const bool is_twice = is_even && row > 0 && 2 * row < frame_.height;
+      variance_ += found * (is_half ? 2.0 : 1.0) * (is_twice ? 2.0 : 1.0);
     }
   }
-  variance_ /= static_cast<double>(frame.area());
+  variance_ /= pixels;
 }
 
 void WholeFrame::make(NumberedNoise noise) {
-  for (int row = 0; row < waves_.rows; ++row) noise.fill(row, 0, waves_.cols, waves_.ptr<float>(row));
-  cv::dft(waves_, waves_);
-  cv::multiply(waves_, gains_, waves_);
-  cv::idft(waves_, waves_, cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-  waves_(cv::Rect(cv::Point(), size_)).copyTo(heights_);
+  for (int row = 0; row < frame_.height; ++row) noise.fill(row, 0, frame_.width, filter_.row(row));
+  filter_.apply(gains_);
+  heights_.create(size_, CV_32FC1);
+  for (int row = 0; row < size_.height; ++row) {
+    std::copy_n(filter_.row(row), size_.width, heights_.ptr<float>(row));
+  }
 }
 
 }  // namespace mems_stiction

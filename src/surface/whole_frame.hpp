@@ -17,6 +17,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "surface/frame_filter.hpp"
 #include "surface/numbered_noise.hpp"
 
 namespace mems_stiction {
@@ -38,8 +39,9 @@ class WholeFrame {
 
  private:
   cv::Size size_;
-  cv::Mat gains_;  ///< of the frame's waves, packed as cv::dft() packs those of real values
-  cv::Mat waves_;
+  cv::Size frame_;
+  cv::Mat gains_;  ///< of the frame's waves over the number of its pixels, as FrameFilter has them
+  FrameFilter filter_;
   cv::Mat heights_;
   double variance_ = 0.0;
 };

@@ -12,6 +12,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "preprocess/level.hpp"
+#include "prediction/area_adhesion.hpp"
 #include "roughness/half_spectrum.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/holed_surfaces.hpp"
@@ -432,6 +433,41 @@ TEST_F(DeviceForceTest, aTiltedPlateIsTheFramesOwn) {
   EXPECT_EQ(found.pull_off_force, whole.pull_off_force);
   EXPECT_EQ(found.apparent_work_of_adhesion, whole.apparent_work_of_adhesion);
   EXPECT_EQ(found.separation_at_rest, whole.mean_gap);
+}
+
+/// Few cells of a surface are kept at first: where a load presses far more than those, all of them are.
+TEST_F(DeviceForceTest, whatIsFoundByFewCellsIsWhatAllOfThemSay) {
+  const DevicePieces pieces = piecesOf({areaOfPixels(600), 1}, kPitch, 1e6);
+  const DeviceLaws laws = lawsOf(surfaces_, options_, TailForm::kExponential);
+  DeviceSurface surface(laws, pieces, 5);
+  AreaCells all(kPitch, kPitch);
+  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+    all.add(rowInArea(pieces, piece, row), col, tile);
+  });
+  AreaCells few(kPitch, kPitch, {-1.0, 1.0, 1 << 16});
+  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+    few.add(rowInArea(pieces, piece, row), col, tile);
+  });
+  int beyond_few = 0;
+  for (const double pressure : {0.0, 1e6, 3e7, 1e9}) {
+    SCOPED_TRACE(pressure);
+    model_.load.max_mechanical_load = 1.0;
+    model_.load.setMechanicalLoad(pressure * areaOfPixels(256));
+    DeviceAreaSolver by_few(model_, areaOfPixels(256), pieces);
+    DeviceAreaSolver by_all(model_, areaOfPixels(256), pieces);
+    const Realisation found = by_few.realise(surface);
+    const Realisation expected = by_all.realise(all, surface);
+    EXPECT_EQ(found.pull_off_force, expected.pull_off_force);
+    EXPECT_EQ(found.separation_at_rest, expected.separation_at_rest);
+    EXPECT_EQ(found.contacts, expected.contacts);
+    EXPECT_EQ(by_few.warnings(), by_all.warnings());
+    Options loaded = model_;
+    loaded.load.setMechanicalLoad(pressure * few.area());
+    const AreaAdhesion with_few = areaAdhesion(few, loaded);
+    beyond_few += with_few.reach != AreaReach::kEnough || with_few.took_all_cells ? 1 : 0;
+  }
+  EXPECT_GT(beyond_few, 0);
+  EXPECT_LT(beyond_few, 4);
 }
 
 TEST_F(DeviceForceTest, platesThatCannotBeTiltedStayLevelAndSaySo) {

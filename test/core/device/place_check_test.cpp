@@ -38,16 +38,18 @@ NamedScan scanWithPlace(double share) {
 }
 
 PlaceCheck checkOf(const std::vector<NamedScan>& scans, const std::vector<HeightMap>& counter_surface = {}) {
+  constexpr int kRounds = 4;
   PlaceCheck check(Options(), areaOf(scans.front().surface), scans, counter_surface);
-  for (int round = 0; round < 4; ++round) {
-    const auto madeLike = [&](std::size_t count, int seed) {
-      std::vector<HeightMap> made;
-      for (std::size_t i = 0; i < count; ++i) {
-        made.push_back(evenScan("", seed + 10 * round + static_cast<int>(i)).surface);
-      }
-      return made;
-    };
-    check.add(madeLike(scans.size(), 100), madeLike(counter_surface.size(), 200));
+  const auto madeLike = [](std::size_t count, int seed) {
+    std::vector<HeightMap> made;
+    for (std::size_t i = 0; i < count; ++i) made.push_back(evenScan("", seed + static_cast<int>(i)).surface);
+    return made;
+  };
+  for (int round = 0; round < kRounds; ++round) check.add(madeLike(scans.size(), 100 + 10 * round));
+  const bool is_closing = check.find();
+  EXPECT_EQ(is_closing, check.closes());
+  for (int round = 0; is_closing && round < kRounds; ++round) {
+    check.compare(madeLike(scans.size(), 100 + 10 * round), madeLike(counter_surface.size(), 200 + 10 * round));
   }
   return check;
 }
