@@ -73,6 +73,12 @@ std::string leadsElsewhere(const std::string& path, const std::vector<fs::path>&
   return "";
 }
 
+std::string listOf(const std::vector<fs::path>& folders) {
+  std::string list;
+  for (const fs::path& folder : folders) list += " " + folder.string();
+  return list + " (the environment variable " + kScanFoldersVariable + " of the node states these folders)";
+}
+
 std::string unusable(const std::string& key, const std::string& path) {
   return key + ": " + oneLine(path) +
          " cannot be used; predict_scan with the same configuration says why (the node says nothing about what stands "
@@ -99,16 +105,21 @@ std::vector<fs::path> scanFolders() {
   return folders;
 }
 
+std::string whyOutside(const std::string& path, const std::vector<fs::path>& folders) {
+  return isAllowed(path, folders) ? "" : oneLine(path) + " is not allowed, must lie below" + listOf(folders);
+}
+
+std::string whyElsewhere(const std::string& path, const std::vector<fs::path>& folders) {
+  if (!isAllowed(path, folders)) return whyOutside(path, folders);
+  const std::string beside = leadsElsewhere(path, folders);
+  return beside.empty() ? "" : oneLine(path) + beside + "; allowed is what lies below" + listOf(folders);
+}
+
 std::vector<std::string> filesElsewhere(const Configuration& configuration, const std::vector<fs::path>& folders) {
   std::vector<std::string> lines;
   for (const auto& [key, path] : filesNamedBy(configuration)) {
-    const bool is_allowed = isAllowed(path, folders);
-    const std::string beside = is_allowed ? leadsElsewhere(path, folders) : "";
-    if (is_allowed && beside.empty()) continue;
-    std::string line = key + ": " + oneLine(path) + beside;
-    line += beside.empty() ? " is not allowed, must lie below" : "; allowed is what lies below";
-    for (const fs::path& folder : folders) line += " " + folder.string();
-    lines.push_back(line + " (the environment variable " + kScanFoldersVariable + " of the node states these folders)");
+    const std::string elsewhere = whyElsewhere(path, folders);
+    if (!elsewhere.empty()) lines.push_back(key + ": " + elsewhere);
   }
   return lines;
 }

@@ -22,6 +22,12 @@ inline constexpr char kScanFoldersVariable[] = "MEMS_STICTION_SCAN_FOLDERS";
 /// Where links lead, without those that do not exist.
 std::vector<std::filesystem::path> scanFolders();
 
+/// Why a path may neither be read nor written, as it lies elsewhere; empty if it may. A link counts as what it leads to.
+std::string whyOutside(const std::string& path, const std::vector<std::filesystem::path>& folders);
+
+/// The same of a file with which others may be read: a link beside it of a like name, or another folder in its header.
+std::string whyElsewhere(const std::string& path, const std::vector<std::filesystem::path>& folders);
+
 /// One line per setting that names a file elsewhere, or one with which a file elsewhere may be read: a link beside it of
 /// a like name, or another folder in its header. A link counts as what it leads to.
 std::vector<std::string> filesElsewhere(const Configuration& configuration,
