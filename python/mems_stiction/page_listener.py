@@ -11,6 +11,7 @@ from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionRes
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
+SOURCE_STATUS = "scan_source"  # whatever the name of its node
 MAPS = ("height", "contacts")
 SMALLEST_PITCH, LARGEST_PITCH = 1e-12, 1e-3  # of a size that is shown [m]
 MAP_BUFFER = 2**28  # bytes: the newest map alone is kept
@@ -107,7 +108,8 @@ class PageListener:
 
     def _on_diagnostics(self, message):
         for status in message.status:
-            if status.name.split(":")[0].strip("/") == self._node.strip("/"):
+            node, _, what = status.name.partition(": ")
+            if node.strip("/") == self._node.strip("/") or what == SOURCE_STATUS:
                 self._state.add_diagnostics(status)
 
     def _on_feedback(self, message, kind):

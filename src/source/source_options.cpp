@@ -1,0 +1,85 @@
+#include "source/source_options.hpp"
+
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "mems_stiction/errors/errors.hpp"
+#include "ros/parameters.hpp"
+#include "settings/option_yaml.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// A list of texts as one text.
+void joinList(YAML::Node& tree, const std::string& key) {
+  if (!tree[key].IsDefined() || !tree[key].IsSequence()) return;
+  std::string joined;
+  for (const YAML::Node& entry : tree[key]) joined += (joined.empty() ? "" : ",") + entry.as<std::string>("");
+  tree[key] = joined;
+}
+
+std::vector<std::string> complaintsOf(const SourceOptions& options) {
+  std::vector<std::string> lines;
+  if (options.source == SourceKind::kFolder && options.folder.folder.empty()) {
+    lines.push_back("folder: is not stated, must be the folder that the instrument's program writes into");
+  }
+  if (options.scan.height_scale == 0.0) lines.push_back("scan/height_scale: 0 is not allowed, must not be 0");
+  return lines;
+}
+
+}  // namespace
+
+void FolderOptions::describe(OptionVisitor& visitor) {
+  visitor.text("folder", folder, "that the instrument's program writes its files into");
+  visitor.text("patterns", patterns,
+               "names of scans, a list or a text with commas: *.spm,*.di; empty = all but hidden and temporary ones");
+  visitor.flag("recursive", recursive, "folders below it are watched, too");
+  visitor.number("settle_time", settle_time, "s", Range::within(0.0, 3600.0),
+                 "a file that did not change for so long is whole");
+  visitor.number("poll_period", poll_period, "s", Range::within(0.05, 3600.0),
+                 "between looks at folders of which the system tells no change, as on network shares");
+  visitor.enumeration<OldFiles>("old_files", old_files,
+                                {{"all", OldFiles::kAll}, {"newest", OldFiles::kNewest}, {"none", OldFiles::kNone}},
+                                "which of the files that lie there at the first start are published");
+  visitor.text("name_pattern", name_pattern,
+               "regular expression over the name below the folder, with named groups: part_id, serial_id, lot_id, "
+               "wafer_id, site_x, site_y; a sidecar goes before it");
+  visitor.number("site_scale", site_scale, "m per unit", Range::positive(), "of site_x and site_y in names");
+  visitor.text("state_file", state_file,
+               "remembers which contents were published; empty = below ~/.ros, by the node's name and the folder");
+  visitor.text("channel", channel, "title or number of the channel to take; empty = the likeliest height channel");
+}
+
+void SourceOptions::describe(OptionVisitor& visitor) {
+  visitor.enumeration<SourceKind>("source", source, {{"folder", SourceKind::kFolder}}, "where scans come from");
+  visitor.text("listener", listener,
+               "node that must listen before a scan is published, of nodelets their manager; empty = anybody will do");
+  visitor.integer("max_ahead", max_ahead, Range::within(0, 1e6),
+                  "scans that are published beyond those that the node has answered; 0 = any number");
+  visitor.number("answer_timeout", answer_timeout, "s", Range::within(0.01, 1e9),
+                 "a scan that got no prediction for so long counts as answered, as one that was rejected");
+  visitor.number("diagnostic_period", diagnostic_period, "s", Range::within(0.01, 1e9),
+                 "between messages on /diagnostics");
+  folder.describe(visitor);
+}
+
+SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
+  SourceOptions options;
+  XmlRpc::XmlRpcValue parameters;
+  YAML::Node tree(YAML::NodeType::Map);
+  if (private_handle.getParam(private_handle.getNamespace(), parameters) &&
+      parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    tree = yamlFromParameters(parameters);
+  }
+  joinList(tree, "patterns");
+  std::vector<std::string> violations = readYaml(tree, [&](OptionVisitor& visitor) {
+    options.describe(visitor);
+    options.scan.describe(visitor);
+  });
+  if (violations.empty()) violations = complaintsOf(options);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+  return options;
+}
+
+}  // namespace mems_stiction

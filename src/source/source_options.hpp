@@ -1,0 +1,60 @@
+#pragma once
+
+/// @file
+/// The parameters of scan_source, read from its private namespace by the same tables as a configuration file.
+
+#include <string>
+
+#include <ros/node_handle.h>
+
+#include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+
+namespace mems_stiction {
+
+/// What lay in the folder before the first start.
+enum class OldFiles {
+  kAll,     ///< is published
+  kNewest,  ///< one of it is
+  kNone,    ///< is passed over
+};
+
+/// Where scans come from.
+enum class SourceKind {
+  kFolder,  ///< files that an instrument's program writes
+};
+
+/// The door `folder`.
+struct FolderOptions {
+  std::string folder;                   ///< that is watched
+  std::string patterns;                 ///< of names, with commas between them; empty = all
+  bool recursive = false;               ///< folders below it, too
+  double settle_time = 1.0;             ///< a file that did not change for so long is whole [s]
+  double poll_period = 2.0;             ///< between looks where the system tells of no change [s]
+  OldFiles old_files = OldFiles::kAll;  ///< at the first start, when there is no state file
+  std::string name_pattern;             ///< regular expression with named groups
+  double site_scale = 1e-3;             ///< of site_x and site_y in names [m per unit]
+  std::string state_file;               ///< which contents were published; empty = below ROS_HOME
+  std::string channel;                  ///< to take; empty = the likeliest height channel
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// The whole private namespace.
+struct SourceOptions {
+  SourceKind source = SourceKind::kFolder;
+  std::string listener;            ///< node without which nothing is published; empty = anybody will do
+  int max_ahead = 20;              ///< scans beyond those that the node has answered; 0 = any number
+  double answer_timeout = 60.0;    ///< the node's answer is waited for no longer [s]
+  double diagnostic_period = 1.0;  ///< between messages on /diagnostics [s]
+  FolderOptions folder;
+  ScanOptions scan;  ///< what files do not state of themselves
+
+  /// All but `scan`, which describes itself.
+  void describe(OptionVisitor& visitor);
+};
+
+/// @throw OptionsError one line per unknown key, wrong type or value out of range
+SourceOptions readSourceParameters(const ros::NodeHandle& private_handle);
+
+}  // namespace mems_stiction
