@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/fill_image.h>
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
@@ -24,12 +24,14 @@ struct HeightEncoding {
   std::string name;
   std::size_t scalar_size;  ///< [bytes]
   std::size_t channels;
+  int type;  ///< of a cv::Mat
 };
 
 const std::vector<HeightEncoding>& heightEncodings() {
   static const std::vector<HeightEncoding> encodings = {
-      {enc::TYPE_32FC1, 4, 1}, {enc::TYPE_64FC1, 8, 1}, {enc::TYPE_32FC2, 4, 2}, {enc::TYPE_16UC1, 2, 1},
-      {enc::MONO16, 2, 1},     {enc::TYPE_16SC1, 2, 1}, {enc::MONO8, 1, 1},      {enc::TYPE_8UC1, 1, 1}};
+      {enc::TYPE_32FC1, 4, 1, CV_32FC1}, {enc::TYPE_64FC1, 8, 1, CV_64FC1}, {enc::TYPE_32FC2, 4, 2, CV_32FC2},
+      {enc::TYPE_16UC1, 2, 1, CV_16UC1}, {enc::MONO16, 2, 1, CV_16UC1},     {enc::TYPE_16SC1, 2, 1, CV_16SC1},
+      {enc::MONO8, 1, 1, CV_8UC1},       {enc::TYPE_8UC1, 1, 1, CV_8UC1}};
   return encodings;
 }
 
@@ -67,7 +69,7 @@ const HeightEncoding& checkedEncoding(const sensor_msgs::Image& image) {
 
 /// A copy in this machine's byte order.
 cv::Mat swappedPixels(const sensor_msgs::Image& image, const HeightEncoding& encoding) {
-  cv::Mat pixels(static_cast<int>(image.height), static_cast<int>(image.width), cv_bridge::getCvType(image.encoding));
+  cv::Mat pixels(static_cast<int>(image.height), static_cast<int>(image.width), encoding.type);
   const std::size_t scalars = image.width * encoding.channels;
   for (int row = 0; row < pixels.rows; ++row) {
     const std::uint8_t* source = image.data.data() + std::size_t{image.step} * static_cast<std::size_t>(row);
@@ -165,25 +167,39 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
     return {image->header, measuredPart(heightMapFromPixels(swappedPixels(*image, encoding), options)), std::nullopt,
             identityOf(image->header, nullptr)};
   }
-  const cv_bridge::CvImageConstPtr shown = cv_bridge::toCvShare(image);
+  // Pixels of a message are shared and never written to.
+  const cv::Mat shown(static_cast<int>(image->height), static_cast<int>(image->width), encoding.type,
+                      const_cast<std::uint8_t*>(image->data.data()), image->step);
   const PixelOwner message(image.get(), [image](const void* /*message*/) {});
-  return {image->header, measuredPart(heightMapFromPixels(shown->image, options, message)), std::nullopt,
+  return {image->header, measuredPart(heightMapFromPixels(shown, options, message)), std::nullopt,
           identityOf(image->header, nullptr)};
+}
+
+sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding, const std_msgs::Header& header) {
+  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
+  const auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  message->encoding = encoding;
+  if (whole.empty()) return message;
+  sensor_msgs::fillImage(*message, encoding, static_cast<std::uint32_t>(whole.rows),
+                         static_cast<std::uint32_t>(whole.cols), static_cast<std::uint32_t>(whole.step), whole.data);
+  message->is_bigendian = kThisMachineIsBigEndian;
+  return message;
 }
 
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header) {
   cv::Mat narrow;
   heights.convertTo(narrow, CV_32F);
-  return cv_bridge::CvImage(header, enc::TYPE_32FC1, narrow).toImageMsg();
+  return imageMessage(narrow, enc::TYPE_32FC1, header);
 }
 
 sensor_msgs::ImagePtr exactHeightImage(const cv::Mat& heights, const std_msgs::Header& header) {
   if (isSinglePrecision(heights)) return heightImage(heights, header);
-  return cv_bridge::CvImage(header, enc::TYPE_64FC1, heights).toImageMsg();
+  return imageMessage(heights, enc::TYPE_64FC1, header);
 }
 
 sensor_msgs::ImagePtr contactMapImage(const cv::Mat& contact_map, const std_msgs::Header& header) {
-  return cv_bridge::CvImage(header, enc::MONO8, contact_map).toImageMsg();
+  return imageMessage(contact_map, enc::MONO8, header);
 }
 
 }  // namespace mems_stiction

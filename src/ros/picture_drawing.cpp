@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgproc.hpp>
 
 #include "errors/short_number.hpp"
+#include "ros/image_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -95,7 +95,7 @@ std::string figuresText(double pull_off_force, double apparent_work_of_adhesion,
 }
 
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header) {
-  return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, picture).toImageMsg();
+  return imageMessage(picture, sensor_msgs::image_encodings::BGR8, header);
 }
 
 }  // namespace mems_stiction

@@ -11,7 +11,7 @@ FIRST_ROOM_WITH_ROS = "ros"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:mems_stiction/)?(\w+)/\w+\.hpp"')
 PUBLIC = REPOSITORY / "include"
 ONE_FOR_ALL = "mems_stiction/mems_stiction.hpp"
-ROS = re.compile(r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|cv_bridge|nodelet|image_transport)")
+ROS = re.compile(r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|nodelet|image_transport)")
 
 
 def rooms_of_the_page():
