@@ -241,7 +241,10 @@ except KeyboardInterrupt:
 
 class InterruptionTest(unittest.TestCase):
     def test_ctrl_c_stops_it(self):
-        process = subprocess.Popen([sys.executable, "-W", "ignore", "-c", LONG], stdout=subprocess.PIPE, universal_newlines=True)
+        process = subprocess.Popen([sys.executable, "-W", "ignore", "-c", LONG], stdout=subprocess.PIPE, universal_newlines=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
         self.assertEqual(process.stdout.readline(), "started\n")
         time.sleep(1.0)
         self.assertIsNone(process.poll(), "the device is too small to be interrupted")

@@ -119,7 +119,10 @@ class ThreadTest(unittest.TestCase):
         self.interrupt("predict(heights, 20e-9, half_space=True")
 
     def interrupt(self, call):
-        process = subprocess.Popen([sys.executable, "-c", LONG % call], stdout=subprocess.PIPE, universal_newlines=True)
+        process = subprocess.Popen([sys.executable, "-c", LONG % call], stdout=subprocess.PIPE, universal_newlines=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
         self.assertEqual(process.stdout.readline(), "started\n")
         time.sleep(1.0)
         self.assertIsNone(process.poll(), "the frame is too small to be interrupted")

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
+import weasyprint
 from mems_stiction import report
 from mems_stiction.quantities import unbroken
 from mems_stiction.report_device import device_lines, measurements_of
@@ -82,16 +83,12 @@ class PageTest(unittest.TestCase):
             pathlib.Path(str(path) + ".yaml").write_text("pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n")
         (cls.folder / "device.yaml").write_text("load: {mechanical_load: 1.0e-6}\npreprocessing: {spikes: {enabled: true}, level: plane}\n"
                                                 "device: {spring_stiffness: 100.0, travel: 1.0e-6, contact_area: 1.0e-11}\ndevice_force: {enabled: false}\n")
-        done = subprocess.run([find_node("mems_stiction", "stiction_report")[0], "--pdf", "-c", cls.folder / "device.yaml", "-o", cls.folder / "r.html"] + scans,
+        done = subprocess.run([find_node("mems_stiction", "stiction_report")[0], "-c", cls.folder / "device.yaml", "-o", cls.folder / "r.html"] + scans,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=600)
         assert done.returncode == 0, done.stderr
         cls.text = (cls.folder / "r.html").read_text(encoding="utf-8")
-
-    def pages(self, text):
-        """The words of each page as it is printed."""
-        import weasyprint
-
-        return [" ".join(box.text for box in page._page_box.descendants() if hasattr(box, "text")) for page in weasyprint.HTML(string=text).render().pages]
+        printed = weasyprint.HTML(string=cls.text).render().pages
+        cls.pages = [" ".join(box.text for box in page._page_box.descendants() if hasattr(box, "text")) for page in printed]  # their words
 
     def test_units_stay_with_their_numbers_and_what_is_copied_stays_as_it_is(self):
         words = plain(self.text)
@@ -101,14 +98,14 @@ class PageTest(unittest.TestCase):
         self.assertEqual(html.unescape(given), (self.folder / "device.yaml").read_text())
 
     def test_the_device_and_the_table_stand_on_the_first_page_and_pages_are_filled(self):
-        pages = self.pages(self.text)
+        pages = self.pages
         for expected in ("The device", "stiffness of the suspension", "100" + NO_BREAK + "µN", "afm_%d.txt" % SCANS):
             self.assertIn(expected, pages[0])
         self.assertLessEqual(len(pages), 2 * SCANS + 4)
 
     def test_a_heading_stands_with_its_picture(self):
         """No page ends with the heading of a scan."""
-        for page in self.pages(self.text):
+        for page in self.pages:
             if re.search(r"\d: afm[_\d]*\.txt", page):
                 self.assertRegex(page, "formulation|Trends")
 

@@ -130,7 +130,7 @@ TEST(TiledSurface, seedsAreIndependent) {
   const SurfaceSpectrum spectrum = gaussian(20e-9);
   std::vector<double> correlations;
   TiledSurface surface(spectrum, 512, 512, kPitch, kPitch, 0);
-  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
     surface.reseed(seed);
     const cv::Mat a = part(surface, 0, 0, 512, 512);
     // of neighbouring seeds, and of seeds that differ in their upper half alone
@@ -140,7 +140,7 @@ TEST(TiledSurface, seedsAreIndependent) {
   }
   const Mean mean = meanOf(correlations);
   EXPECT_NEAR(mean.value, 0.0, 4.0 * mean.error);
-  EXPECT_LT(mean.error, 0.003);  // 512^2/(2 pi 2^2) independent places in each
+  EXPECT_LT(mean.error, 0.005);  // 512^2/(2 pi 2^2) independent places in each
 }
 
 // ---------------------------------------------------------------- statistics
@@ -234,7 +234,7 @@ TEST(TiledSurface, hasTheVarianceAndTheAutocorrelationThatWereAskedFor) {
   constexpr int kSide = 768;
   constexpr double kLength = 30.0;  // pixels: over levels 0, 1 and 2
   const SurfaceSpectrum spectrum = gaussian(kLength * kPitch);
-  constexpr std::uint64_t kRealisations = 24;
+  constexpr std::uint64_t kRealisations = 12;
   const std::array<std::pair<int, int>, 7> lags = {{{0, 0}, {0, 10}, {10, 0}, {20, 20}, {20, -20}, {0, 40}, {60, 0}}};
   std::array<std::vector<double>, lags.size()> found;
   TiledSurface surface(spectrum, kSide, kSide, kPitch, kPitch, 0);
@@ -250,7 +250,7 @@ TEST(TiledSurface, hasTheVarianceAndTheAutocorrelationThatWereAskedFor) {
     const double distance = std::hypot(lags[i].first, lags[i].second) / kLength;
     const Mean mean = meanOf(found[i]);
     EXPECT_NEAR(mean.value, std::exp(-distance * distance), 4.0 * mean.error + 1e-3) << distance;
-    EXPECT_LT(mean.error, 0.03);
+    EXPECT_LT(mean.error, 0.045);
   }
 }
 

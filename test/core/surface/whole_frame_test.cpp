@@ -50,10 +50,10 @@ TEST(WholeFrame, hasTheVarianceAndTheStepsOfSurfacesMadeInBlocks) {
   TiledSurface whole(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kWhole);
   TiledSurface blocks(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kSmall);
   EXPECT_NEAR(whole.variance() / selfAffine().variance(), 1.0, 0.02) << "sampled at the waves of the frame";
-  const int count = 100;
+  const int count = 40;
   const Moments of_whole = momentsOf(whole, count);
-  // some four independent places a surface: 100 of them tell a variance to some 8 %
-  EXPECT_NEAR(of_whole.square / whole.variance(), 1.0, 0.24);
+  // some four independent places a surface: 40 of them tell a variance to some 13 %
+  EXPECT_NEAR(of_whole.square / whole.variance(), 1.0, 0.38);
   EXPECT_NEAR(of_whole.step / momentsOf(blocks, count).step, 1.0, 0.05);
 }
 
@@ -71,13 +71,13 @@ TEST(WholeFrame, isTheSameForASeedWhateverIsAskedOfIt) {
 TEST(WholeFrame, doesNotMeetItselfAtItsEdges) {
   TiledSurface surface(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kWhole);
   double product = 0.0;
-  const int count = 200;
+  const int count = 80;
   for (int seed = 1; seed <= count; ++seed) {
     surface.reseed(static_cast<std::uint64_t>(seed));
     const cv::Mat heights = made(surface);
     product += cv::mean(heights.col(0).mul(heights.col(kSide - 1)))[0] / count;
   }
-  EXPECT_LT(std::abs(product), 0.25 * surface.variance()) << "neighbours would have nearly all of it";
+  EXPECT_LT(std::abs(product), 0.4 * surface.variance()) << "neighbours would have nearly all of it";
 }
 
 TEST(WholeFrame, ofAnEvenSpectrumIsTheSameByHalfOfIt) {
