@@ -12,8 +12,8 @@ from mems_stiction import _core
 from mems_stiction._settings import Settings, SurfaceError
 
 # As SurfaceTopography writes them.
-METRES = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "A": 1e-10, "Å": 1e-10,
-          "Å": 1e-10, "pm": 1e-12}
+METRES = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "A": 1e-10, "\u00c5": 1e-10,
+          "\u212b": 1e-10, "pm": 1e-12}
 AS_IT_IS = ("float32", "float64", "uint8", "uint16", "int16")
 
 Pitch = Union[float, Sequence[float]]

@@ -11,7 +11,6 @@ Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 

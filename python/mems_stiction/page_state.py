@@ -4,7 +4,6 @@ Callbacks of topics write, the server reads; both may come from any thread. What
 """
 
 import collections
-import math
 import re
 import threading
 import time

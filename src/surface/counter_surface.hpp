@@ -3,13 +3,13 @@
 /// @file
 /// What is the scan brought into contact with?
 ///
-/// | type        | heights                                                         | beyond its edge            |
-/// |-------------|-----------------------------------------------------------------|----------------------------|
-/// | flat        | a plane                                                         | goes on                    |
-/// | topic       | a measured height map that arrives beside the scans             | nothing: cells are invalid |
-/// | file        | a scan file of any kind that scan_file.hpp reads, read once     | nothing: cells are invalid |
-/// | gaussian    | random heights of given lengths, skewness and kurtosis          | wraps around               |
-/// | self_affine | random heights, alike on many scales                            | wraps around               |
+/// | type        | heights                                            | beyond its edge            |
+/// |-------------|----------------------------------------------------|----------------------------|
+/// | flat        | a plane                                            | goes on                    |
+/// | topic       | a measured height map that comes beside the scans  | nothing: cells are invalid |
+/// | file        | a scan file that scan_file.hpp reads, read once    | nothing: cells are invalid |
+/// | gaussian    | random heights, lengths, skewness and kurtosis     | wraps around               |
+/// | self_affine | random heights, alike on many scales               | wraps around               |
 ///
 /// Generated surfaces have the scan's size and pitch, and depend on it and the seed alone: the same scan size gives the
 /// same surface. They are described as a probe would see them, asperities up, and turned over for mounting. Where each

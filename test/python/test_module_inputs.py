@@ -255,7 +255,7 @@ class VerdictTest(unittest.TestCase):
 
     def test_a_half_space_that_can_judge_does(self):
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
-        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device_force": {"enabled": False},
+        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10},
                     "device": dict(DEVICE, contact_area=(32 * pitch) ** 2), "device_force": FEW}
         solved = mems_stiction.half_space(heights, pitch, settings)
         self.assertTrue(solved.is_resolved)

@@ -67,10 +67,10 @@ class TrialRun(unittest.TestCase):
         return kind(self.study, results, data.Sweep(self.study, results), self.folder / "work" / "dump")
 
     def changed(self, change):
-        """The results after change(name, figures) went over each case."""
+        """The results after change(name, found) went over each case."""
         results = copy.deepcopy(self.record["results"])
-        for name, figures in results.items():
-            change(name, figures)
+        for name, found in results.items():
+            change(name, found)
         return results
 
     def row(self, name, **arguments):
@@ -195,8 +195,8 @@ class TrialRun(unittest.TestCase):
         pairs = [cases.pair(cases.SILICON, 64, seed, [cases.case("a/%d" % seed, cases.SILICON, 1e-10 * seed, {})]) for seed in range(1, 6)]
         one, three = (cases.run(pairs, jobs, lambda: None) for jobs in (1, 3))
         self.assertEqual(len(one), 5)
-        for name, figures in one.items():
-            del figures["processing_time"], three[name]["processing_time"]
+        for name, found in one.items():
+            del found["processing_time"], three[name]["processing_time"]
         self.assertEqual(one, three)
 
     def test_a_setting_that_does_not_exist_is_an_error_that_names_it(self):

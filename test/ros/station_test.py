@@ -256,7 +256,7 @@ class StationTest(unittest.TestCase):
     def test_7_scans_go_on_beside_an_action_and_it_can_be_cancelled(self):
         surface = rough_surface(4, rows=128, cols=128)
         self.live(surface)
-        received, predicted = int(self.counts["received"]), len(self.predictions.messages)
+        predicted = len(self.predictions.messages)
         for client, goal in ((self.cycle, CycleContactGoal(count=1000000)),
                              (self.sweep, SweepLoadGoal(voltages=[i * 1e-4 for i in range(200000)]))):
             feedback = []

@@ -5,17 +5,17 @@
 ///
 /// The steps run in this order; each is off by default.
 ///
-/// | step      | what                              | why here                                                      |
-/// |-----------|-----------------------------------|---------------------------------------------------------------|
-/// | region    | region.hpp                        | first: what does not count bears on no other step             |
-/// | offset    | stage_offset.hpp                  | early, so that everything after it has all its digits         |
-/// | lines     | line_alignment.hpp                | medians do not mind spikes; spikes show only on aligned lines |
-/// | spikes    | spike_removal.hpp                 | leaves holes                                                  |
-/// | fill      | fill_holes.hpp                    | closes missing pixels and those holes                         |
-/// | tip       | tip_correction.hpp                | the tip pointed along the instrument's z: before levelling    |
-/// | level     | levelling.hpp                 |                                                               |
-/// | low_pass  | low_pass.hpp                      | its border needs a level surface                              |
-/// | refine    | refine.hpp                        | last: every step before it is cheaper on fewer pixels         |
+/// | step     | what               | why here                                                     |
+/// |----------|--------------------|--------------------------------------------------------------|
+/// | region   | region.hpp         | first: what does not count bears on no other step            |
+/// | offset   | stage_offset.hpp   | early, so that everything after it has all its digits        |
+/// | lines    | line_alignment.hpp | medians do not mind spikes; spikes show on aligned lines     |
+/// | spikes   | spike_removal.hpp  | leaves holes                                                 |
+/// | fill     | fill_holes.hpp     | closes missing pixels and those holes                        |
+/// | tip      | tip_correction.hpp | the tip pointed along the instrument's z: before levelling   |
+/// | level    | levelling.hpp      |                                                              |
+/// | low_pass | low_pass.hpp       | its border needs a level surface                             |
+/// | refine   | refine.hpp         | last: every step before it is cheaper on fewer pixels        |
 ///
 ///     PipelineOptions options;
 ///     options.level.shape = LevelShape::kPlane;
