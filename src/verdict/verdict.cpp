@@ -155,19 +155,56 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   return finding;
 }
 
-/// Of a beam whose force and whose work of adhesion are both known, that which decides (peelLength()).
+/// The decay length of a bonded beam over peelLength(), which is half of it: ends of a contact that are further apart do not feel each
+/// other [-].
+constexpr double kDecayLength = 2.0;
+
+/// How far along a beam adhesion gives way at one time (peelLength()), and between which lengths a contact is neither pulled open as a
+/// whole nor peeled: from the shortest that 95 % contain to the longest decay length [m].
+struct PeelReach {
+  double length = 0.0;
+  double shortest = 0.0;
+  double longest = 0.0;
+};
+
+/// Force and work rise together, as their quantiles do.
+PeelReach peelReach(const Holding& holding, const Verdict& verdict) {
+  const DeviceOptions& device = holding.device;
+  const Beam beam = device.beam();
+  const double pressure = verdict.device_pull_off_force / device.contact_area;
+  PeelReach reach;
+  reach.length = reach.shortest = peelLength(beam, verdict.apparent_work_of_adhesion, pressure);
+  reach.longest = kDecayLength * reach.length;
+  if (!holding.spread.isKnown()) return reach;
+  for (const double share : {kLowerShare, kUpperShare}) {
+    const bool is_measured = device.apparent_work_of_adhesion > 0.0;
+    const double work_factor = is_measured ? 1.0 : quantile(holding.spread.apparent_work, share);
+    const double length = peelLength(beam, verdict.apparent_work_of_adhesion * work_factor,
+                                     pressure * quantile(holding.spread.pull_off, share));
+    reach.shortest = std::min(reach.shortest, length);
+    reach.longest = std::max(reach.longest, kDecayLength * length);
+  }
+  return reach;
+}
+
+/// Of a beam whose force and whose work of adhesion are both known, that which decides: by how far the contact reaches, and the
+/// worse of both where that leaves it open.
 Finding governingFinding(const Holding& holding, Finding of_force, Finding of_work, Verdict& verdict) {
   if (std::isnan(verdict.margin) || std::isnan(verdict.peel_number) || std::isinf(verdict.margin)) return of_work;
-  const DeviceOptions& device = holding.device;
-  const double reach = device.beamContactLength();
-  const double peeled =
-      peelLength(device.beam(), verdict.apparent_work_of_adhesion, verdict.device_pull_off_force / device.contact_area);
-  const bool is_force = reach < peeled;
+  const double reach = holding.device.beamContactLength();
+  const PeelReach peeled = peelReach(holding, verdict);
+  const bool is_open = reach > peeled.shortest && reach < peeled.longest;
+  const int worse_force = is_open ? gravity(of_force.sticks) - gravity(of_work.sticks) : 0;
+  const bool is_force = worse_force != 0 ? worse_force > 0 : reach < peeled.length;
   verdict.governed_by = is_force ? kGovernedByForce : kGovernedByPeeling;
   Finding finding = is_force ? std::move(of_force) : std::move(of_work);
-  finding.reason += "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " +
-                    (is_force ? "less" : "further") + " than the " + shortNumber(peeled, 2) +
-                    " m over which adhesion gives way at one time, so that " +
+  const std::string whole = "pulled open as a whole (up to " + shortNumber(peeled.shortest, 2) + " m)";
+  const std::string peeling = "peeled (from " + shortNumber(peeled.longest, 2) + " m on)";
+  const std::string compared =
+      is_open ? "between being " + whole + " and " + peeling + ", so that the worse of both counts: "
+              : std::string(is_force ? "less" : "further") + " than the " + shortNumber(peeled.length, 2) +
+                    " m over which adhesion gives way at one time, so that ";
+  finding.reason += "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " + compared +
                     (is_force ? "its force decides (peel number " + shortNumber(verdict.peel_number, 2) + ")"
                               : "it is peeled (the margin of its force is " + shortNumber(verdict.margin, 2) + ")");
   return finding;

@@ -1,7 +1,9 @@
 #include "mems_stiction/verdict/verdict.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <type_traits>
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/finding.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 #include "verdict/regime_flags.hpp"
@@ -284,6 +287,37 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   const Verdict unstated = verdictFor(spheres, device);
   EXPECT_EQ(unstated.governed_by, "");
   EXPECT_TRUE(std::isnan(unstated.margin));
+}
+
+/// Widths that take the contact from beyond all lengths over which adhesion may give way to below them: between, no answer is better
+/// than the worse of force and peeling.
+TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOpen) {
+  const Spheres spheres;
+  int open = 0;
+  std::string last;
+  for (const double length : {100e-6, 200e-6, 300e-6, 400e-6, 600e-6}) {
+    DeviceOptions device = cantilever(length);
+    device.contact_area = spheres.prediction.nominal_area;
+    for (double share = 0.9; share > 1e-4; share *= 0.95) {
+      device.beam_width = device.contact_area / (share * device.beam_length);
+      const Verdict verdict = verdictFor(spheres, device);
+      if (verdict.reason.find("the worse of both counts") == std::string::npos) continue;
+      ++open;
+      const auto wordOf = [](double lower, double upper) {
+        return upper < 1.0 ? Sticks::kYes : lower > 1.0 ? Sticks::kNo : Sticks::kMarginal;
+      };
+      const Sticks by_force = wordOf(std::min(verdict.margin_lower, verdict.margin_transition), verdict.margin_upper);
+      const Sticks by_peeling = wordOf(verdict.peel_number_lower, verdict.peel_number_upper);
+      const bool is_force_worse = gravity(by_force) > gravity(by_peeling);
+      EXPECT_EQ(verdict.sticks, is_force_worse ? by_force : by_peeling) << verdict.reason;
+      if (by_force != by_peeling) {
+        EXPECT_EQ(verdict.governed_by, is_force_worse ? kGovernedByForce : kGovernedByPeeling) << verdict.reason;
+        last = verdict.reason;
+      }
+    }
+  }
+  EXPECT_GT(open, 5) << "widths near the threshold";
+  EXPECT_NE(last, "") << "where force and peeling say two things";
 }
 
 TEST(VerdictFields, showEveryFigureOnce) {
