@@ -132,6 +132,16 @@ class TrialRun(unittest.TestCase):
             if name.startswith("sweep/"):
                 figures["contact_fraction"] = 1 - figures["contact_fraction"]
 
+        def flow_weakens(name, figures):
+            if name.startswith("pressed/") and "/flow/" in name:
+                for field in ("half_space_contact_fraction", "half_space_pull_off_force", "contact_fraction", "pull_off_force"):
+                    figures[field] *= 1e-6
+
+        for solver in claims.SOLVERS:
+            for of_what in ("larger_area", "higher_pull_off"):
+                name = "%s_by_%s" % (of_what, solver)
+                self.assertIn(self.row(name).verdict, (claims.YES, claims.PART), self.row(name).came_out)
+                self.assertEqual(self.row(name, results=self.changed(flow_weakens)).verdict, claims.NO, name)
         for name, change, before in (("energy_outside_bonding", weak, claims.YES), ("larger_area_gold", shrunk, claims.YES),
                                      ("three_regimes", elastic, claims.YES), ("plastic_without_load", elastic, claims.YES),
                                      ("falls", rough_bonds, claims.PART)):
@@ -165,7 +175,7 @@ class TrialRun(unittest.TestCase):
     def test_the_paper_s_formulation_is_stated_whatever_the_default(self):
         for pair in cases.all_pairs(self.study, pathlib.Path("dump")):
             for case in pair["cases"]:
-                is_beside = case["name"].startswith("half_space/") or "/separation_curve/" in case["name"]
+                is_beside = case["name"].startswith(("half_space/", "pressed/")) or "/separation_curve/" in case["name"]
                 self.assertEqual(case["settings"]["approach/formulation"], "separation_curve" if is_beside else "paper", case["name"])
 
     def test_beside_the_paper_s_forms_no_energy_exceeds_the_work_of_adhesion(self):

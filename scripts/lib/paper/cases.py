@@ -94,9 +94,16 @@ WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw
 PARAMETERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.0, 9.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0, 40.0, 55.0, 75.0, 100.0)
 ROUGH_PARAMETERS = (55.0, 100.0)  # where the regimes' part is told one by one
 QUICK_PARAMETERS = (0.1, 1.0, 5.0, 12.0, 25.0, 50.0, 100.0)
-HALF_SPACE_FIGURES = ("status", "apparent_work_of_adhesion", "contact_fraction")
+HALF_SPACE_FIGURES = ("status", "apparent_work_of_adhesion", "contact_fraction", "pull_off_force")
 HALF_SPACE_PARAMETERS = (0.3, 1.0, 3.0, 7.0, 12.0, 20.0, 30.0, 55.0, 100.0)
 QUICK_HALF_SPACE_PARAMETERS = (1.0, 12.0, 100.0)
+
+
+# Conclusion 4 by the default and by the half-space: adhesion parameters of pairs pressed by these multiples of the hardness,
+# with the materials' hardness and as if nothing could flow.
+PRESSED_PARAMETERS = (30.0, 100.0, 300.0)
+PRESSES = (0.02, 0.1)
+NEVER_FLOWS = {"lower/hardness": 1e15, "upper/hardness": 1e15}
 
 
 class Study:
@@ -108,6 +115,8 @@ class Study:
         self.small_size = min(size, 512)  # rows of the table that need no statistics
         self.adhesion_parameters = np.array(QUICK_PARAMETERS if is_quick else PARAMETERS)
         self.half_space_parameters = np.array(QUICK_HALF_SPACE_PARAMETERS if is_quick else HALF_SPACE_PARAMETERS)
+        self.pressed_parameters = np.array(PRESSED_PARAMETERS[2:] if is_quick else PRESSED_PARAMETERS)
+        self.presses = PRESSES[1:] if is_quick else PRESSES
         self.half_space_seeds, self.half_space_size = (1, 48) if is_quick else (3, 128)  # seconds each at the latter
 
 
@@ -178,6 +187,22 @@ def half_space_pairs(study):
                  "half_space": True} for number, parameter in enumerate(study.half_space_parameters)])
 
 
+def pressed_name(material, is_flowing, number, press, seed):
+    return "pressed/%s/%s/%d/%g/%d" % (material.name, "flow" if is_flowing else "elastic", number, press, seed)
+
+
+def pressed_pairs(study):
+    """The same small frames under a load, with flow and without, by the default formulation and by the half-space."""
+    for seed in range(1, study.half_space_seeds + 1):
+        for material in MATERIALS:
+            area = (study.half_space_size * material.pitch)**2
+            yield pair(material, study.half_space_size, seed, [
+                {**case(pressed_name(material, is_flowing, number, press, seed), material, material.rms_height(parameter),
+                        {**BESIDE.settings, "load/mechanical_load": press * material.hardness * area, **({} if is_flowing else NEVER_FLOWS)}),
+                 "half_space": True}
+                for number, parameter in enumerate(study.pressed_parameters) for press in study.presses for is_flowing in (True, False)])
+
+
 def load_on(size, material):
     return CONTACT_PRESSURE * (size * material.pitch)**2
 
@@ -220,7 +245,8 @@ def table_pairs(study, dump):
 
 
 def all_pairs(study, dump):
-    return list(map_pairs(study, dump)) + list(table_pairs(study, dump)) + list(sweep_pairs(study)) + list(half_space_pairs(study))
+    return list(map_pairs(study, dump)) + list(table_pairs(study, dump)) + list(sweep_pairs(study)) + list(half_space_pairs(study)) + list(
+        pressed_pairs(study))
 
 
 def surface_of(wanted, pair):

@@ -9,7 +9,7 @@ import numpy as np
 from mems_stiction.plots import with_unit
 from mems_stiction.quantities import percent
 from paper import cases, theory
-from paper.data import band, crossing, maps_of, number
+from paper.data import PressedFrames, band, crossing, maps_of, number
 from paper.figures import counts_of, max_tilts, surface_slope
 
 YES, PART, NO, OPEN = "comes out", "comes out in part", "does not come out", "not tested"
@@ -51,6 +51,8 @@ def all_rows(facts):
     makers = [energy_extremum, three_regimes, tilt, interface, section_regimes, bonding_limits, theory_comparison, falls]
     for of_material in (stops_later, larger_area, higher_pull_off):
         makers += [functools.partial(of_material, material=material) for material in cases.MATERIALS]
+    for solver in SOLVERS:
+        makers += [functools.partial(of_solver, solver=solver) for of_solver in (larger_area_by, higher_pull_off_by)]
     makers += [arbitrary_surfaces, material_topography, neighbours_only, van_der_waals_close, van_der_waals_rough,
                plastic_without_load, energy_outside_bonding, friction]
     return [maker(facts) for maker in makers]
@@ -233,6 +235,44 @@ def higher_pull_off(facts, material):
     note = " Smaller where the sum of radii in (11) falls." if smaller else ""
     return Row("higher_pull_off_" + material.name, "conclusions 4, fig. 6", "... and the pull-off force is higher: %s." % material.name,
                "The same pairs.", said + "." + note, verdict(larger > 0 and smaller == 0, larger > smaller))
+
+
+SOLVERS = {"separation curve": "", "half-space": "half_space_"}
+SAME = 0.01  # of two figures: nearer than the half-space is solved
+
+
+def compare_pressed(facts, solver, field):
+    """By a solver that counts adhesion once: what came out, and the numbers of smaller, equal and larger values."""
+    said, numbers = [], np.zeros(3, dtype=int)
+    for material in cases.MATERIALS:
+        flow, elastic = PressedFrames(facts.study, facts.results).with_and_without_flow(material, SOLVERS[solver] + field)
+        ratio = (flow / elastic)[np.isfinite(flow / elastic)]
+        if not ratio.size:
+            continue
+        counts = np.array([np.sum(ratio < 1 - SAME), np.sum(np.abs(ratio - 1) <= SAME), np.sum(ratio > 1 + SAME)])
+        numbers += counts
+        said.append("%s: larger in %d, equal within 1 %% in %d, smaller in %d of %d, median %s times, at most %s" % (
+            material.name, counts[2], counts[1], counts[0], ratio.size, number_text(float(np.median(ratio))), number_text(float(ratio.max()))))
+    return "; ".join(said) or "no such pair", numbers
+
+
+def pressed_ran(facts):
+    return "%d pair%s of each material at θ of %s, pressed by %s of the hardness over the frame; the same pairs as if nothing could flow." % (
+        facts.study.half_space_seeds, "" if facts.study.half_space_seeds == 1 else "s", ", ".join("%g" % one for one in facts.study.pressed_parameters),
+        " and ".join(percent(press) for press in facts.study.presses))
+
+
+def larger_area_by(facts, solver):
+    said, (smaller, _, larger) = compare_pressed(facts, solver, "contact_fraction")
+    return Row("larger_area_by_" + solver, "conclusions 4, fig. 7",
+               "If asperities do not deform elastically, the real contact area is larger than in the elastic case: by the %s." % solver,
+               pressed_ran(facts), said + ".", verdict(larger > 0 and smaller == 0, larger > smaller))
+
+
+def higher_pull_off_by(facts, solver):
+    said, (smaller, _, larger) = compare_pressed(facts, solver, "pull_off_force")
+    return Row("higher_pull_off_by_" + solver, "conclusions 4, fig. 6", "... and the pull-off force is higher: by the %s." % solver,
+               "The same pairs.", said + ".", verdict(larger > 0 and smaller == 0, larger > smaller))
 
 
 def at_rough_ends(facts, material):

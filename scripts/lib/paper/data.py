@@ -56,6 +56,25 @@ class HalfSpaceFrames:
                  for seed in range(1, self._study.half_space_seeds + 1)] for place in range(len(self.parameters))]
 
 
+class PressedFrames:
+    """The small frames under a load: arrays of flow and of the elastic case, parameters x presses x seeds."""
+
+    def __init__(self, study, results):
+        self._study, self._results = study, results
+
+    def with_and_without_flow(self, material, field):
+        """A pair of arrays. `field` of the default; "half_space_..." of the half-space, NaN where it was not solved."""
+        return tuple(np.array([[[self._value(cases.pressed_name(material, is_flowing, number, press, seed), field)
+                                 for seed in range(1, self._study.half_space_seeds + 1)] for press in self._study.presses]
+                               for number in range(len(self._study.pressed_parameters))]) for is_flowing in (True, False))
+
+    def _value(self, name, field):
+        one = self._results[name]
+        if field.startswith("half_space_") and one["half_space_status"] != "SOLVED":
+            return math.nan
+        return number(one[field])
+
+
 BAND = (16, 84)  # percentiles of the seeds: one standard deviation to either side, were they normal
 
 
