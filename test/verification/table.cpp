@@ -186,7 +186,7 @@ std::string rowsText(const Section& section) {
 void writeRow(const char* begin, const std::string& source, const std::string& rows, const Row& row,
               const std::string& order, std::ostringstream& page) {
   page << begin << cell(source) << " | " << rows << " | " << cell(row.quantity) << " | " << errorText(row.error())
-       << " | " << toleranceText(row) << ": " << cell(row.reason) << " | " << order << " |\n";
+       << " | " << toleranceText(row) << " | " << order << " |\n";
 }
 
 void writeSection(const Section& section, std::ostringstream& page) {
@@ -286,7 +286,8 @@ std::string markdownPage(const std::vector<Section>& sections) {
           "test/verification. `scripts/verify` prints every row, writes this summary, and fails when a row is\n"
           "out.\n\n"
           "- A table has one line for each reference. The line names the row whose error is nearest to its\n"
-          "  limit. *error*: |computed/reference - 1|, or |computed| where the reference is 0.\n"
+          "  limit. *error*: |computed/reference - 1|, or |computed| where the reference is 0. `scripts/verify`\n"
+          "  prints the reason of each limit.\n"
           "- *lowest order*: of the rows that depend on a grid, p in error ~ pitch^p. Their error is that of the\n"
           "  finest grid.\n"
           "- A row is out if its error exceeds what is allowed, or if its order is too low.\n\n"
