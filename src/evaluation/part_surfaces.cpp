@@ -24,10 +24,12 @@ std::size_t bytesOf(const PreparedScan& scan) {
          (haveSamePixels(scan.surfaces, model) ? 0 : bytesOf(model.lower) + bytesOf(model.upper));
 }
 
+/// And what they do not show.
 PreparedScan surfacesAlone(const PreparedScan& scan) {
   PreparedScan alone;
   alone.surfaces = scan.surfaces;
   alone.model_surfaces = scan.model_surfaces;
+  alone.short_waves = scan.short_waves;
   return alone;
 }
 

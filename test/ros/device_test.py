@@ -10,6 +10,7 @@ import time
 import unittest
 
 import dynamic_reconfigure.client
+import numpy as np
 import rospy
 import rostest
 import yaml
@@ -226,6 +227,22 @@ class DeviceTest(unittest.TestCase):
         last = self.verdicts_until_the_final_one(refused.header.stamp)[-1]
         self.assertEqual((last.word, last.by_device_force), ("unknown", False))
         self.assert_is_force_of(self.send(surface(6))[1], [surface(6)])
+
+    def test_5b_a_scan_that_does_not_show_what_holds_is_unknown_until_its_part_has_one_that_does(self):
+        coarse = np.random.RandomState(8).normal(scale=5e-9, size=(SMALL, SMALL)).astype(np.float32)  # no pixel knows its neighbour
+        prediction, device = self.send(coarse, ("plate", "8"))
+        self.assertIn("unresolved", prediction.flags)
+        self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_UNRESOLVED and prediction.needed_pitch < PITCH)
+        self.assertTrue(any("missing is AFM" in warning for warning in prediction.warnings), prediction.warnings)
+        self.assertEqual(device.sticks, StictionPrediction.STICKS_UNKNOWN)
+        said = self.verdicts_until_the_final_one(prediction.header.stamp)
+        self.assertEqual({message.word for message in said}, {"unknown"})
+        self.assertIn("no scan shows what holds", said[-1].reason)
+        prediction, device = self.send(surface(9), ("plate", "8"))
+        self.assertNotIn("unresolved", prediction.flags)
+        self.assertEqual(device.scan_count, 2)
+        self.assert_judged(device)
+        self.assertNotEqual(self.verdicts_until_the_final_one(prediction.header.stamp)[-1].word, "unknown")
 
     def test_6_without_a_contact_area_nothing_is_made(self):
         self.settings.update_configuration({"contact_area": 0.0})

@@ -120,5 +120,20 @@ TEST(PartSurfaces, MemoryIsThatOfUpperAndRefinedSurfacesToo) {
   EXPECT_EQ(parts.bytes(), 7 * kBytes);
 }
 
+/// Pixels of which none knows its neighbour are not believed because a part holds them.
+TEST(PartSurfaces, ADeviceKnowsWhatItsScansDoNotShow) {
+  Configuration configuration;
+  configuration.device.contact_area = 4e-12;
+  configuration.device_force.realisations = 3;
+  configuration.device_force.max_cells = 1e4;
+  cv::Mat heights(64, 64, CV_64FC1);
+  cv::RNG(8).fill(heights, cv::RNG::NORMAL, 0.0, 5e-9);
+  ScanPreparer preparer(configuration);
+  PartSurfaces parts(kPlenty);
+  parts.add(kPart, 1, named("a"), preparer.prepare(HeightMap(heights, 1e-8, 1e-8)));
+  const DeviceForce force = parts.of(kPart)->together(configuration).force();
+  EXPECT_NE(force.missing_scan.find("missing is AFM"), std::string::npos) << force.missing_scan;
+}
+
 }  // namespace
 }  // namespace mems_stiction
