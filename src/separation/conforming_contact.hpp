@@ -3,24 +3,23 @@
 /// @file
 /// Surfaces that lie against each other everywhere: what it takes to draw them apart.
 ///
-/// Where flattening costs less than adhesion gives, contacts grow together until nothing is left between them, and a sum
-/// over patches says little. Each cell then hangs on a spring (spring_contact.hpp), which gives the curve and the work.
-/// The interface breaks
+/// Where flattening costs less than adhesion gives, contacts grow together until nothing is left between
+/// them, and a sum over patches says little. Each cell then hangs on a spring (spring_contact.hpp), which
+/// gives curve, force and contact area. All springs are equal, and none hears of its neighbours. Long waves
+/// of the flattened relief pull at the interface, and it tears at one place before all springs pull at
+/// their best. Where that may be, the force is doubted, and the half-space has it:
 ///
-/// - as a whole, at the largest traction that the springs of all waves reach, or before that
-/// - from its weakest place: where the long waves (relief_waves.hpp) already pull with p_max, the short ones of that
-///   place have what is left of their own strength, so that the mean traction is (strength of the short waves) - p_max.
+///     pi/q > a0 = pi E Gamma/(2 s^2),   q = 4 U/(A E sigma^2)       a crack has room in half a wave
+///     2 U/(A sigma) > 0.05 s                                        the tension of the waves, rms         (S10b)
 ///
-/// For one long wave this is the strength of the law less Westergaard's pressure. Where valleys stay open
-/// (open_valleys.hpp), neither holds: the surfaces part from there. Derivation and figures: doc/separation_curve.md.
+/// s is the strength of the law, sigma the rms height, a0 the radius from which a crack needs less than s.
+/// The work is that of the springs with the flattening energy of all waves, and of what jumps lose, (S10a).
 
 #include <vector>
 
 #include "approach/gap_field.hpp"
 #include "separation/contact_traction.hpp"
-#include "separation/flattening.hpp"
-#include "separation/open_valleys.hpp"
-#include "separation/relief_waves.hpp"
+#include "separation/flattening_waves.hpp"
 #include "separation/spring_contact.hpp"
 #include "separation/way_out.hpp"
 
@@ -34,46 +33,30 @@ class ConformingContact {
   /// - @p contact_modulus E [Pa], > 0
   void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy);
 
-  /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
-  double work();
-  /// U/A by the waves of the relief [J/m^2]. Each has its direction: lines along rows and columns, by which start() is told, see 0.79 of
-  /// grooves along one of them, 1.11 of grooves between, and no waves that are long against the frame.
-  double flatteningByWaves();
-  /// Puts the work of a way out that this object made in place of the springs': with flatteningByWaves(), and with what jumps lose;
-  /// that of contacts where it is more.
-  void takeWork(const WayOut& by_contacts, WayOut& way_out);
-  /// Whether valleys stay open under a pressure [Pa], >= 0.
-  bool hasOpenValleys(double pressure);
-  /// The ways out from rest under a pressure [Pa], >= 0.
-  WayOut fromOpenValleys(double pressure);
-  /// - @p least_force what the surfaces hold in any case [N]
-  WayOut asAWhole(double pressure, double least_force);
+  /// Whether springs hold the bonded surfaces together without a load.
+  bool holds() { return energyGained(branch()) > 0.0; }
+  /// From rest under a pressure [Pa], >= 0.
+  /// - @p by_contacts whose work is taken where it is more, and that says what jumps lose
+  WayOut wayOut(const WayOut& by_contacts, double pressure);
 
  private:
-  /// The springs up to a mean traction [Pa].
-  WayOut upTo(double strength, double pressure);
-  /// Strength of the short waves at the place where the long ones pull most [Pa].
-  double strengthOfShortWaves();
-  /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
-  double takeShortWaves(cv::Point2d place, double radius);
   /// Of springs that store this energy when all is flat [J/m^2].
   std::vector<SpringState> springsOf(double flattening_energy);
   const std::vector<SpringState>& branch();
-  ReliefSpectrum& relief();
+  /// By springs and law without a load, per area [J/m^2].
+  static double energyGained(const std::vector<SpringState>& springs);
+  void takeWork(const WayOut& by_contacts, WayOut& way_out);
+  /// (S10b): whether the interface may tear before all springs pull at their best.
+  bool mayTear() const;
   double area() const { return field_->validCount() * field_->cellArea(); }
 
   const GapField* field_ = nullptr;
   const ContactTraction* law_ = nullptr;
-  BondedBodies bodies_;
+  double contact_modulus_ = 0.0;
+  double flattening_energy_ = 0.0;
   std::vector<SpringState> branch_;  ///< empty until it is asked for
-  ReliefSpectrum relief_;
-  bool has_relief_ = false;
-  ReliefWaves waves_;
-  ReliefSpectrum fine_relief_;  ///< in the smallest blocks
-  ReliefWaves fine_waves_;
-  FlatteningEnergy flattening_;  ///< of the short waves
+  FlatteningWaves waves_;
   std::vector<double> line_;
-  std::vector<double> depths_at_place_;  ///< of the short waves [m]
 };
 
 }  // namespace mems_stiction

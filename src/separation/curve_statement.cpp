@@ -32,7 +32,8 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   if (statement.doubt == nullptr && !solution.is_conforming && flattening_ratio < 1.0) {
     statement.doubt = "bonded surfaces have less energy than the contacts that were found on the way to them";
   }
-  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
+  const ModelError& of_doubt = solution.is_conforming ? chosen::kBondedError : chosen::kDoubtError;
+  statement.error = statement.doubt == nullptr ? chosen::kSureError : of_doubt;
   if (flattening_ratio > 1.0 && std::isfinite(flattening_ratio)) {
     const double share = std::pow(flattening_ratio, -chosen::kErrorPower);
     statement.error = {share * statement.error.pull_off, share * statement.error.work};

@@ -42,13 +42,9 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   solution.flattening_energy = flattening_.of(at_rest, contact_modulus);
 
   curve_.part(forceFromNextRest(curve_.frame(), settings, curve_.wayIn()));
-  conforming_.start(at_rest, curve_.frame().law(), contact_modulus, solution.flattening_energy);
-  const std::optional<WayOut> conforming =
-      conformingWayOut(curve_.byContacts(), joined_share, conforming_,
-                       solution.flattening_energy / curve_.frame().law().workOfAdhesion(),
-                       settings.load.mechanical_load / curve_.frame().area());
-  takeDecision(conforming.has_value(), solution);
-  takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
+  const std::optional<WayOut> bonded = bondedWayOut(standing, joined_share, solution);
+  takeDecision(bonded.has_value(), solution);
+  takeWayOut(bonded ? *bonded : curve_.byContacts(), solution);
   listPullOffContacts(standing, solution);
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
@@ -68,6 +64,17 @@ const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, Cont
   listContacts(standing, solution);
   fillMaps(standing, solution);
   return gap;
+}
+
+std::optional<WayOut> SeparationSolver::bondedWayOut(const ContactProblem& problem, double joined_share,
+                                                     const ContactSolution& solution) {
+  const ContactTraction& law = curve_.frame().law();
+  // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
+  if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
+  if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio)) return std::nullopt;
+  conforming_.start(problem.gap, law, curve_.frame().patchForces().contactModulus(), solution.flattening_energy);
+  if (!conforming_.holds()) return std::nullopt;
+  return conforming_.wayOut(curve_.byContacts(), problem.settings.load.mechanical_load / curve_.frame().area());
 }
 
 bool SeparationSolver::mayFlow(const LoadOptions& load) const {

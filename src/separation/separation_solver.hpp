@@ -6,7 +6,7 @@
 /// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the way out, the
 /// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Soft
 /// summits hold on longer than they would reach on the way in; surfaces that have flowed come apart along the curve of the
-/// changed surfaces, and surfaces whose flattening costs less than adhesion gives along that of conforming ones
+/// changed surfaces, and bonded ones, whose flattening costs less than adhesion gives, along that of springs
 /// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///
 /// Forces (1.5 pi Gamma R) and areas of asperities by JKR are NaN; contacts have what the patches have: real
@@ -16,6 +16,7 @@
 ///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "contact/contact_solver.hpp"
@@ -54,6 +55,9 @@ class SeparationSolver : public ContactSolver {
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out of surfaces that are bonded at rest; none if they part by contacts.
+  std::optional<WayOut> bondedWayOut(const ContactProblem& problem, double joined_share,
+                                     const ContactSolution& solution);
   /// Which way the surfaces part, of two that have come to rest.
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;

@@ -155,8 +155,8 @@ class TrustTest(unittest.TestCase):
         stated = trust_page.errors_of_code()
         for name in ("trust.md", "trust_kinds.md"):
             table = (REPOSITORY / "doc" / name).read_text(encoding="utf-8").split("## The interval of the margin")[1]
-            for is_of_doubt, errors in stated.items():
-                of_page = re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % trust_page.group_title(is_of_doubt), table, re.MULTILINE).groups()
+            for group, errors in stated.items():
+                of_page = re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % group, table, re.MULTILINE).groups()
                 self.assertEqual(tuple(map(float, of_page)), errors, name)
             self.assertIn("with the power 1/%.0f of that ratio" % (1 / trust_page.error_power()), table)
 

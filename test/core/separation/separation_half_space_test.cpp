@@ -49,7 +49,7 @@ struct Case {
   double pressure;
 };
 
-TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
+TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpaceAndBondedOnesWithinTwenty) {
   // from near bonding to single summits, with and without load; pixels resolve the cohesive length
   const Case cases[] = {{true, 0.5e-9, 30e-9, 80e9, 0.05, 0},   {true, 1e-9, 40e-9, 80e9, 0.05, 0},
                         {true, 2e-9, 40e-9, 80e9, 0.05, 0},     {true, 1e-9, 30e-9, 30e9, 0.03, 0},
@@ -90,7 +90,7 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     const double ratio = prediction.pull_off_force / solved.pull_off_force;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
-    EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1));
+    EXPECT_LT(std::abs(std::log(ratio)), std::log(prediction.is_conforming ? 1.2 : 1.1));
     const double area_ratio = prediction.contact_area / solved.contact_area;
     // of a few cells pixels decide
     const double cells = std::abs(prediction.contact_area - solved.contact_area) / (pitch * pitch);

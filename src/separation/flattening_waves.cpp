@@ -1,8 +1,10 @@
-#include "separation/relief_spectrum.hpp"
+#include "separation/flattening_waves.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+
+#include <opencv2/imgproc.hpp>
 
 #include "numeric/constants.hpp"
 
@@ -11,13 +13,11 @@
 namespace mems_stiction {
 namespace {
 
-/// Cells of a block along a side.
-int blockSize(int cells, double pitch, double longest) {
-  const double by_length = std::clamp(std::floor(longest / pitch), 1.0, static_cast<double>(cells));
-  return std::max(static_cast<int>(by_length), (cells + chosen::kParts - 1) / chosen::kParts);
+/// Blocks along a side of so many cells.
+int blockCount(int cells) {
+  const int size = (cells + chosen::kParts - 1) / chosen::kParts;
+  return (cells + size - 1) / size;
 }
-
-int blockCount(int cells, int size) { return (cells + size - 1) / size; }
 
 /// q of a row or column of a spectrum [1/m].
 double waveNumber(int index, int count, double width) {
@@ -30,28 +30,15 @@ double rmsOf(const cv::Mat1d& heights) {
 
 }  // namespace
 
-void ReliefSpectrum::take(const GapField& field, double longest_block) {
-  takeBlocks(field, longest_block);
-  frame_ = heights_;
-  if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
-  cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
-  takeWaveNumbers();
+double FlatteningWaves::of(const GapField& field, double contact_modulus) {
+  takeBlocks(field);
+  takeSpectrum();
+  const double of_long_waves = takeLongWaves({field.cols(), field.rows()}, contact_modulus);
+  return of_long_waves + of_lines_.of(field, long_heights_, contact_modulus);
 }
 
-void ReliefSpectrum::takeWaveNumbers() {
-  wave_numbers_.create(frame_.size());
-  for (int row = 0; row < frame_.rows; ++row) {
-    const double q_y = waveNumber(row, frame_.rows, block_height_);
-    for (int col = 0; col < frame_.cols; ++col) {
-      wave_numbers_(row, col) = std::hypot(waveNumber(col, frame_.cols, block_width_), q_y);
-    }
-  }
-}
-
-void ReliefSpectrum::takeBlocks(const GapField& field, double longest_block) {
-  const int block_rows = blockSize(field.rows(), field.pitchY(), longest_block);
-  const int block_cols = blockSize(field.cols(), field.pitchX(), longest_block);
-  blocks_ = {blockCount(field.cols(), block_cols), blockCount(field.rows(), block_rows)};
+void FlatteningWaves::takeBlocks(const GapField& field) {
+  blocks_ = {blockCount(field.cols()), blockCount(field.rows())};
   block_width_ = field.cols() * field.pitchX() / blocks_.width;
   block_height_ = field.rows() * field.pitchY() / blocks_.height;
   heights_.create(blocks_);
@@ -78,7 +65,7 @@ void ReliefSpectrum::takeBlocks(const GapField& field, double longest_block) {
   }
 }
 
-bool ReliefSpectrum::repeatsItself() const {
+bool FlatteningWaves::repeatsItself() const {
   const int last_row = blocks_.height - 1;
   const int last_col = blocks_.width - 1;
   if (last_row < 1 || last_col < 1) return true;
@@ -86,6 +73,32 @@ bool ReliefSpectrum::repeatsItself() const {
   const double height = rmsOf(heights_);
   return rmsOf(heights_.row(0) - heights_.row(last_row)) <= height &&
          rmsOf(heights_.col(0) - heights_.col(last_col)) <= height;
+}
+
+void FlatteningWaves::takeSpectrum() {
+  frame_ = heights_;
+  if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
+  cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
+}
+
+double FlatteningWaves::takeLongWaves(cv::Size cells, double contact_modulus) {
+  const double length = std::max(block_width_, block_height_);
+  double sum = 0.0;
+  for (int row = 0; row < spectrum_.rows; ++row) {
+    const double q_y = waveNumber(row, spectrum_.rows, block_height_);
+    for (int col = 0; col < spectrum_.cols; ++col) {
+      const double q = std::hypot(waveNumber(col, spectrum_.cols, block_width_), q_y);
+      const double long_part = 1.0 / (1.0 + length * q * length * q);
+      const double left = 1.0 - long_part;
+      cv::Vec2d& wave = spectrum_(row, col);
+      sum += (wave[0] * wave[0] + wave[1] * wave[1]) * (0.25 * contact_modulus * q * (1.0 - left * left));
+      wave *= long_part;
+    }
+  }
+  const auto waves = static_cast<double>(spectrum_.total());
+  cv::dft(spectrum_, long_frame_, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
+  cv::resize(long_frame_(cv::Rect({0, 0}, blocks_)), long_heights_, cells, 0.0, 0.0, cv::INTER_LINEAR);
+  return sum / (waves * waves);
 }
 
 }  // namespace mems_stiction
