@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "errors/one_line.hpp"
+#include "evaluation/part_scans.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
@@ -46,27 +47,48 @@ DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnsw
   return message;
 }
 
-DeviceVerdictTopic::DeviceVerdictTopic(const ros::NodeHandle& handle) {
-  ros::NodeHandle node(handle);
-  publisher_ = node.advertise<DeviceVerdict>(kVerdictTopic, kPredictionQueue, true);
-}
-
-void DeviceVerdictTopic::publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited) {
+std::vector<DeviceVerdict> DeviceVerdicts::answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited,
+                                                  bool is_of_newest_scan) {
   const auto before =
       std::find_if(said_.begin(), said_.end(), [&](const Said& said) { return said.scan_id == answer.last.id; });
   Said said{answer.last.id, {}};
   if (answer.verdict) {
     said.message = deviceVerdictMessage(answer, awaited);
   } else {
-    if (before == said_.end()) return;
+    if (before == said_.end()) return {};
     said.message = before->message;
     fillAwaited(awaited, said.message);
-    if (said.message.waits_for == before->message.waits_for) return;
+    if (said.message.waits_for == before->message.waits_for) return {};
   }
   if (before != said_.end()) said_.erase(before);
-  publisher_.publish(said.message);
+  std::vector<DeviceVerdict> messages{said.message};
   said_.push_front(std::move(said));
   if (said_.size() > kMostSaid) said_.pop_back();
+  if (is_of_newest_scan) {
+    newest_ = messages.front();
+  } else if (newest_) {
+    messages.push_back(*newest_);
+  }
+  return messages;
+}
+
+bool DeviceVerdicts::isByDeviceForce(const ScanOfPart& scan) const {
+  const Provenance& of = scan.provenance;
+  const bool has_part = PartKey{of.part_id, of.serial_id, ""}.isStated();
+  const auto last = std::find_if(said_.begin(), said_.end(), [&](const Said& said) {
+    return has_part ? said.message.part_id == of.part_id && said.message.serial_id == of.serial_id
+                    : said.scan_id == scan.id;
+  });
+  return last != said_.end() && static_cast<bool>(last->message.by_device_force);
+}
+
+DeviceVerdictTopic::DeviceVerdictTopic(const ros::NodeHandle& handle) {
+  ros::NodeHandle node(handle);
+  publisher_ = node.advertise<DeviceVerdict>(kVerdictTopic, kPredictionQueue, true);
+}
+
+void DeviceVerdictTopic::publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited, bool is_of_newest_scan) {
+  for (const DeviceVerdict& message : said_.answer(answer, awaited, is_of_newest_scan)) publisher_.publish(message);
 }
 
 }  // namespace mems_stiction

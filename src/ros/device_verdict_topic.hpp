@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include <ros/node_handle.h>
 
@@ -32,13 +33,14 @@ struct DeviceAnswer {
 /// - @p answer with a verdict
 DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnswers& awaited);
 
-/// Publishes the answers, and remembers the newest of them.
-class DeviceVerdictTopic {
+/// Remembers the newest answers, so that a late one does not hide that on a newer scan.
+class DeviceVerdicts {
  public:
-  explicit DeviceVerdictTopic(const ros::NodeHandle& handle);
-
-  /// Without a verdict, what was said of the scan before is said again if it waits for less now.
-  void publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited);
+  /// What is to be published, the last one of which is latched. Without a verdict, what was said of the scan before is said again if
+  /// it waits for less now. After a late answer on an earlier scan the newest scan's follows: whoever comes finds that one.
+  std::vector<DeviceVerdict> answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited, bool is_of_newest_scan);
+  /// Whether the last answer on the part of a scan, or on a scan that names none, was by the force of the whole device.
+  bool isByDeviceForce(const ScanOfPart& scan) const;
 
  private:
   struct Said {
@@ -46,8 +48,21 @@ class DeviceVerdictTopic {
     DeviceVerdict message;
   };
 
+  std::deque<Said> said_;                ///< the last said first
+  std::optional<DeviceVerdict> newest_;  ///< said of the newest scan
+};
+
+/// Publishes the answers.
+class DeviceVerdictTopic {
+ public:
+  explicit DeviceVerdictTopic(const ros::NodeHandle& handle);
+
+  void publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited, bool is_of_newest_scan);
+  const DeviceVerdicts& said() const { return said_; }
+
+ private:
   ros::Publisher publisher_;
-  std::deque<Said> said_;  ///< the newest first
+  DeviceVerdicts said_;
 };
 
 }  // namespace mems_stiction

@@ -345,7 +345,7 @@ void StictionServer::takeHalfSpaceVerdict(const ScanOfPart& scan, const std::opt
   DeviceAnswer answer{scan, std::nullopt, std::nullopt};
   const std::optional<PartNews> news = verdict ? predictor_.judgeAgain(scan, *verdict) : std::nullopt;
   // A device that has been judged by its own force is not judged by one frame after that.
-  if (verdict && scan.id != judged_by_device_) {
+  if (verdict && !verdict_.said().isByDeviceForce(scan)) {
     answer.verdict = verdict;
     if (news) {
       answer.last = news->last;
@@ -374,14 +374,15 @@ void StictionServer::offerToDevice(const PredictedScan& predicted) {
 }
 
 void StictionServer::takeDeviceVerdict(const DeviceAnswer& answer) {
-  if (answer.verdict) judged_by_device_ = answer.last.id;
   if (answer.part) publisher_.publishPart(*answer.part, answer.last);
   publishVerdict(answer);
 }
 
 void StictionServer::publishVerdict(const DeviceAnswer& answer) {
-  verdict_.publish(answer, {device_force_ && device_force_->isExpected(answer.last.id),
-                            half_space_ && half_space_->isExpected(answer.last.id)});
+  verdict_.publish(answer,
+                   {device_force_ && device_force_->isExpected(answer.last.id),
+                    half_space_ && half_space_->isExpected(answer.last.id)},
+                   predictor_.isLast(answer.last.id));
 }
 
 void StictionServer::showLastScan() {

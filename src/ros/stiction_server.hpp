@@ -125,7 +125,6 @@ class StictionServer {
   SolutionPause half_space_pause_;                   ///< held while a scan is predicted
   std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is false
   std::unique_ptr<DeviceForceStream> device_force_;  ///< null: device_force/enabled is not set
-  std::uint64_t judged_by_device_ = 0;               ///< ScanOfPart::id of the last scan; touched by the worker only
   DeviceVerdictTopic verdict_;
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};

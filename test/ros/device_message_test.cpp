@@ -3,12 +3,14 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "../support/message_cases.hpp"
 #include "device/device_force_fields.hpp"
 #include "ros/device_force_conversion.hpp"
+#include "ros/device_verdict_topic.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -65,6 +67,65 @@ TEST(DeviceMessage, ARefusalHasNoFigures) {
     EXPECT_TRUE(std::isnan(figure));
   }
   EXPECT_TRUE(message.realisations.empty() && message.warnings.empty());
+}
+
+DeviceAnswer answerOn(std::uint64_t scan, const std::string& part, double margin, bool is_by_device_force = false) {
+  DeviceAnswer answer;
+  answer.last.id = scan;
+  answer.last.provenance.part_id = part;
+  answer.verdict = someVerdict();
+  answer.verdict->margin = margin;
+  answer.is_by_device_force = is_by_device_force;
+  return answer;
+}
+
+std::vector<double> marginsOf(const std::vector<DeviceVerdict>& messages) {
+  std::vector<double> margins;
+  for (const DeviceVerdict& message : messages) margins.push_back(message.margin);
+  return margins;
+}
+
+TEST(DeviceVerdicts, TheNewestScansAnswerIsTheLastOneAfterALateOneToo) {
+  DeviceVerdicts verdicts;
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.0), {false, true}, true)), std::vector<double>{1.0});
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(2, "", 2.0), {true, false}, true)), std::vector<double>{2.0});
+  const std::vector<DeviceVerdict> late = verdicts.answer(answerOn(1, "", 1.5), {}, false);
+  EXPECT_EQ(marginsOf(late), (std::vector<double>{1.5, 2.0}));
+  EXPECT_TRUE(late.front().is_final && !late.back().is_final);
+  const std::vector<DeviceVerdict> found = verdicts.answer(answerOn(2, "", 2.5, true), {}, true);
+  EXPECT_EQ(marginsOf(found), std::vector<double>{2.5});
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.7), {}, false)), (std::vector<double>{1.7, 2.5}));
+}
+
+TEST(DeviceVerdicts, AnAnswerThatNeverCameIsSaidOnlyIfItWasAwaited) {
+  DeviceVerdicts verdicts;
+  verdicts.answer(answerOn(1, "", 1.0), {true, true}, true);
+  DeviceAnswer none = answerOn(1, "", 0.0);
+  none.verdict.reset();
+  EXPECT_TRUE(verdicts.answer(none, {true, true}, true).empty());
+  const std::vector<DeviceVerdict> again = verdicts.answer(none, {true, false}, true);
+  ASSERT_EQ(marginsOf(again), std::vector<double>{1.0});
+  EXPECT_EQ(again.front().waits_for, "device_force");
+  none.last.id = 7;
+  EXPECT_TRUE(verdicts.answer(none, {}, false).empty());
+}
+
+/// A frame says less than the device's own force: of an earlier scan of the part, too, whichever part was scanned since.
+TEST(DeviceVerdicts, KnowWhetherAPartWasJudgedByTheForceOfTheDevice) {
+  DeviceVerdicts verdicts;
+  const DeviceAnswer first = answerOn(1, "a", 1.0);
+  verdicts.answer(first, {}, true);
+  EXPECT_FALSE(verdicts.isByDeviceForce(first.last));
+  verdicts.answer(answerOn(2, "a", 2.0, true), {}, true);
+  EXPECT_TRUE(verdicts.isByDeviceForce(first.last));
+  verdicts.answer(answerOn(3, "b", 3.0), {}, true);
+  EXPECT_TRUE(verdicts.isByDeviceForce(first.last));
+  EXPECT_FALSE(verdicts.isByDeviceForce(answerOn(3, "b", 3.0).last));
+  verdicts.answer(answerOn(4, "a", 4.0), {true, false}, true);
+  EXPECT_FALSE(verdicts.isByDeviceForce(first.last)) << "its newest scan is not judged so yet";
+  verdicts.answer(answerOn(5, "", 5.0, true), {}, true);
+  EXPECT_TRUE(verdicts.isByDeviceForce(answerOn(5, "", 5.0).last));
+  EXPECT_FALSE(verdicts.isByDeviceForce(answerOn(6, "", 6.0).last)) << "scans without a part are devices of their own";
 }
 
 }  // namespace

@@ -166,6 +166,30 @@ class DeviceTest(unittest.TestCase):
         self.parts.wait(parts + 2)
         self.assertEqual(len(self.parts.messages), parts + 2)  # none of the scans without a part
 
+    def test_2b_of_parts_that_come_faster_than_forces_the_newest_is_next_and_none_is_left_out(self):
+        devices = len(self.devices.messages)
+        scans = [surface(20 + number) for number in range(12)]
+        stamps = []
+        for number, scan in enumerate(scans):
+            stamps.append(self.station.stamp())
+            info = info_message(stamps[-1])
+            info.part_id, info.serial_id = "fast", str(number)
+            self.station.info.publish(info)
+            self.station.height.publish(image_message(scan, stamps[-1]))
+        wait_until(lambda: any(message.header.stamp == stamps[-1] for message in self.predictions.messages), "the newest prediction")
+        found_before = len(self.devices.messages)
+        self.devices.wait(devices + len(scans))
+        found = [message.header.stamp for message in self.devices.messages[devices:]]
+        self.assertEqual(sorted(found), stamps)
+        # one was at hand when the newest came, and its prediction may be seen before it is offered
+        self.assertLessEqual(found.index(stamps[-1]) - (found_before - devices), 2)
+        self.assertLess(found_before - devices, len(scans) - 3, "forces came as fast as scans: nothing waited")
+        for stamp in stamps:
+            self.assertTrue(self.verdicts_until_the_final_one(stamp)[-1].by_device_force)
+        late = Collector("verdict", DeviceVerdict)
+        self.assertEqual(late.wait(1)[0].header.stamp, stamps[-1], "the latched verdict is that on the newest scan")
+        late.close()
+
     def test_3_who_comes_late_finds_the_newest(self):
         late = Collector("device_force", DeviceAdhesion)
         self.assertEqual(late.wait(1)[0].header.stamp, self.devices.messages[-1].header.stamp)
