@@ -44,39 +44,7 @@ SurfacePose poseOf(const geometry_msgs::Transform& transform) {
 }
 
 CounterSurfaceFrame::CounterSurfaceFrame(const ros::NodeHandle& handle, std::string frame)
-    : frame_(std::move(frame)), handle_(handle) {
-  // In place of tf2_ros::TransformListener, which believes how many transforms a message states.
-  constexpr std::uint32_t kQueue = 100;
-  const auto subscribe = [&](const std::string& topic, bool is_static) {
-    return subscribeChecked<tf2_msgs::TFMessage>(handle_, topic, kQueue,
-                                                 {[this, is_static](const auto& message) { take(*message, is_static); },
-                                                  [topic](const auto&, const std::string& reason) {
-                                                    logSoon(ros::console::levels::Warn,
-                                                            "a message of " + topic + " is passed over: " + reason);
-                                                  }});
-  };
-  moving_ = subscribe("/tf", false);
-  static_ = subscribe("/tf_static", true);
-}
-
-/// As tf2_ros::TransformListener does, but one transform that tf2 cannot take leaves the others of the message.
-void CounterSurfaceFrame::take(const tf2_msgs::TFMessage& message, bool is_static) {
-  const ros::Time now = ros::Time::now();
-  if (now < last_update_) {
-    logSoon(ros::console::levels::Warn, "the clock has jumped back: transforms from before are forgotten");
-    buffer_.clear();
-  }
-  last_update_ = now;
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    try {
-      buffer_.setTransform(transform, "a publisher of tf", is_static);
-    } catch (const std::exception& error) {
-      logSoon(ros::console::levels::Warn,
-              oneLine("a transform to '" + shortened(transform.child_frame_id, kLongestQuotation) +
-                      "' is passed over: " + error.what()));
-    }
-  }
-}
+    : frame_(std::move(frame)), transforms_(handle) {}
 
 SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
   if (header.frame_id.empty()) {
@@ -88,19 +56,13 @@ SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
   }
   const std::string missing = "no transform from the scan's frame '" + shortened(header.frame_id, kLongestQuotation) +
                               "' to counter_surface/frame " + frame_ + " at the scan's stamp";
-  geometry_msgs::TransformStamped found;
   try {
-    found = buffer_.lookupTransform(header.frame_id, frame_, header.stamp);
-  } catch (const tf2::TransformException& error) {
+    return poseOf(transforms_.at(header.frame_id, frame_, header.stamp));
+  } catch (const NoTransform& error) {
     throw NoTransform(missing + ": " + error.what());
-  } catch (const std::runtime_error& error) {
-    // ros::Time refuses differences beyond 2^31 s and sums beyond 2^32 s.
-    PlainStream stamp;
-    stamp << header.stamp;
-    throw SurfaceError(missing + " " + stamp.str() +
-                       " s, which lies too far from those of the transforms: " + error.what());
+  } catch (const SurfaceError& error) {
+    throw SurfaceError(missing + " " + error.what());
   }
-  return poseOf(found.transform);
 }
 
 }  // namespace mems_stiction

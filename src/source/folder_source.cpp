@@ -59,6 +59,15 @@ std::string stateFileOf(const FolderOptions& options, const std::string& node) {
   return rosHome() + "/scan_source/" + name.substr(std::min<std::size_t>(1, name.size())) + "-" + folder + ".seen";
 }
 
+/// What neither the file nor its name states, the parameters do.
+void fillUnstated(const ScanIdentity& otherwise, ScanIdentity& identity) {
+  for (std::string ScanIdentity::*text :
+       {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id,
+        &ScanIdentity::instrument, &ScanIdentity::operator_name}) {
+    if (!isStated(identity.*text)) identity.*text = otherwise.*text;
+  }
+}
+
 }  // namespace
 
 FolderSource::FolderSource(const SourceOptions& options, const std::string& node, ScanPublisher& publisher,
@@ -180,6 +189,7 @@ void FolderSource::publish(const FoundFile& file, const std::string& key, ScanFi
   if (!nameless.empty()) {
     logSoon(ros::console::levels::Warn, oneLine(file.name) + " " + oneLine(nameless) + ": it is published without");
   }
+  fillUnstated(options_.identity, scan.identity);
   const std::vector<std::string> complaints = identityComplaints(scan.identity, "");
   if (!complaints.empty()) throw FileError(complaints.front());
   const std::uint64_t stamp =

@@ -37,7 +37,11 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   diagnostics_.add("scan_source", [this](auto& status) { accounting_.report(status); });
   diagnostics_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
                                                [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
-  folder_ = std::make_unique<FolderSource>(options_, name, publisher_, accounting_);
+  if (options_.source == SourceKind::kFolder) {
+    folder_ = std::make_unique<FolderSource>(options_, name, publisher_, accounting_);
+  } else {
+    cloud_ = std::make_unique<CloudSource>(options_, handle_, publisher_, accounting_);
+  }
   master_ = MasterWatch::ofThisProcess();
   const auto nothing = [](const MasterCalls&) { return true; };
   master_->add(this, {nothing, nothing});
@@ -47,6 +51,7 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 ScanSource::~ScanSource() {
   master_->remove(this);
   folder_.reset();
+  cloud_.reset();
   spinner_.stop();
   finishLog();
 }

@@ -13,6 +13,7 @@
 
 #include "ros/diagnostics.hpp"
 #include "ros/master_watch.hpp"
+#include "source/cloud_source.hpp"
 #include "source/folder_source.hpp"
 #include "source/scan_publisher.hpp"
 #include "source/source_accounting.hpp"
@@ -41,6 +42,7 @@ class ScanSource {
   Diagnostics diagnostics_;
   ros::WallTimer diagnostics_timer_;
   std::unique_ptr<FolderSource> folder_;
+  std::unique_ptr<CloudSource> cloud_;
   std::shared_ptr<MasterWatch> master_;
   ros::AsyncSpinner spinner_;
 };

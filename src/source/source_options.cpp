@@ -24,6 +24,11 @@ std::vector<std::string> complaintsOf(const SourceOptions& options) {
   if (options.source == SourceKind::kFolder && options.folder.folder.empty()) {
     lines.push_back("folder: is not stated, must be the folder that the instrument's program writes into");
   }
+  if (!(options.points.map.invalid_below < options.points.map.invalid_above)) {
+    lines.push_back("invalid_below: " + numberText(options.points.map.invalid_below) +
+                    " is not allowed, must be below invalid_above");
+  }
+  for (const std::string& line : identityComplaints(options.identity, "scan/")) lines.push_back(line);
   if (options.scan.height_scale == 0.0) lines.push_back("scan/height_scale: 0 is not allowed, must not be 0");
   return lines;
 }
@@ -51,8 +56,29 @@ void FolderOptions::describe(OptionVisitor& visitor) {
   visitor.text("channel", channel, "title or number of the channel to take; empty = the likeliest height channel");
 }
 
+void PointsOptions::describe(OptionVisitor& visitor) {
+  const Range pitch = Range::within(0.0, 1.0);
+  visitor.number("pitch_x", map.pitch_x, "m", pitch, "of the map that points become; 0 = that of the points");
+  visitor.number("pitch_y", map.pitch_y, "m", pitch, "of the map that points become; 0 = that of the points");
+  visitor.enumeration<bool>("up", map.is_up_negative, {{"z", false}, {"-z", true}}, "where heights grow");
+  visitor.enumeration<Mirror>(
+      "mirror", map.mirror,
+      {{"auto", Mirror::kAuto}, {"x", Mirror::kX}, {"y", Mirror::kY}, {"none", Mirror::kNone}},
+      "the axis that a left-handed sensor has the wrong way round; auto = y with up: -z, as of a sensor that is turned "
+      "over, else none");
+  visitor.number("invalid_below", map.invalid_below, "m", Range::any(), "points with a lower z are not measured");
+  visitor.number("invalid_above", map.invalid_above, "m", Range::any(), "points with a higher z are not measured");
+  visitor.number("grid_tolerance", map.grid_tolerance, "-", Range::within(0.0, 0.5),
+                 "how far points may lie from their places on an even grid, over its pitch");
+  visitor.text("frame", frame, "tf frame that heights are taken in; empty = that of the points");
+  visitor.number("transform_timeout", transform_timeout, "s", Range::within(0.0, 1e6),
+                 "how long points wait for the transform at their stamp");
+  visitor.integer("queue_size", queue_size, Range::within(1, 1e6),
+                  "clouds that may wait; beyond, the oldest are refused");
+}
+
 void SourceOptions::describe(OptionVisitor& visitor) {
-  visitor.enumeration<SourceKind>("source", source, {{"folder", SourceKind::kFolder}}, "where scans come from");
+  visitor.enumeration<SourceKind>("source", source, {{"folder", SourceKind::kFolder}, {"cloud", SourceKind::kCloud}}, "where scans come from");
   visitor.text("listener", listener,
                "node that must listen before a scan is published, of nodelets their manager; empty = anybody will do");
   visitor.integer("max_ahead", max_ahead, Range::within(0, 1e6),
@@ -62,6 +88,7 @@ void SourceOptions::describe(OptionVisitor& visitor) {
   visitor.number("diagnostic_period", diagnostic_period, "s", Range::within(0.01, 1e9),
                  "between messages on /diagnostics");
   folder.describe(visitor);
+  points.describe(visitor);
 }
 
 SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
@@ -76,6 +103,7 @@ SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
   std::vector<std::string> violations = readYaml(tree, [&](OptionVisitor& visitor) {
     options.describe(visitor);
     options.scan.describe(visitor);
+    options.identity.describe(visitor);
   });
   if (violations.empty()) violations = complaintsOf(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));

@@ -8,7 +8,9 @@
 #include <ros/node_handle.h>
 
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/height_map/scan_identity.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "source/cloud_grid.hpp"
 
 namespace mems_stiction {
 
@@ -22,6 +24,7 @@ enum class OldFiles {
 /// Where scans come from.
 enum class SourceKind {
   kFolder,  ///< files that an instrument's program writes
+  kCloud,   ///< clouds of points, a whole field each
 };
 
 /// The door `folder`.
@@ -40,6 +43,16 @@ struct FolderOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// The door `cloud`.
+struct PointsOptions {
+  CloudOptions map;
+  std::string frame;               ///< of tf, that heights are taken in; empty = that of the points
+  double transform_timeout = 0.5;  ///< how long points wait for their transform [s]
+  int queue_size = 10;             ///< clouds that wait; older ones are given up
+
+  void describe(OptionVisitor& visitor);
+};
+
 /// The whole private namespace.
 struct SourceOptions {
   SourceKind source = SourceKind::kFolder;
@@ -48,9 +61,11 @@ struct SourceOptions {
   double answer_timeout = 60.0;    ///< the node's answer is waited for no longer [s]
   double diagnostic_period = 1.0;  ///< between messages on /diagnostics [s]
   FolderOptions folder;
-  ScanOptions scan;  ///< what files do not state of themselves
+  PointsOptions points;
+  ScanOptions scan;       ///< what files do not state of themselves
+  ScanIdentity identity;  ///< what neither file nor name states, and of clouds
 
-  /// All but `scan`, which describes itself.
+  /// All but the keys `scan/...`, which describe themselves.
   void describe(OptionVisitor& visitor);
 };
 

@@ -1,0 +1,74 @@
+#pragma once
+
+/// @file
+/// The door `cloud`: each PointCloud2 of a sensor that sees a whole field becomes a scan.
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "ros/transform_listener.hpp"
+#include "source/cloud_grid.hpp"
+#include "source/scan_publisher.hpp"
+#include "source/source_accounting.hpp"
+#include "source/source_options.hpp"
+
+namespace mems_stiction {
+
+/// Takes clouds on the handle's queue and works on a thread of its own.
+class CloudSource {
+ public:
+  /// - @p publisher, @p accounting must outlive this
+  CloudSource(const SourceOptions& options, ros::NodeHandle& handle, ScanPublisher& publisher,
+              SourceAccounting& accounting);
+  /// Finishes the cloud at hand.
+  ~CloudSource();
+  CloudSource(const CloudSource&) = delete;
+  CloudSource& operator=(const CloudSource&) = delete;
+
+ private:
+  struct Waiting {
+    sensor_msgs::PointCloud2ConstPtr cloud;
+    ros::SteadyTime since;
+  };
+
+  void take(const sensor_msgs::PointCloud2ConstPtr& cloud);
+  void countWaiting() { accounting_.waits(line_.size() + (at_hand_ ? 1 : 0)); }
+  void countMissing(std::uint32_t number);
+  void loop();
+  /// @return whether there was something to do
+  bool work();
+  /// @throw NoTransform while it is not there; SurfaceError with a reason to refuse the cloud
+  void publish(const sensor_msgs::PointCloud2& cloud);
+
+  const SourceOptions options_;
+  ScanPublisher& publisher_;
+  SourceAccounting& accounting_;
+  std::unique_ptr<TransformListener> transforms_;  ///< if heights are taken in another frame
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Waiting> line_;
+  std::optional<Waiting> at_hand_;  ///< waits for its transform, or is being published
+  bool is_stopping_ = false;
+  std::optional<std::uint32_t> last_number_;  ///< of the publisher's sequence
+  std::uint64_t missing_ = 0;
+  std::thread thread_;
+  ros::Subscriber points_;
+};
+
+/// The points in another frame.
+/// - @p points CV_64FC3
+void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points);
+
+/// Of a message in the books: its stamp and frame.
+std::string cloudName(const std_msgs::Header& header);
+
+}  // namespace mems_stiction
