@@ -39,6 +39,8 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                                                [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
   if (options_.source == SourceKind::kFolder) {
     folder_ = std::make_unique<FolderSource>(options_, name, publisher_, accounting_);
+  } else if (options_.source == SourceKind::kLines) {
+    lines_ = std::make_unique<LineSource>(options_, handle_, private_handle_, publisher_, accounting_);
   } else {
     cloud_ = std::make_unique<CloudSource>(options_, handle_, publisher_, accounting_);
   }
@@ -52,7 +54,8 @@ ScanSource::~ScanSource() {
   master_->remove(this);
   folder_.reset();
   cloud_.reset();
-  spinner_.stop();
+  spinner_.stop();  // lines are put together on its thread
+  lines_.reset();
   finishLog();
 }
 

@@ -15,6 +15,7 @@
 #include "ros/master_watch.hpp"
 #include "source/cloud_source.hpp"
 #include "source/folder_source.hpp"
+#include "source/line_source.hpp"
 #include "source/scan_publisher.hpp"
 #include "source/source_accounting.hpp"
 #include "source/source_options.hpp"
@@ -43,6 +44,7 @@ class ScanSource {
   ros::WallTimer diagnostics_timer_;
   std::unique_ptr<FolderSource> folder_;
   std::unique_ptr<CloudSource> cloud_;
+  std::unique_ptr<LineSource> lines_;
   std::shared_ptr<MasterWatch> master_;
   ros::AsyncSpinner spinner_;
 };

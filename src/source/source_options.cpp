@@ -19,8 +19,21 @@ void joinList(YAML::Node& tree, const std::string& key) {
   tree[key] = joined;
 }
 
+/// What a motion cannot do without.
+void complainOfMotion(const SourceOptions& options, std::vector<std::string>& complaints) {
+  const LineOptions& lines = options.lines;
+  const auto need = [&](Motion motion, bool is_stated, const std::string& what) {
+    if (lines.motion == motion && !is_stated) complaints.push_back(what + " must be stated with this motion");
+  };
+  need(Motion::kCount, lines.line_pitch > 0.0, "line_pitch: 0 is not allowed,");
+  need(Motion::kSpeed, lines.speed != 0.0, "speed: 0 is not allowed,");
+  need(Motion::kJoint, !lines.joint.empty(), "joint: empty is not allowed,");
+  need(Motion::kTf, !options.points.frame.empty(), "frame: empty is not allowed,");
+}
+
 std::vector<std::string> complaintsOf(const SourceOptions& options) {
   std::vector<std::string> lines;
+  if (options.source == SourceKind::kLines) complainOfMotion(options, lines);
   if (options.source == SourceKind::kFolder && options.folder.folder.empty()) {
     lines.push_back("folder: is not stated, must be the folder that the instrument's program writes into");
   }
@@ -62,8 +75,7 @@ void PointsOptions::describe(OptionVisitor& visitor) {
   visitor.number("pitch_y", map.pitch_y, "m", pitch, "of the map that points become; 0 = that of the points");
   visitor.enumeration<bool>("up", map.is_up_negative, {{"z", false}, {"-z", true}}, "where heights grow");
   visitor.enumeration<Mirror>(
-      "mirror", map.mirror,
-      {{"auto", Mirror::kAuto}, {"x", Mirror::kX}, {"y", Mirror::kY}, {"none", Mirror::kNone}},
+      "mirror", map.mirror, {{"auto", Mirror::kAuto}, {"x", Mirror::kX}, {"y", Mirror::kY}, {"none", Mirror::kNone}},
       "the axis that a left-handed sensor has the wrong way round; auto = y with up: -z, as of a sensor that is turned "
       "over, else none");
   visitor.number("invalid_below", map.invalid_below, "m", Range::any(), "points with a lower z are not measured");
@@ -77,8 +89,26 @@ void PointsOptions::describe(OptionVisitor& visitor) {
                   "clouds that may wait; beyond, the oldest are refused");
 }
 
+void LineOptions::describe(OptionVisitor& visitor) {
+  visitor.enumeration<Motion>(
+      "motion", motion,
+      {{"count", Motion::kCount}, {"speed", Motion::kSpeed}, {"joint", Motion::kJoint}, {"tf", Motion::kTf}},
+      "what tells where a line was taken");
+  visitor.number("line_pitch", line_pitch, "m", Range::within(0.0, 1.0), "between lines; 0 = their median distance");
+  visitor.number("speed", speed, "m/s", Range::any(), "of the stage along y, with motion: speed");
+  visitor.text("joint", joint, "of the stage in joint_states, with motion: joint");
+  visitor.number("joint_scale", joint_scale, "m per unit", Range::any(), "of the joint's position");
+  visitor.number("backlash", backlash, "m", Range::any(), "that lines of a stage that goes back lie too far back");
+  visitor.integer("max_lines", max_lines, Range::within(0, 1e6), "a scan ends with so many; 0 = any number");
+  visitor.flag("end_at_turn", end_at_turn, "a scan ends where the stage turns back");
+  visitor.number("pause", pause, "s", Range::within(0.0, 1e6),
+                 "a scan ends when no line comes, or nothing moves, for so long; 0 = never");
+}
+
 void SourceOptions::describe(OptionVisitor& visitor) {
-  visitor.enumeration<SourceKind>("source", source, {{"folder", SourceKind::kFolder}, {"cloud", SourceKind::kCloud}}, "where scans come from");
+  visitor.enumeration<SourceKind>(
+      "source", source, {{"folder", SourceKind::kFolder}, {"cloud", SourceKind::kCloud}, {"lines", SourceKind::kLines}},
+      "where scans come from");
   visitor.text("listener", listener,
                "node that must listen before a scan is published, of nodelets their manager; empty = anybody will do");
   visitor.integer("max_ahead", max_ahead, Range::within(0, 1e6),
@@ -89,6 +119,7 @@ void SourceOptions::describe(OptionVisitor& visitor) {
                  "between messages on /diagnostics");
   folder.describe(visitor);
   points.describe(visitor);
+  lines.describe(visitor);
 }
 
 SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {

@@ -25,6 +25,7 @@ enum class OldFiles {
 enum class SourceKind {
   kFolder,  ///< files that an instrument's program writes
   kCloud,   ///< clouds of points, a whole field each
+  kLines,   ///< clouds of points, a line each
 };
 
 /// The door `folder`.
@@ -53,6 +54,24 @@ struct PointsOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// What tells where a line was taken.
+enum class Motion { kCount, kSpeed, kJoint, kTf };
+
+/// The door `lines`, beside what it has in common with `cloud`.
+struct LineOptions {
+  Motion motion = Motion::kTf;
+  double line_pitch = 0.0;   ///< between lines [m]; 0 = their median distance
+  double speed = 0.0;        ///< of the stage along y [m/s]
+  std::string joint;         ///< of the stage
+  double joint_scale = 1.0;  ///< [m per unit of its position]
+  double backlash = 0.0;     ///< that lines of a stage that goes back lie too far back [m]
+  int max_lines = 0;         ///< of a scan; 0 = any number
+  bool end_at_turn = false;  ///< a scan ends where the stage turns back
+  double pause = 0.0;        ///< a scan ends when nothing comes or moves for so long [s]; 0 = never
+
+  void describe(OptionVisitor& visitor);
+};
+
 /// The whole private namespace.
 struct SourceOptions {
   SourceKind source = SourceKind::kFolder;
@@ -62,6 +81,7 @@ struct SourceOptions {
   double diagnostic_period = 1.0;  ///< between messages on /diagnostics [s]
   FolderOptions folder;
   PointsOptions points;
+  LineOptions lines;
   ScanOptions scan;       ///< what files do not state of themselves
   ScanIdentity identity;  ///< what neither file nor name states, and of clouds
 

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Line scanners on a stage, whose drivers publish a line in each PointCloud2, imitated message for message: by tf, joint, speed and count."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import yaml
+from geometry_msgs.msg import TransformStamped
+from mems_stiction.msg import ScanInfo, StictionPrediction
+from roslib.packages import find_node, get_pkg_dir
+from sensor_msgs.msg import Image, JointState, PointCloud2, PointField
+from std_msgs.msg import Bool, String
+from std_srvs.srv import Trigger
+from stiction_client import STATION, TIMEOUT, Collector, Counts, wait_until
+from tf2_msgs.msg import TFMessage
+
+LINES, POINTS = 40, 50
+PITCH, LINE_PITCH = 10e-6, 15e-6  # [m]
+SENSOR = "sensor_optical_frame"
+
+
+def surface(seed=0):
+    """LINES x POINTS float32 [m] in the order of the map: a cap on a tilted plane, off the middle, with noise; row 0 has the largest y."""
+    rows, cols = np.mgrid[0:LINES, 0:POINTS]
+    cap = np.maximum(0.0, 1e-5 - ((cols * PITCH - 1.5e-4) ** 2 + (rows * LINE_PITCH - 4e-4) ** 2) / 3e-3)
+    noise = np.random.RandomState(seed).normal(scale=1e-6, size=cap.shape)
+    return (0.02 * cols * PITCH - 0.01 * rows * LINE_PITCH + cap + noise).astype(np.float32)
+
+
+def line(heights, stamp, size=16, missing=np.nan):
+    """One line as the drivers fill it: PCL's PointXYZ (16 bytes) of the LJ-V7000 with NaN, PointXYZI (32) of the scanCONTROL with +infinity."""
+    kind = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")] + ([("intensity", "<f4"), ("more", "<f4", 3)] if size == 32 else [])
+    points = np.zeros(heights.size, dtype=kind)
+    points["x"] = np.arange(heights.size) * PITCH
+    points["z"] = np.where(np.isnan(heights), missing, heights)
+    message = PointCloud2(height=1, width=heights.size, is_bigendian=False, point_step=size, row_step=size * heights.size, is_dense=False,
+                          data=points.tobytes())
+    message.header.stamp, message.header.frame_id = stamp, SENSOR
+    names = [("x", 0), ("y", 4), ("z", 8)] + ([("intensity", 16)] if size == 32 else [])
+    message.fields = [PointField(name=name, offset=offset, datatype=PointField.FLOAT32, count=1) for name, offset in names]
+    return message
+
+
+def heights_of(message):
+    kind = {"32FC1": np.float32, "64FC1": np.float64}[message.encoding]
+    return np.frombuffer(message.data, kind).reshape(message.height, message.width)
+
+
+class Scanner:
+    """A scan_source in a namespace of its own, with the sensor and stage that the test imitates."""
+
+    def __init__(self, test, name, **parameters):
+        for key, value in dict(source="lines", diagnostic_period=0.1, transform_timeout=3.0, **parameters).items():
+            rospy.set_param("/%s/source/%s" % (name, key), value)
+        process = subprocess.Popen([find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=dict(os.environ, ROS_NAMESPACE="/" + name))
+        test.addCleanup(process.wait)
+        test.addCleanup(process.terminate)
+        self.heights, self.infos = Collector("/%s/height" % name, Image), Collector("/%s/scan_info" % name, ScanInfo)
+        self.refused = Collector("/%s/source/refused" % name, String).connect()
+        self.counts = Counts()
+        self.counts._name = name + "/source: scan_source"
+        self.sensor = rospy.Publisher("/%s/points" % name, PointCloud2, queue_size=1000)
+        self.trigger = rospy.Publisher("/%s/trigger" % name, Bool, queue_size=10)
+        self.joints = rospy.Publisher("/%s/joint_states" % name, JointState, queue_size=1000)
+        self.frames = rospy.Publisher("/tf", TFMessage, queue_size=1000)
+        self.begin, self.end = (rospy.ServiceProxy("/%s/source/%s_scan" % (name, what), Trigger) for what in ("begin", "end"))
+        used = [self.sensor, self.trigger] + {"joint": [self.joints], "tf": [self.frames]}.get(parameters["motion"], [])
+        wait_until(lambda: all(one.get_num_connections() for one in used), "the source to listen")
+        wait_until(lambda: self.counts["found"] and not self.counts["hindered_by"], "listeners")
+
+    def send(self, rows, first=1000.0, period=0.01, **how):
+        """The lines of the map, from the lowest y up, as the stage moves along y; 40 are one scan."""
+        for number, heights in enumerate(rows[::-1]):
+            self.sensor.publish(line(heights, rospy.Time.from_sec(first + number * period), **how))
+
+
+class LinesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("line_source_test")
+
+    def check(self, scanner, expected, number=1, tolerance=0.0):
+        height = scanner.heights.wait(number)[-1]
+        np.testing.assert_allclose(heights_of(height), expected, rtol=0, atol=tolerance)
+        info = scanner.infos.of(height.header.stamp)
+        np.testing.assert_allclose([info.pitch_x, info.pitch_y], [PITCH, LINE_PITCH], rtol=1e-4)
+
+    def test_1_counted_lines_between_the_services_are_a_scan(self):
+        scanner = Scanner(self, "count", motion="count", line_pitch=LINE_PITCH)
+        scanner.send(surface()[:3])  # before the scan
+        scanner.counts.wait(lines_outside=3)
+        self.assertFalse(scanner.end().success)
+        self.assertTrue(scanner.begin().success)
+        expected = surface()
+        expected[7, 4:9] = np.nan
+        scanner.send(expected)
+        scanner.counts.wait(lines_of_this_scan=LINES, waiting=1)
+        self.assertTrue(scanner.end().success)
+        self.check(scanner, expected)
+        scanner.counts.wait(found=1, published=1, waiting=0, lines=LINES)
+
+    def test_2_a_speed_and_a_number_of_lines_make_one_scan_after_the_other(self):
+        scanner = Scanner(self, "speed", motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
+        scanner.send(surface(1), first=1000.0, size=32, missing=np.inf)
+        scanner.send(surface(2), first=2000.0, size=32, missing=np.inf)
+        self.check(scanner, surface(2), number=2, tolerance=1e-11)
+        scanner.counts.wait(found=2, published=2, waiting=0)
+
+    def test_3_a_joint_that_turns_back_and_lines_that_are_lost_or_doubled(self):
+        scanner = Scanner(self, "joint", motion="joint", joint="stage", joint_scale=1e-3, line_pitch=LINE_PITCH, end_at_turn=True, pause=2.0)
+        expected = surface(3)
+        order = list(range(LINES))
+        lost = 20
+        order.remove(lost)
+        order.insert(10, 9)  # one comes twice
+        lowest = expected[::-1]
+
+        def joint(stamp, place):
+            scanner.joints.publish(JointState(header=rospy.Header(stamp=stamp), name=["other", "stage"], position=[9.0, 1e3 * place]))
+
+        for number, row in enumerate(order):
+            stamp = rospy.Time.from_sec(1000.0 + 0.01 * number)
+            scanner.sensor.publish(line(lowest[row], stamp))
+            joint(stamp, 0.02 + row * LINE_PITCH)
+        back = list(range(LINES - 2, -1, -1))
+        for number, row in enumerate(back):
+            stamp = rospy.Time.from_sec(1001.0 + 0.01 * number)
+            scanner.sensor.publish(line(lowest[row], stamp))
+            joint(stamp, 0.02 + row * LINE_PITCH)
+        first, second = scanner.heights.wait(2)
+        whole = expected.astype(float)
+        whole[LINES - 1 - lost] = np.nan
+        np.testing.assert_allclose(heights_of(first), whole, rtol=0, atol=1e-10)
+        self.assertEqual(np.isnan(heights_of(second)).sum(), 0)
+        # The line at which the turn shows is the first of the next scan; the one before it lay over another.
+        np.testing.assert_allclose(heights_of(second), expected[-(LINES - 2):], rtol=0, atol=1e-10)
+        scanner.counts.wait(lines_lost_by_position=1, lines_doubled=2, found=2, published=2, waiting=0)
+
+    def test_4_tf_places_the_lines_and_the_trigger_says_when(self):
+        scanner = Scanner(self, "moved", motion="tf", frame="stage", line_pitch=LINE_PITCH)
+        expected = surface(4)
+        scanner.trigger.publish(True)
+        scanner.counts.wait(scan_is_open="true")
+
+        def place(stamp, way):
+            transform = TransformStamped()
+            transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, "stage", SENSOR
+            transform.transform.rotation.w = 1.0
+            transform.transform.translation.y = way
+            scanner.frames.publish(TFMessage([transform]))
+
+        for number, heights in enumerate(expected[::-1]):
+            stamp = rospy.Time.from_sec(5000.0 + 0.01 * number)
+            scanner.sensor.publish(line(heights, stamp, size=32, missing=np.inf))
+            place(stamp, number * LINE_PITCH)  # behind the line, as tf comes late
+        scanner.counts.wait(lines_of_this_scan=LINES)
+        scanner.sensor.publish(line(expected[0], rospy.Time(9000)))  # a line of which tf knows nothing
+        scanner.counts.wait(lines_without_place=1)
+        scanner.trigger.publish(False)
+        self.check(scanner, expected, tolerance=1e-11)
+        scanner.counts.wait(found=1, published=1, waiting=0)
+
+    def test_5_what_is_no_scan_is_refused_and_the_next_goes_on(self):
+        scanner = Scanner(self, "bad", motion="count", line_pitch=LINE_PITCH, max_lines=LINES)
+        scanner.send(np.full((LINES, POINTS), np.nan, np.float32))
+        self.assertIn("measured", scanner.refused.wait(1)[0].data)
+        broken = line(surface()[0], rospy.Time(1))
+        broken.fields.pop()
+        scanner.sensor.publish(broken)
+        scanner.counts.wait(lines_refused=1)
+        scanner.send(surface(5))
+        self.check(scanner, surface(5))
+        scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
+
+    def test_6_the_station_predicts_the_scan_of_a_line_scanner(self):
+        with tempfile.TemporaryDirectory() as name:
+            top = pathlib.Path(name)
+            settings = yaml.safe_load(pathlib.Path(get_pkg_dir("mems_stiction"), "config", "source_lines.yaml").read_text())
+            settings.update(motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
+            (top / "source.yaml").write_text(yaml.safe_dump(settings))
+            station = subprocess.Popen(
+                ["roslaunch", get_pkg_dir("mems_stiction") + "/launch/station.launch", "config:=%s" % STATION, "points:=/profiles",
+                 "source_config:=%s/source.yaml" % top, "page:=false", "record:=false"], env=dict(os.environ, ROS_HOME=name))
+            try:
+                predictions = Collector("prediction", StictionPrediction).connect()
+                counts = Counts()
+                counts._name = "scan_source: scan_source"
+                sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
+                wait_until(sensor.get_num_connections, "the source to listen")
+                wait_until(lambda: counts["found"] and not counts["hindered_by"], "the node to listen")
+                for number, heights in enumerate(surface(6)[::-1]):
+                    sensor.publish(line(heights, rospy.Time.from_sec(1000.0 + 0.01 * number)))
+                self.assertEqual(predictions.wait(1)[0].header.stamp, rospy.Time(1000))
+            finally:
+                station.send_signal(signal.SIGINT)
+                station.wait(timeout=TIMEOUT)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "line_source", LinesTest)
