@@ -1,10 +1,19 @@
 #pragma once
 
 /// @file
-/// What a solver answers, whichever it is. The figures and maps of a Prediction follow from it.
+/// What a solver answers, whichever it is: the state at rest, and what it takes to leave that
+/// state. The figures and maps of a Prediction follow from it. Equations: doc/separation_curve.md,
+/// doc/theory.md.
 ///
-/// A figure that a solver does not have is NaN, a map that it does not have, or that was not asked for, is empty, and
-/// `has_asperities` says whether it parts the contact into asperities at all.
+///     load.total()  = F_w + F_e + F_m + F_c, which the contacts carry at rest
+///     energies      : (8) of the paper, total = mechanical + surface - elastic
+///
+/// Assumptions are the solver's own; `model` states them. Degenerate cases: a figure that a solver
+/// does not have is NaN, a map that it does not have, or that was not asked for, is empty, and
+/// `has_asperities` says whether it parts the contact into asperities at all. With the status
+/// kNoEquilibrium the figures are those of the last step.
+///
+///     const double adhesion = solution.status == Status::kNoEquilibrium ? 0.0 : solution.pull_off_force;  // [N]
 
 #include <cstdint>
 #include <limits>

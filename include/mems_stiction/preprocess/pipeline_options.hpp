@@ -1,8 +1,15 @@
 #pragma once
 
 /// @file
-/// Settings of the steps that clean a scan (pipeline.hpp), in their order; each is off by default. What a step does stands
-/// in the header that bears its name.
+/// Settings of the steps that clean a scan (pipeline.hpp), in their order; each is off by default.
+/// What a step does stands in the header that bears its name. Lengths are in metres along the
+/// scan's own axes, so that scans of different pitch share their settings. A step whose defaults
+/// are left alone changes no pixel; validate() names what is out of range.
+///
+///     PipelineOptions options;  // the recipe for AFM scans
+///     options.offset.enabled = options.spikes.enabled = options.fill.enabled = true;
+///     options.lines.method = LineAlignment::kMedian;
+///     options.level.shape = LevelShape::kPlane;
 
 #include <string>
 #include <vector>

@@ -1,9 +1,18 @@
 #pragma once
 
 /// @file
-/// One table of settings, many uses. Every options struct describes its fields to a visitor: key, unit, allowed range
-/// and meaning. Reading YAML, the ROS parameter server, validation, the printed effective configuration and the
-/// parameter documentation are visitors, so they cannot disagree about a key or a range.
+/// One table of settings, many uses. Every options struct describes its fields to a visitor: key,
+/// unit, allowed range and meaning. Reading YAML, the ROS parameter server, validation, the printed
+/// effective configuration and the parameter documentation are visitors, so they cannot disagree
+/// about a key or a range.
+///
+/// A visitor may write to what it sees; describeConst() gives it a copy. Degenerate cases:
+/// infinities lie in no range, NaN only in one where it means "none"; an unknown name of an
+/// enumeration leaves the previous value.
+///
+///     PipelineOptions options;
+///     options.fill.max_fraction = 2.0;
+///     for (const std::string& violation : rangeViolations(options)) report(violation);  // key, value, what is allowed
 
 #include <limits>
 #include <string>
