@@ -11,7 +11,7 @@ from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionRes
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
-SOURCE_STATUS = "scan_source"  # whatever the name of its node
+SOURCE_STATUS = "scan_source"  # whatever the name of its node, beside ours
 MAPS = ("height", "contacts")
 SMALLEST_PITCH, LARGEST_PITCH = 1e-12, 1e-3  # of a size that is shown [m]
 MAP_BUFFER = 2**28  # bytes: the newest map alone is kept
@@ -109,7 +109,9 @@ class PageListener:
     def _on_diagnostics(self, message):
         for status in message.status:
             node, _, what = status.name.partition(": ")
-            if node.strip("/") == self._node.strip("/") or what == SOURCE_STATUS:
+            own, other = self._node.strip("/"), node.strip("/")
+            is_our_source = what == SOURCE_STATUS and own.rpartition("/")[0] == other.rpartition("/")[0]
+            if other == own or is_our_source:
                 self._state.add_diagnostics(status)
 
     def _on_feedback(self, message, kind):

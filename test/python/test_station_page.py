@@ -285,6 +285,14 @@ class StateTest(unittest.TestCase):
         self.assertEqual((shown["scan"]["curve"]["in"][0][0], shown["scan"]["curve"]["in"][-1][0]), (0.0, points[-1].displacement))
         self.assertEqual(shown["broken"], [])
 
+    def test_the_node_and_the_source_of_its_scans_are_heard_and_nobody_else(self):
+        from mems_stiction.page_listener import PageListener  # as station_page does: messages are slow to import
+
+        state = PageState()
+        names = ["left/stiction_node: scans", "left/camera: scan_source", "left/camera: frames", "right/stiction_node: scans", "right/camera: scan_source"]
+        PageListener(state, "/left/stiction_node")._on_diagnostics(SimpleNamespace(status=[DiagnosticStatus(name=name) for name in names]))
+        self.assertEqual({status["name"] for status in state.snapshot()["diagnostics"]}, set(names[:2]))
+
     def test_a_map_that_is_none_keeps_the_one_before_and_is_named(self):
         state = PageState()
         good = map_message([[0, 1], [2, 3]])
