@@ -225,10 +225,9 @@ def page(lines, figure):
         for name in (SPARSE, CONFORMING, DOUBTED):
             rows.append(row(name, ratios([line for line in resolved if regime(line) == name], quantity("separation_curve"), quantity("half_space"))))
         text += table(title, rows)
-    rows = [row(kind, ratios([line for line in resolved if line["frame"]["kind"] == kind], ours, reference)) for kind in of_kinds]
-    rows += [row("under load", ratios(loaded, ours, reference)), row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),
+    rows = [row("under load", ratios(loaded, ours, reference)), row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),
              row("more contacts", ratios(many, ours, reference)), row("not resolved", ratios(unresolved, ours, reference))]
-    text += table("pull-off force, by kind of frame", rows)
+    text += table("pull-off force, by group of frames", rows)
     text += kind_rows(resolved, of_kinds)
     rows = [row("without NEAR_BONDING", ratios([line for line in resolved if not is_doubted(line)], ours, reference)),
             row("neither NEAR_BONDING nor RESOLUTION", ratios([line for line in resolved if not flags_of(line) & WARNING_FLAGS], ours, reference)),
