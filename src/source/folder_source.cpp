@@ -59,6 +59,9 @@ std::string stateFileOf(const FolderOptions& options, const std::string& node) {
   return rosHome() + "/scan_source/" + name.substr(std::min<std::size_t>(1, name.size())) + "-" + folder + ".seen";
 }
 
+/// By which the state file knows a file: another sidecar makes another scan of it.
+std::string placeOf(const FoundFile& file) { return file.name + "\n" + file.beside; }
+
 /// What neither the file nor its name states, the parameters do.
 void fillUnstated(const ScanIdentity& otherwise, ScanIdentity& identity) {
   for (std::string ScanIdentity::*text :
@@ -109,7 +112,7 @@ bool FolderSource::work() {
   const std::string failure = seen_.writeWaiting();
   if (hindered.empty()) hindered = failure;
   for (const FoundFile& file : watch_.waiting()) {
-    if (seen_.knowsFile(file.name, file.stamp)) watch_.settle(file, false);
+    if (seen_.knowsFile(placeOf(file), file.stamp)) watch_.settle(file, false);
   }
   countWaiting();
   bool is_ahead = false;
@@ -132,7 +135,7 @@ void FolderSource::passOver() {
   std::vector<FoundFile> old = watch_.waiting();
   if (options_.folder.old_files == OldFiles::kNewest && !old.empty()) old.pop_back();
   if (options_.folder.old_files == OldFiles::kAll) old.clear();
-  for (const FoundFile& file : old) seen_.notePassed(file.name, file.stamp);
+  for (const FoundFile& file : old) seen_.notePassed(placeOf(file), file.stamp);
   seen_.noteBegun();
 }
 
@@ -197,7 +200,7 @@ void FolderSource::publish(const FoundFile& file, const std::string& key, ScanFi
   std::string frame = scan.identity.scan_name;
   std::replace(frame.begin(), frame.end(), '\n', ' ');
   publisher_.publish(scan.surface, scan.identity, frame, stamp);
-  seen_.notePublished(key, stamp, file.name, file.stamp);
+  seen_.notePublished(key, stamp, placeOf(file), file.stamp);
   keys_[file.name] = key;
   watch_.settle(file, false);
   accounting_.published(file.name);

@@ -134,7 +134,7 @@ bool FolderWatch::list(const std::string& folder, const std::string& prefix, std
   std::vector<std::string> folders;
   while (const dirent* entry = readdir(opened.get())) {
     const std::string own = entry->d_name;
-    FoundFile file{folder + "/" + own, prefix + own, {}};
+    FoundFile file{folder + "/" + own, prefix + own, {}, {}};
     if (readStamp(file.path, file.stamp)) {
       files.push_back(std::move(file));
     } else if (is_recursive_ && own.front() != '.' && entry->d_type != DT_LNK) {
@@ -162,7 +162,9 @@ std::string FolderWatch::look() {
     if (!is_scan_(file.name)) continue;
     const auto known = before.find(file.name);
     if (known != before.end()) entries_.insert(before.extract(known));
-    update(file, neighbours.beside(file), neighbours.related(file));
+    FoundFile scan = file;
+    scan.beside = neighbours.beside(file);
+    update(scan, neighbours.related(file));
   }
   gone_ += static_cast<std::size_t>(
       std::count_if(before.begin(), before.end(), [](const auto& entry) { return !entry.second.is_settled; }));
@@ -171,17 +173,16 @@ std::string FolderWatch::look() {
   return "";
 }
 
-void FolderWatch::update(const FoundFile& file, const std::string& beside, const std::string& related) {
+void FolderWatch::update(const FoundFile& file, const std::string& related) {
   const auto [place, is_new] = entries_.try_emplace(file.name);
   Entry& entry = place->second;
-  const bool is_changed = is_new || entry.file.stamp != file.stamp || entry.beside != beside;
+  const bool is_changed = is_new || entry.file.stamp != file.stamp || entry.file.beside != file.beside;
   const bool may_be_complete = entry.is_settled && entry.is_refused && entry.related != related;
   if (is_changed || may_be_complete) {
     entry.last_change = Clock::now();
     entry.is_settled = false;
   }
   entry.file = file;
-  entry.beside = beside;
   entry.related = related;
   entry.is_open = open_.count(file.name) != 0;
 }

@@ -24,6 +24,7 @@ struct FoundFile {
   std::string path;
   std::string name;  ///< relative to the folder
   FileStamp stamp;
+  std::string beside;  ///< names, sizes and times of the files that may belong to it, as its sidecar
 };
 
 /// For one thread, but for stop().
@@ -68,7 +69,6 @@ class FolderWatch {
  private:
   struct Entry {
     FoundFile file;
-    std::string beside;   ///< state of the files that belong to it
     std::string related;  ///< state of the files of a like name
     Clock::time_point last_change;
     bool is_open = false;  ///< somebody writes to it
@@ -77,7 +77,7 @@ class FolderWatch {
   };
 
   bool list(const std::string& folder, const std::string& prefix, std::vector<FoundFile>& files);
-  void update(const FoundFile& file, const std::string& beside, const std::string& related);
+  void update(const FoundFile& file, const std::string& related);
   void readEvents();
   Clock::time_point wholeAt(const Entry& entry) const;
 

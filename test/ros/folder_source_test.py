@@ -143,6 +143,9 @@ class FolderTest(unittest.TestCase):
         self.put("below/C_1.txt", first)
         self.counts.wait(repeated=before + 1, waiting=0)
         self.assertEqual([len(self.of_content(one)) for one in (first, second)], [1, 1])
+        (self.folder / "B_1.txt.yaml").write_text(SIDECAR + "serial_id: '77'\n")  # another sidecar makes another scan
+        wait_until(lambda: len(self.of_content(second)) == 2, "the scan of the changed sidecar")
+        self.assertEqual([one.serial_id for one in self.of_content(second)], ["1", "77"])
         self.assert_books()
 
     def test_3_what_cannot_be_read_is_named_once_and_the_next_file_goes_on(self):
