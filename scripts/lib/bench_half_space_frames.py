@@ -17,8 +17,9 @@ import mems_stiction
 import numpy as np
 import scipy.fft
 
-import trust_kinds
-import trust_run
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "studies"))
+import trust_kinds  # noqa: E402  (the path comes first)
+import trust_run  # noqa: E402
 
 REPETITIONS = 41
 

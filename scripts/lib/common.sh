@@ -13,7 +13,7 @@ if [ -f /opt/ros/noetic/setup.bash ]; then
 fi
 
 # Sets $program for messages: the name as the user knows it.
-program=scripts/$(basename "$0")
+program=$(basename "$(dirname "$(realpath "$0")")")/$(basename "$0")
 
 say() { printf '%s\n' "$*"; }
 

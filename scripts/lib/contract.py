@@ -168,6 +168,7 @@ def scans_of(build):
 
 def maps():
     """For each map what draws a frame by its number: heights, pitch, settings."""
+    sys.path.insert(0, str(REPOSITORY / "studies"))
     import trust_frames
     import trust_kinds
     import trust_run

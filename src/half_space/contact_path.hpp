@@ -119,7 +119,7 @@ class ContactPath {
   static constexpr Accuracy kRough{300.0, std::numeric_limits<double>::infinity()};
   /// On the way in until something jumps or rest is near, and behind; on the way out, far from the largest force; and near it,
   /// where the way out is the way in. But for rest and what flows. Set, as the smallest steps and kSameForce and kSameEnergy are,
-  /// on `scripts/trust --half-space-steps` of seeds 32 and 34, the last one on 32 and 35, the first one on 60 frames of each page
+  /// on `studies/trust --half-space-steps` of seeds 32 and 34, the last one on 32 and 35, the first one on 60 frames of each page
   /// of kinds and on seeds 38 and 39. Exact states take a seventh more time on the way in and a tenth on the way out of frames that
   /// jump, and are no nearer to finer steps; kPassing all the way in takes a tenth more on frames that do not jump; 1000 in place
   /// of 300, or 300 behind jumps, puts 1 % of the areas and forces out, and near rest stiffnesses by up to 13 %; 100 on the way

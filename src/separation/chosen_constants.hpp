@@ -42,14 +42,14 @@ constexpr double kConformingRatio = 0.75;
 
 /// Share of the area in contact or within z0 of it at rest, above which surfaces that conform by their energy have joined on their way, too.
 /// Below, a few tall summits hold them apart, until a load presses them together. Any value from 0.03 to 0.36 says the
-/// same of the 336 frames of other kinds (scripts/trust --kinds, seeds 5 and 6), the map and seed 77. Without (0): map 0, 0;
+/// same of the 336 frames of other kinds (studies/trust --kinds, seeds 5 and 6), the map and seed 77. Without (0): map 0, 0;
 /// other kinds -0.9, -0.9, and three of them are 55 to 400 times too strong.
 constexpr double kJoinedShare = 0.2;
 
 // ---------------------------------------------------------------- what the curve says of its own error
 
 /// Contacts are doubted where their width, in a0, and the excess over 1 of the force's exponent with the work of adhesion are
-/// together more than this [-]. Set on 2,856 frames of other kinds (scripts/trust --kinds, seeds 5 to 9 and 14 to 17), of which a third may be
+/// together more than this [-]. Set on 2,856 frames of other kinds (studies/trust --kinds, seeds 5 to 9 and 14 to 17), of which a third may be
 /// doubted. No force hangs on it. From 1.1 to 1.3 as many frames, 0.46 % of all, are out by more than 1.3 without a doubt, and 34.0 to 32.1 % of
 /// all are doubted; with 1.4 it is 0.7 %, with 1.05 0.35 %, of 34.8 %.
 constexpr double kDoubtedContacts = 1.25;
@@ -81,7 +81,7 @@ constexpr double kHardlyTense = 0.05;
 
 /// Standard deviations of the logarithm of force and work, of contacts without a doubt and with one, at flattening ratios up to
 /// 1. Contacts that lie apart hear less of each other: above 1 the deviations fall with this power of the ratio. Set on frames of
-/// other kinds (scripts/trust --kinds, seeds 5, 6, 8 and 9), so that 95 % of each third of them, by flattening ratio, lie within
+/// other kinds (studies/trust --kinds, seeds 5, 6, 8 and 9), so that 95 % of each third of them, by flattening ratio, lie within
 /// 1.96 times.
 constexpr ModelError kSureError{0.09, 0.065};
 constexpr ModelError kDoubtError{0.43, 0.20};

@@ -11,8 +11,8 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-LIBRARY = REPOSITORY / "scripts" / "lib"
-sys.path.insert(0, str(LIBRARY))
+STUDIES = REPOSITORY / "studies"
+sys.path.insert(0, str(STUDIES))
 
 import measured  # noqa: E402  (the path comes first)
 import measured_cases as cases  # noqa: E402
@@ -36,7 +36,7 @@ class MeasuredTest(unittest.TestCase):
     @evidence
     def test_shipped_page_is_one_of_this_study(self):
         path = self.folder / "page.md"
-        done = subprocess.run([sys.executable, str(LIBRARY / "measured.py"), str(path), "--quick"],
+        done = subprocess.run([sys.executable, str(STUDIES / "measured.py"), str(path), "--quick"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(first_cells(path.read_text(encoding="utf-8")), first_cells(self.shipped))

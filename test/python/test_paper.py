@@ -1,4 +1,4 @@
-"""scripts/reproduce_paper: a trial run, its page, and that the rows of its table are computed."""
+"""studies/reproduce_paper: a trial run, its page, and that the rows of its table are computed."""
 
 import copy
 import json
@@ -16,7 +16,7 @@ import mems_stiction
 import numpy as np
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(REPOSITORY / "scripts" / "lib"))
+sys.path.insert(0, str(REPOSITORY / "studies"))
 
 from paper import cases, claims, data, figures  # noqa: E402
 from paper.version import version  # noqa: E402
@@ -50,7 +50,7 @@ class TrialRun(unittest.TestCase):
         cls._folder = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls._folder.name)
         cls.done = subprocess.run(
-            [str(REPOSITORY / "scripts" / "reproduce_paper"), "--quick", "--built", "--work", str(cls.folder / "work"),
+            [str(REPOSITORY / "studies" / "reproduce_paper"), "--quick", "--built", "--work", str(cls.folder / "work"),
              "--doc", str(cls.folder / "doc")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
             universal_newlines=True, timeout=600)
         assert cls.done.returncode == 0, cls.done.stderr

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 from scipy import integrate
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "lib"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "studies"))
 
 from paper import theory  # noqa: E402
 

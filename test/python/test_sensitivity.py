@@ -15,8 +15,8 @@ from tiers import evidence  # noqa: E402  (the path comes first)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = REPOSITORY / "doc" / "sensitivity.md"
-STUDY = REPOSITORY / "scripts" / "lib" / "sensitivity_study.py"
-WRITER = REPOSITORY / "scripts" / "lib" / "sensitivity_page.py"
+STUDY = REPOSITORY / "studies" / "sensitivity_study.py"
+WRITER = REPOSITORY / "studies" / "sensitivity_page.py"
 
 
 def run(command):
@@ -38,6 +38,7 @@ def defaults(page):
     return dict(re.findall(r"^\| `([^`]+)` \| ([^|]*) \|", table, re.MULTILINE))
 
 
+@evidence
 class SensitivityTest(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -75,7 +76,6 @@ class SensitivityTest(unittest.TestCase):
                 self.assertEqual(outcome_far["pull_off_force"], outcome_near["pull_off_force"])
                 self.assertLess(2.0 * outcome_near["pull_off_force"], outcome_paper["pull_off_force"])
 
-    @evidence
     def test_own_scans_are_cut_into_quarters(self):
         random = np.random.RandomState(3)
         heights = random.standard_normal((128, 130))

@@ -12,14 +12,16 @@ import mems_stiction
 import numpy as np
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-LIBRARY = REPOSITORY / "scripts" / "lib"
-sys.path.insert(0, str(LIBRARY))
+STUDIES = REPOSITORY / "studies"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path.insert(0, str(STUDIES))
 
 import half_space_steps  # noqa: E402  (the path comes first)
 import trust_frames  # noqa: E402
 import trust_kinds  # noqa: E402
 import trust_page  # noqa: E402
 import trust_run  # noqa: E402
+from tiers import evidence  # noqa: E402
 
 COUNT = 6
 
@@ -40,10 +42,11 @@ class TrustTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
     def run_frames(self, count):
-        done = run(sys.executable, LIBRARY / "trust_run.py", self.folder, count, "--pixels", "48")
+        done = run(sys.executable, STUDIES / "trust_run.py", self.folder, count, "--pixels", "48")
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
 
+    @evidence
     def test_quick_map_goes_on_and_gives_the_page(self):
         self.run_frames(3)
         path = self.folder / "half_space.jsonl"
@@ -54,7 +57,7 @@ class TrustTest(unittest.TestCase):
         self.assertEqual(len(path.read_text().splitlines()), COUNT)
         self.assertNotIn("solved 3 of", progress)
         self.assertIn("solved 4 of %d" % COUNT, progress)
-        done = run(sys.executable, LIBRARY / "trust_page.py", self.folder / "predictions.jsonl", self.folder / "page.md", self.folder / "map.png")
+        done = run(sys.executable, STUDIES / "trust_page.py", self.folder / "predictions.jsonl", self.folder / "page.md", self.folder / "map.png")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "map.png").read_bytes()[1:4], b"PNG")
         shipped = (REPOSITORY / "doc" / "trust.md").read_text(encoding="utf-8")
@@ -65,12 +68,13 @@ class TrustTest(unittest.TestCase):
                 ratio = line["separation_curve"]["pull_off_force"] / line["half_space"]["pull_off_force"]
                 self.assertTrue(0.5 < ratio < 2, (line["frame"], ratio))  # what the map has at worst
 
+    @evidence
     def test_both_steps_are_compared_and_the_run_goes_on(self):
         page = self.folder / "page.md"
         shipped = (REPOSITORY / "doc" / "half_space.md").read_text(encoding="utf-8")
         page.write_text(shipped, encoding="utf-8")
         for count in (2, 4):
-            done = run(sys.executable, LIBRARY / "half_space_steps.py", self.folder, count, "--pixels", "48", "--page", page)
+            done = run(sys.executable, STUDIES / "half_space_steps.py", self.folder, count, "--pixels", "48", "--page", page)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("solved 2 of", done.stderr)
         self.assertIn("solved 3 of 4", done.stderr)
@@ -85,11 +89,12 @@ class TrustTest(unittest.TestCase):
             for name in half_space_steps.COMPARED:
                 self.assertLess(abs(half_space_steps.deviation(line, name)), 0.2, line["frame"])
 
+    @evidence
     def test_pressed_frames_are_compared_and_the_run_goes_on(self):
         path = self.folder / "pressed.jsonl"
         for count in (2, 4):
             before = path.read_text() if path.exists() else ""
-            done = run(sys.executable, LIBRARY / "flow_map.py", self.folder, count, "--pixels", "48", "--seeds", "61,62")
+            done = run(sys.executable, STUDIES / "flow_map.py", self.folder, count, "--pixels", "48", "--seeds", "61,62")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(path.read_text().startswith(before))
         lines = [json.loads(line) for line in path.read_text().splitlines()]

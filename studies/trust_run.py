@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Solves and predicts the frames of the error map; scripts/trust calls it.
+"""Solves and predicts the frames of the error map; studies/trust calls it.
 
 usage: trust_run.py FOLDER COUNT [--kinds] [--pixels N] [--seed N] [--scans FOLDER] [--limit S]
 

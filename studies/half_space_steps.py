@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The half-space in its usual steps against a quarter of them, on frames of all kinds; scripts/trust --half-space-steps calls it.
+"""The half-space in its usual steps against a quarter of them, on frames of all kinds; studies/trust --half-space-steps calls it.
 
 usage: half_space_steps.py FOLDER COUNT [--pixels N] [--seed N] [--limit S] [--page FILE.md]
 
@@ -174,7 +174,7 @@ def section_of(lines, arguments):
             if line[which] and line[which]["status"] != "SOLVED":
                 others.setdefault((which, line[which]["status"]), []).append(line["frame"]["number"])
     text = [HEADING, "",
-            "Written by `scripts/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, "
+            "Written by `studies/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, "
             "alternately of the [map's](trust.md) kinds and of those that [processes](trust_kinds.md) "
             "make. Half of them are under %.2g to %.0f MPa; nothing flows. Each frame is solved with the "
             "default `half_space/step` of %g and with a quarter of it. Shares are of the frames that both "

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far is the force that mems_stiction says of a device from that of large surfaces that are known? scripts/device calls it.
+"""How far is the force that mems_stiction says of a device from that of large surfaces that are known? studies/device calls it.
 
 usage: device_study.py RESULTS.jsonl COUNT [--side N] [--seed N] [--kinds A,B] [--cases k4+wide,k1,...] [--settings FILE]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The separation curve beside the half-space on pressed frames, both with flow; scripts/trust --flow calls it.
+"""The separation curve beside the half-space on pressed frames, both with flow; studies/trust --flow calls it.
 
 usage: flow_map.py FOLDER COUNT [--pixels N] [--seeds N,N,...] [--limit S] [--page FILE.md]
 
@@ -120,7 +120,7 @@ def section_of(lines, arguments):
     changed = [line for line in lines if abs(np.log(line["by_flow"])) > np.log(BY_FLOW)]
     sure = [line for line in lines if not line["doubt"]]
     text = [HEADING, "",
-            "Written by `scripts/trust --flow`: %d frames of %d x %d pixels that the half-space has solved, seeds %s, of all kinds of `scripts/lib/trust_kinds.py` in turn, E* 10 to 200 GPa, hardness "
+            "Written by `studies/trust --flow`: %d frames of %d x %d pixels that the half-space has solved, seeds %s, of all kinds of `studies/trust_kinds.py` in turn, E* 10 to 200 GPa, hardness "
             "%g to %g GPa of both bodies or of one, under %g to %g MPa. Both solvers flow. *By flow*: the half-space's force differs by more than %g with flow and without; there its "
             "median is %.1f times that without." % (
                 len(lines), arguments.pixels, arguments.pixels, arguments.seeds.replace(",", ", "), *(1e-9 * value for value in trust_kinds.PRESSED_HARDNESSES),

@@ -11,7 +11,7 @@ import numpy as np
 import trust_frames
 import yaml
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
 READ, RECALLED = "read", "recalled"
 PIXELS_PER_LENGTH = 8
 

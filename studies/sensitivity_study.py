@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much does each numerical setting move a prediction? Prints JSON for sensitivity_page.py; scripts/sensitivity calls it.
+"""How much does each numerical setting move a prediction? Prints JSON for sensitivity_page.py; studies/sensitivity calls it.
 
 usage: sensitivity_study.py [SCAN...] [--config FILE.yaml] [--scans N] [--pixels N] [--pressure PA]
 

@@ -1,4 +1,4 @@
-"""python3 -m paper [options]: predicts, draws, writes the page. scripts/reproduce_paper calls it."""
+"""python3 -m paper [options]: predicts, draws, writes the page. studies/reproduce_paper calls it."""
 
 import argparse
 import json

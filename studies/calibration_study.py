@@ -27,7 +27,7 @@ import numpy as np
 
 import trust_run
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(REPOSITORY / "test" / "python"))
 from module_cases import rough  # noqa: E402  (the path comes first)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Predicts what others measured on rough surfaces and writes the page; scripts/measured calls it.
+"""Predicts what others measured on rough surfaces and writes the page; studies/measured calls it.
 
 usage: measured.py PAGE.md [--seeds N] [--quick]
 """
@@ -187,7 +187,7 @@ def page(study):
     text = [
         "# Against measurement", "",
         "Published measurements on rough surfaces, beside predictions by `approach/formulation: "
-        "separation_curve` for surfaces with the same statistics. Written by `scripts/measured`.", "",
+        "separation_curve` for surfaces with the same statistics. Written by `studies/measured`.", "",
         "**This page shows an order of magnitude and a trend, no more.** A prediction needs roughness, correlation length, work of adhesion, Hamaker "
         "constant, humidity and area. No available source gives all of them, and most were read "
         "as abstracts. Missing values are assumed; [a table](#what-the-assumptions-move) shows "
@@ -229,7 +229,7 @@ def page(study):
              "is smaller than either's (DelRio et al. 2005).", "",
              "## Found, but not predicted", "",
              "The available text of these lacks the roughness, or the force: %s." % "; ".join(cases.FOUND)]
-    text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `scripts/lib/measured_cases.py` and run `scripts/measured` again.", ""]
+    text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `studies/measured_cases.py` and run `studies/measured` again.", ""]
     return "\n".join(text)
 
 

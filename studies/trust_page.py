@@ -31,15 +31,15 @@ OF_THE_MAP = ("rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm
 SETS = ("**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9 and checked on those of 7 "
         "(168 frames each) and 14 to 17 (504 each). The flag was set on all of these. This page uses seed 19, whose "
         "frames nobody had compared before; its 72 frames whose texture changes from place to place (smooth places, "
-        "changing) joined the page later. `scripts/trust --kinds --seed N` draws others. On seed 18 the area "
+        "changing) joined the page later. `studies/trust --kinds --seed N` draws others. On seed 18 the area "
         "of small contacts was judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, led to the doubt "
         "about contacts where bonded surfaces have less energy. Seeds 5 to 9 and 14 to 18 together, 3,360 frames, with "
         "earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others 99.3 % of the forces are within 1.3, the worst 1.54. With the "
         "flagged frames solved it is 99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the area within 1.3 on "
         "90.7 % (94.4 %).")
-CONSTANTS = pathlib.Path(__file__).resolve().parents[2] / "src" / "separation" / "chosen_constants.hpp"
+CONSTANTS = pathlib.Path(__file__).resolve().parents[1] / "src" / "separation" / "chosen_constants.hpp"
 ERRORS = {"without a doubt": "Sure", "contacts with a doubt": "Doubt", "bonded with a doubt": "Bonded"}
-OF_PROCESSES = ["in equal shares as processes make them (`scripts/lib/trust_kinds.py`): " + ", ".join(trust_kinds.KINDS),
+OF_PROCESSES = ["in equal shares as processes make them (`studies/trust_kinds.py`): " + ", ".join(trust_kinds.KINDS),
                 "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, works of adhesion of 10 to 120 mJ/m^2, Hamaker "
                 "constants of 40 to 150 zJ."]
 
@@ -207,7 +207,7 @@ def page(lines, figure):
     text = [
         "# Error map" + (" of other kinds" if is_of_processes else ""), "",
         "How far each formulation lies from the [adhesive half-space](half_space.md), on random surfaces of many kinds. "
-        "Written by `scripts/trust%s`." % (" --kinds" if is_of_processes else ""), "",
+        "Written by `studies/trust%s`." % (" --kinds" if is_of_processes else ""), "",
         "- **Frames.** %d of %d x %d pixels: %s. Nothing flows." % (len(lines), size, size, frames[0]),
         "- **Drawn from** %s A third is pressed with 0.1 to 100 MPa." % frames[1],
         "- **Reference.** The half-space solved %d in the time given. Its pixels resolve the cohesive length E z0^2/Gamma on "

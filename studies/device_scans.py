@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """How far is the force that mems_stiction says of a device from that of measured scans that are large enough to be one?
-scripts/device --scans calls it; lines that are there are not done again.
+studies/device --scans calls it; lines that are there are not done again.
 
 usage: device_scans.py RESULTS.jsonl FOLDER [--settings FILE] [--seed N]
 

@@ -17,7 +17,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
-DOCUMENTS = pathlib.Path(__file__).resolve().parents[2] / "doc"
+DOCUMENTS = pathlib.Path(__file__).resolve().parents[1] / "doc"
 COLOURS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
 QUANTITIES = (("pull_off_force", "pull-off force"), ("apparent_work_of_adhesion", "work of adhesion"),
               ("contact_area", "contact area"), ("mean_gap", "mean gap"))
@@ -307,7 +307,7 @@ def linked_from(folder, text):
 def page(study, figure, is_generated):
     pressure = "%g MPa" % (1e-6 * study.record["pressure"])
     lines = ["# Sensitivities: which digits mean something", "",
-             "*Written by `scripts/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
+             "*Written by `studies/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
              "Each numerical setting is changed alone, on every scan. Tables give the mean change "
              "of the prediction and its standard deviation over the scans, in percent. A shift "
              "below the spread from scan to scan cannot be seen in practice. Keys: "

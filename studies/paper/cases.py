@@ -21,7 +21,7 @@ import yaml
 
 from paper.theory import SUMMITS
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[3]
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 CORRELATION_PIXELS = 10
 BASE_RMS_HEIGHT = 1e-9  # of each surface as drawn; cases scale it
 PAPERS_MODEL = {"approach/formulation": "paper"}

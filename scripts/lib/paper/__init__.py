@@ -1,1 +1,0 @@
-"""What scripts/reproduce_paper runs: cases, theory to compare with, claims, figures, page."""

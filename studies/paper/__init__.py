@@ -1,0 +1,1 @@
+"""What studies/reproduce_paper runs: cases, theory to compare with, claims, figures, page."""
