@@ -7,7 +7,7 @@
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -25,14 +25,14 @@ constexpr std::uint32_t kOrderOfBytes = 0x01020304;
 template <typename Scalar>
 MEMS_STICTION_INLINE double highestIn(const Scalar* line, std::size_t size) {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  Lanes highest = kNone;
-  const auto take = [&](const Lanes& heights) {
-    const Lanes valid = select(heights - heights == 0.0, heights, kNone);
+  Packet highest = kNone;
+  const auto take = [&](const Packet& heights) {
+    const Packet valid = select(heights - heights == 0.0, heights, kNone);
     highest = select(valid > highest, valid, highest);
   };
-  const std::size_t in_lanes = size / Lanes::kCount * Lanes::kCount;
-  for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) take(Lanes::load(line + i));
-  if (in_lanes < size) take(Lanes::loadFirst(line + in_lanes, size - in_lanes, kNone));
+  const std::size_t in_packets = size / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) take(Packet::load(line + i));
+  if (in_packets < size) take(Packet::loadFirst(line + in_packets, size - in_packets, kNone));
   return highest.largest();
 }
 

@@ -7,7 +7,7 @@
 
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -31,16 +31,16 @@ void requireSameGrid(const HeightMap& lower, const HeightMap& upper) {
                      ")");
 }
 
-/// Sums over valid heights, in fixed lanes. They are taken from a level that is one of the heights: it can stand for what
+/// Sums over valid heights, in fixed packets. They are taken from a level that is one of the heights: it can stand for what
 /// is left out, and adds nothing.
 struct HeightSums {
   explicit HeightSums(double level_in) : level(level_in), highest(level_in), lowest(level_in) {}
 
-  MEMS_STICTION_INLINE void add(const Lanes& heights) {
-    const LaneMask is_valid = heights - heights == 0.0;
-    const Lanes valid = select(is_valid, heights, level);
-    const Lanes excess = valid - level;
-    counts += select(is_valid, Lanes(1.0), 0.0);
+  MEMS_STICTION_INLINE void add(const Packet& heights) {
+    const PacketMask is_valid = heights - heights == 0.0;
+    const Packet valid = select(is_valid, heights, level);
+    const Packet excess = valid - level;
+    counts += select(is_valid, Packet(1.0), 0.0);
     sum += excess;
     squares += excess * excess;
     highest = select(valid > highest, valid, highest);
@@ -50,20 +50,20 @@ struct HeightSums {
   std::size_t count() const { return static_cast<std::size_t>(counts.sum()); }
 
   double level;  ///< [m]
-  Lanes counts = 0.0;
-  Lanes sum = 0.0;
-  Lanes squares = 0.0;
-  Lanes highest;
-  Lanes lowest;
+  Packet counts = 0.0;
+  Packet sum = 0.0;
+  Packet squares = 0.0;
+  Packet highest;
+  Packet lowest;
 };
 
 template <typename Scalar>
 MEMS_STICTION_INLINE void addHeights(const Scalar* line, std::size_t size, HeightSums& sums) {
   constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
   HeightSums local = sums;
-  const std::size_t in_lanes = size / Lanes::kCount * Lanes::kCount;
-  for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) local.add(Lanes::load(line + i));
-  if (in_lanes < size) local.add(Lanes::loadFirst(line + in_lanes, size - in_lanes, kNoHeight));
+  const std::size_t in_packets = size / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) local.add(Packet::load(line + i));
+  if (in_packets < size) local.add(Packet::loadFirst(line + in_packets, size - in_packets, kNoHeight));
   sums = local;
 }
 
@@ -219,8 +219,8 @@ MEMS_STICTION_VECTORIZED int columnsBetween(double from, double limit, const dou
   std::int32_t* next = columns;
   std::int32_t col = 0;
   for (; col + kBlock <= cols; col += kBlock, gaps += kBlock) {
-    const Lanes first = Lanes::load(gaps);
-    const Lanes second = Lanes::load(gaps + Lanes::kCount);
+    const Packet first = Packet::load(gaps);
+    const Packet second = Packet::load(gaps + Packet::kCount);
     const int count = ((first < limit) ^ (first < from)).count() + ((second < limit) ^ (second < from)).count();
     if (count == 0) continue;
     if (count == kBlock) {

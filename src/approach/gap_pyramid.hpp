@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "approach/gap_order.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -22,14 +22,14 @@ struct PyramidRule {
   double offset = 0.0;  ///< the law varies over gap + offset, not over the gap [m], >= 0
 };
 
-/// Calls take(four gaps - approach, in lanes) for one four of cells after the other.
+/// Calls take(four gaps - approach, in packets) for one four of cells after the other.
 /// @return how many cells were taken: up to three are left
 template <typename Take>
 MEMS_STICTION_INLINE std::size_t visitFours(const OrderedCell* cells, std::size_t count, double approach,
                                             const Take& take) {
-  const std::size_t in_fours = count / Lanes::kCount * Lanes::kCount;
-  for (std::size_t i = 0; i < in_fours; i += Lanes::kCount) {
-    take(Lanes(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach);
+  const std::size_t in_fours = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_fours; i += Packet::kCount) {
+    take(Packet(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach);
   }
   return in_fours;
 }

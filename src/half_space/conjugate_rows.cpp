@@ -4,38 +4,38 @@ namespace mems_stiction {
 namespace conjugate_rows {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
-using Mask = int __attribute__((vector_size(kLanes * sizeof(int))));
+constexpr std::size_t kElements = 8;
+using Packet = float __attribute__((vector_size(kElements * sizeof(float))));
+using Mask = int __attribute__((vector_size(kElements * sizeof(int))));
 
 /// Eight values from `from`, or as many as there are, the others `filler`.
-MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Lanes& lanes, float filler = 0.0F) {
-  if (available >= kLanes) {
-    std::memcpy(&lanes, from, sizeof lanes);
+MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Packet& packet, float filler = 0.0F) {
+  if (available >= kElements) {
+    std::memcpy(&packet, from, sizeof packet);
   } else {
-    lanes = Lanes{} + filler;
-    std::memcpy(&lanes, from, available * sizeof(float));
+    packet = Packet{} + filler;
+    std::memcpy(&packet, from, available * sizeof(float));
   }
 }
 
-MEMS_STICTION_INLINE void put(const Lanes& lanes, std::size_t available, float* to) {
-  std::memcpy(to, &lanes, available >= kLanes ? sizeof lanes : available * sizeof(float));
+MEMS_STICTION_INLINE void put(const Packet& packet, std::size_t available, float* to) {
+  std::memcpy(to, &packet, available >= kElements ? sizeof packet : available * sizeof(float));
 }
 
-MEMS_STICTION_INLINE double sumOf(const Lanes& lanes) {
+MEMS_STICTION_INLINE double sumOf(const Packet& packet) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < kLanes; ++i) sum += static_cast<double>(lanes[i]);
+  for (std::size_t i = 0; i < kElements; ++i) sum += static_cast<double>(packet[i]);
   return sum;
 }
 
-MEMS_STICTION_INLINE void raiseTo(const Lanes& values, Lanes& largest) {
-  const Lanes magnitude = values < 0.0F ? -values : values;
+MEMS_STICTION_INLINE void raiseTo(const Packet& values, Packet& largest) {
+  const Packet magnitude = values < 0.0F ? -values : values;
   largest = magnitude > largest ? magnitude : largest;
 }
 
-MEMS_STICTION_INLINE double largestOf(const Lanes& lanes) {
-  float largest = lanes[0];
-  for (std::size_t i = 1; i < kLanes; ++i) largest = lanes[i] > largest ? lanes[i] : largest;
+MEMS_STICTION_INLINE double largestOf(const Packet& packet) {
+  float largest = packet[0];
+  for (std::size_t i = 1; i < kElements; ++i) largest = packet[i] > largest ? packet[i] : largest;
   return static_cast<double>(largest);
 }
 
@@ -43,19 +43,19 @@ MEMS_STICTION_INLINE double largestOf(const Lanes& lanes) {
 
 MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, float mean, const float* smoothed,
                                    const float* residual, const float* slope, float* search, float* search_traction) {
-  Lanes products{};
-  Lanes sums{};
-  Lanes z, r, d, p, kp;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet products{};
+  Packet sums{};
+  Packet z, r, d, p, kp;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(smoothed + i, rest, z);
-    take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
+    take(residual + i, rest, r, mean);  // packets beyond the row add nothing to the sums
     take(slope + i, rest, d);
     take(search + i, rest, p);
     take(search_traction + i, rest, kp);
     p = z + ratio * p;
     kp = ((r - mean) - shift * z) + ratio * kp;
-    const Lanes q = kp + d * p;
+    const Packet q = kp + d * p;
     products += p * q;
     sums += q;
     put(p, rest, search + i);
@@ -66,8 +66,8 @@ MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, 
 
 MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mean, const float* residual,
                                     const float* slope, float* smoothed) {
-  Lanes r, d;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet r, d;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(residual + i, rest, r);
     take(slope + i, rest, d);
@@ -78,15 +78,15 @@ MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mea
 
 MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float rough, float mean, const float* residual,
                                       const float* slope, float* smoothed) {
-  Lanes products{};
-  Lanes sums{};
-  Lanes z, r, d;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet products{};
+  Packet sums{};
+  Packet z, r, d;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(smoothed + i, rest, z);
-    take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
+    take(residual + i, rest, r, mean);  // packets beyond the row add nothing to the sums
     take(slope + i, rest, d);
-    const Lanes contact_slope = d > 0.0F ? d : 0.0F;
+    const Packet contact_slope = d > 0.0F ? d : 0.0F;
     z = yielding / (yielding + contact_slope) * z + (r - mean) / (rough + contact_slope);
     products += z * (r - mean);
     sums += z;
@@ -97,8 +97,8 @@ MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float r
 
 MEMS_STICTION_VECTORIZED Sums follow(std::size_t count, float ratio, float smoothed_mean, const float* smoothed,
                                      float* search) {
-  Lanes z, p;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet z, p;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(smoothed + i, rest, z);
     take(search + i, rest, p);
@@ -109,15 +109,15 @@ MEMS_STICTION_VECTORIZED Sums follow(std::size_t count, float ratio, float smoot
 
 MEMS_STICTION_VECTORIZED Sums respond(std::size_t count, const float* slope, const float* search,
                                       const float* search_traction) {
-  Lanes products{};
-  Lanes sums{};
-  Lanes d, p, kp;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet products{};
+  Packet sums{};
+  Packet d, p, kp;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(slope + i, rest, d);
     take(search + i, rest, p);
     take(search_traction + i, rest, kp);
-    const Lanes q = kp + d * p;
+    const Packet q = kp + d * p;
     products += p * q;
     sums += q;
   }
@@ -127,9 +127,9 @@ MEMS_STICTION_VECTORIZED Sums respond(std::size_t count, const float* slope, con
 MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const float* slope, const float* search,
                                       const float* search_traction, float* step, float* /*first_residual*/,
                                       float* residual) {
-  Lanes largest{};
-  Lanes d, p, kp, s, r;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet largest{};
+  Packet d, p, kp, s, r;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(slope + i, rest, d);
     take(search + i, rest, p);
@@ -154,8 +154,8 @@ Sums begin(std::size_t count, float length, const float* slope, const float* sea
 
 MEMS_STICTION_VECTORIZED Sums finish(std::size_t count, const float* slope, const float* step, const float* residual,
                                      float* first_residual) {
-  Lanes d, s, r, first;
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  Packet d, s, r, first;
+  for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
     take(slope + i, rest, d);
     take(step + i, rest, s);
@@ -167,11 +167,11 @@ MEMS_STICTION_VECTORIZED Sums finish(std::size_t count, const float* slope, cons
 }
 
 MEMS_STICTION_VECTORIZED Sums largest(std::size_t count, const float* values) {
-  Lanes most{};
-  Lanes lanes;
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    take(values + i, count - i, lanes);
-    raiseTo(lanes, most);
+  Packet most{};
+  Packet packet;
+  for (std::size_t i = 0; i < count; i += kElements) {
+    take(values + i, count - i, packet);
+    raiseTo(packet, most);
   }
   return {0.0, 0.0, largestOf(most)};
 }

@@ -2,7 +2,7 @@
 
 /// @file
 /// One row's share of a step of conjugate gradients, in single precision with the same bits on every processor: eight
-/// lanes, then what is left of the row.
+/// packets, then what is left of the row.
 
 #include <cstddef>
 #include <cstring>

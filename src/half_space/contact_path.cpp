@@ -9,7 +9,7 @@
 namespace mems_stiction {
 namespace {
 
-/// Smallest steps, of the usual one, beside kSmallestStep: on the way in, which may be the way out, and behind its first
+/// Smallest steps, of the usual one, beside kSmallestStep: on the loading branch, which may be the unloading branch, and behind its first
 /// jump; and where the largest force of the retraction may depend on it.
 constexpr double kSmallestStepIn = 0.25;
 constexpr double kSmallestStepBehindJump = 1.0;
@@ -21,23 +21,23 @@ constexpr double kSummitStep = 0.001;
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
-/// The sag, as kWantedSag, that is taken back on the way in. A parabola with a sag errs by a quarter of it where the curve is
-/// smooth. A jump that passes for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
-constexpr double kLargestSag = 0.03;
-/// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
+/// The curvature error, as kWantedError, that is taken back on the loading branch. A parabola with a curvature error errs by a quarter of it where the curve is
+/// smooth. A jump that passes for a smooth step adds up to its curvature error to the work that is lost, and frames have chains of them.
+constexpr double kLargestError = 0.03;
+/// A change of slope from one step to the next, over the step and of the force, counts as a curvature error of this share:
 /// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
 /// the branch was on its way to the largest force of all, the third where it is near.
 constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
-/// The smallest step that misses more than this goes over a jump; on the way out, whose work counts, what is taken back at all.
-constexpr double kJumpSag = 0.06;
+/// The smallest step that misses more than this goes over a jump; on the unloading branch, whose work counts, what is taken back at all.
+constexpr double kJumpError = 0.06;
 /// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
-/// much attraction would be less than kJumpSag there, and where their contacts bear more on average than the law attracts.
-constexpr double kHeavyLoad = 1.0 / kJumpSag;
-/// Sags there, wanted and largest: that of a force which grows by the factor of 5.5.
-constexpr double kWantedHeavySag = 0.3;
-constexpr double kLargestHeavySag = 0.6;
+/// much attraction would be less than kJumpError there, and where their contacts bear more on average than the law attracts.
+constexpr double kHeavyLoad = 1.0 / kJumpError;
+/// Curvature errors there, wanted and largest: that of a force which grows by the factor of 5.5.
+constexpr double kWantedHeavyError = 0.3;
+constexpr double kLargestHeavyError = 0.6;
 /// By which factor the force is to grow over a step there, where it can be foreseen.
 constexpr double kHeavyGrowth = 4.5;
 /// A force that is farther than this factor is not aimed at: the step before leads to this share of it.
@@ -56,13 +56,13 @@ constexpr double kMaybeRest = 0.01;
 constexpr int kMostAims = 5;
 constexpr double kShortestAim = 0.05;
 constexpr double kLongestAim = 2.0;
-/// On the way out, sags with which heights of the way in are taken up again.
-constexpr double kPlannedSag = 0.015;
+/// On the unloading branch, curvature errors with which heights of the loading branch are taken up again.
+constexpr double kPlannedError = 0.015;
 /// Steps are compared with limits but for rounding.
 constexpr double kStepTolerance = 1.001;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;
-/// On the way in, where most states are, a step also changes by the ratio of the last two sags to this power, by no more than that.
+/// On the loading branch, where most states are, a step also changes by the ratio of the last two curvature errors to this power, by no more than that.
 constexpr double kTrendPower = 0.2;
 constexpr double kLargestTrend = 1.4;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
@@ -125,11 +125,11 @@ double ContactPath::forceScale() const { return std::max(std::abs(present_.force
 
 double ContactPath::leftAtRest(double load) const { return kRestForce * std::max(forceScale(), load); }
 
-double ContactPath::sagOf(const ForcePoint& next) const {
+double ContactPath::curvatureErrorOf(const ForcePoint& next) const {
   const StepParabola parabola(present_, next);
   // of the smaller one: a step from a large load to none must not miss the attraction
   const double scale = std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
-  return scale > 0.0 ? parabola.sag() / scale : 0.0;
+  return scale > 0.0 ? parabola.curvatureError() / scale : 0.0;
 }
 
 double ContactPath::kinkOf(const ForcePoint& next) const {
@@ -208,7 +208,7 @@ void ContactPath::record(const ForcePoint& next, bool is_jump, ForceCurve& curve
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
     const std::optional<PressedStep> pressed = is_heavy ? std::make_optional<PressedStep>(parabola) : std::nullopt;
     // energies that do not belong to the forces tell of several branches, not of a parabola
-    const bool is_smooth = is_heavy || sagOf(next) <= kJumpSag;
+    const bool is_smooth = is_heavy || curvatureErrorOf(next) <= kJumpError;
     std::vector<double> shares;  // of the step, where points are
     for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
     const double summit = is_smooth && !is_heavy ? parabola.summit() : 0.0;
@@ -282,8 +282,8 @@ void ContactPath::planStep() {
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend() && point->force < 0.0; ++point) {
     if (!point->is_solved || point->height < present_.height + smallest) continue;
-    const double sag = sagOf(*point) * kUsualStep / settings_.step;
-    if (sag > (isHeavy(present_) && isHeavy(*point) ? kLargestHeavySag : kPlannedSag)) break;
+    const double curvature_error = curvatureErrorOf(*point) * kUsualStep / settings_.step;
+    if (curvature_error > (isHeavy(present_) && isHeavy(*point) ? kLargestHeavyError : kPlannedError)) break;
     step_ = point->height - present_.height;
   }
 }
@@ -313,24 +313,24 @@ ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double directi
                                           const ForceCurve& curve) const {
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
-  const bool is_way_out = !is_in && settings_.samples_curve;
-  const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
+  const bool is_unloading = !is_in && settings_.samples_curve;
+  const double largest_error_out = settings_.is_resolved ? kLargestSagOut : kLargestError;
   const double at_most = std::max({curve.largest_force, next.force, 0.0});
   const bool may_exceed = mayExceed(direction, step, at_most);
-  const bool is_at_summit = is_way_out && present_.force > kSummitForce * at_most;
-  const bool touches_summit = is_at_summit || (is_way_out && next.force > kSummitForce * at_most);
+  const bool is_at_summit = is_unloading && present_.force > kSummitForce * at_most;
+  const bool touches_summit = is_at_summit || (is_unloading && next.force > kSummitForce * at_most);
   const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
-  const double sag_share = is_at_summit ? kSummitSagShare : 1.0;
+  const double curvature_share = is_at_summit ? kSummitErrorShare : 1.0;
   // finer usual steps are to miss less, too
-  const double sag = std::max(sag_share * sagOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
+  const double curvature_error = std::max(curvature_share * curvatureErrorOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
   const bool is_heavy = isHeavy(present_) && isHeavy(next);
   const bool is_coarse = is_heavy || !settings_.samples_curve;
-  const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
-  const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? largest_sag_out : kLargestSag;
+  const double wanted_error = is_coarse ? kWantedHeavyError : kWantedError;
+  const double largest_error = is_coarse ? kLargestHeavyError : is_unloading ? largest_error_out : kLargestError;
   // a jump loses energy: the mean of both forces does more work than the energies tell
   const StepParabola parabola(present_, next);
   const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-  const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? largest_sag_out : kJumpSag);
+  const bool is_jump = loses && !is_heavy && curvatureErrorOf(next) > (is_unloading ? largest_error_out : kJumpError);
   // how steeply a branch rises that begins here is not known: its end may be the largest force of all
   const bool may_miss = may_exceed || (!is_in && last_move_ == 0.0);
   // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
@@ -339,24 +339,24 @@ ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double directi
   const bool is_finest = may_exceed || (may_miss && is_jump);
   const double smallest = leastStep(is_in, curve);
   const double finest = is_finest ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
-  return {sag, wanted_sag, largest_sag, finest, is_jump, is_heavy};
+  return {curvature_error, wanted_error, largest_error, finest, is_jump, is_heavy};
 }
 
 double ContactPath::changeOfStep(const Judgement& judged, bool is_in, int newton_steps) const {
   const auto within = [](double change, double most) { return std::clamp(change, 1.0 / most, most); };
-  double change = within(std::sqrt(judged.wanted_sag / std::max(judged.sag, 1e-12)), kLargestChange);
+  double change = within(std::sqrt(judged.wanted_error / std::max(judged.curvature_error, 1e-12)), kLargestChange);
   if (judged.is_heavy) return change;
   if (newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
-  if (!is_in || last_sag_ == 0.0) return change;
+  if (!is_in || last_error_ == 0.0) return change;
   // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991) 533)
-  change *= within(std::pow(last_sag_ / std::max(judged.sag, 1e-12), kTrendPower), kLargestTrend);
+  change *= within(std::pow(last_error_ / std::max(judged.curvature_error, 1e-12), kTrendPower), kLargestTrend);
   return within(change, kLargestChange);
 }
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
-  const bool is_way_out = !is_in && settings_.samples_curve;
+  const bool is_unloading = !is_in && settings_.samples_curve;
   const double smallest = leastStep(is_in, curve);
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
@@ -395,7 +395,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       const bool is_rest = beyond > -near && (beyond < near || step <= kRestStep * usual);
       if ((is_rough && is_aimed) || is_rest || may_flow) {
         status = settle(present_.height + move, kExact, next, state);
-      } else if (is_way_out && accuracy.force > kSummit.force && next.force > kSummitForce * curve.largest_force) {
+      } else if (is_unloading && accuracy.force > kSummit.force && next.force > kSummitForce * curve.largest_force) {
         status = settle(present_.height + move, summitAccuracy(), next, state);
       }
     }
@@ -407,14 +407,14 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     const Judgement judged = judge(next, direction, step, curve);
-    if (judged.sag > judged.largest_sag && step > kStepTolerance * judged.finest) {
+    if (judged.curvature_error > judged.largest_error && step > kStepTolerance * judged.finest) {
       minimiser_.takeBack();
       if (judged.is_jump) {
         is_before_jump_ = true;
         jump_height_ = present_.height + move;
         finest_ = judged.finest;
       }
-      step_ = std::max(judged.finest, step * std::clamp(std::sqrt(judged.wanted_sag / judged.sag), 0.25, 0.5));
+      step_ = std::max(judged.finest, step * std::clamp(std::sqrt(judged.wanted_error / judged.curvature_error), 0.25, 0.5));
       is_aimed = false;
       continue;
     }
@@ -430,13 +430,13 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       is_aimed = true;
       continue;
     }
-    curve.is_one_branch = curve.is_one_branch && !judged.is_jump && judged.sag <= judged.largest_sag;
+    curve.is_one_branch = curve.is_one_branch && !judged.is_jump && judged.curvature_error <= judged.largest_error;
     accept(next, judged.is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     const double wanted_next = step * changeOfStep(judged, is_in, state.newton_steps);
     const double longest = (judged.is_heavy ? kLargestHeavyStep : kLargestStep) * usual;
     step_ = std::clamp(wanted_next, std::min(smallestStep(is_in), step), longest);
-    last_sag_ = judged.sag;
+    last_error_ = judged.curvature_error;
     return PathStatus::kDone;
   }
 }

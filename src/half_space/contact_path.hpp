@@ -12,18 +12,18 @@
 /// mean that the energies give.
 ///
 /// Where bodies bear many times the largest attraction, and their contacts more than the law attracts, a jump is no longer told from the bend of the curve, and
-/// the force may grow fivefold from one state to the next: between them its logarithm is the parabola. The way out takes
-/// heights of the way in. A load is aimed at by states with a rough residual, until one has its force.
+/// the force may grow fivefold from one state to the next: between them its logarithm is the parabola. The unloading branch takes
+/// heights of the loading branch. A load is aimed at by states with a rough residual, until one has its force.
 ///
-/// A way in without a jump is one branch of minima, which the way out follows back: it then leaps from rest to where the curve
-/// of the way in is highest, solves the few states that the largest force takes, and leaps to the state behind. All of them must
-/// be what the way in had there, or the way out goes on in steps. What has flowed, and another law, make it another branch. States
-/// of the way in, but rest, and of the way out far from the largest force have rough residuals; near the largest force where the
-/// way out is the way in, too.
-/// Behind the first jump of the way in only where it leads to counts: its jumps are met in steps of the usual size.
+/// A loading branch without a jump is one branch of minima, which the unloading branch follows back: it then goes straight from rest to where the curve
+/// of the loading branch is highest, solves the few states that the largest force takes, and goes straight to the state behind. All of them must
+/// be what the loading branch had there, or the unloading branch goes on in steps. What has flowed, and another law, make it another branch. States
+/// of the loading branch, but rest, and of the unloading branch far from the largest force have rough residuals; near the largest force where the
+/// unloading branch is the loading branch, too.
+/// Behind the first jump of the loading branch only where it leads to counts: its jumps are met in steps of the usual size.
 ///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
-/// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
+/// when its loads have gone. From there to no force the unloading branch takes the load that the voltage was, and then the
 /// mechanical one.
 
 #include <functional>
@@ -67,7 +67,7 @@ struct PathSettings {
 /// Follows the states of a minimiser.
 class ContactPath {
  public:
-  /// Usual step for which sags apply, of z0. Finer ones are to miss less, and their states must be as much more exact.
+  /// Usual step for which curvature errors apply, of z0. Finer ones are to miss less, and their states must be as much more exact.
   static constexpr double kUsualStep = 0.4;
 
   ContactPath(ContactMinimiser& minimiser, const PathSettings& settings);
@@ -90,7 +90,7 @@ class ContactPath {
     TractionLaw law;
     ForcePoint present;
     double strongest;
-    bool is_on_approach;  ///< under the law of the way in
+    bool is_on_approach;  ///< under the law of the loading branch
   };
   Place place() const { return {minimiser_.place(), minimiser_.law(), present_, strongest_, is_on_approach_}; }
   /// Once more until they are apart, from another state.
@@ -117,36 +117,36 @@ class ContactPath {
   static constexpr Accuracy kExact{1.0, std::numeric_limits<double>::infinity()};
   /// On the way to other states of heavily pressed bodies.
   static constexpr Accuracy kRough{300.0, std::numeric_limits<double>::infinity()};
-  /// On the way in until something jumps or rest is near, and behind; on the way out, far from the largest force; and near it,
-  /// where the way out is the way in. But for rest and what flows. Set, as the smallest steps and kSameForce and kSameEnergy are,
+  /// On the loading branch until something jumps or rest is near, and behind; on the unloading branch, far from the largest force; and near it,
+  /// where the unloading branch is the loading branch. But for rest and what flows. Set, as the smallest steps and kSameForce and kSameEnergy are,
   /// on `studies/trust --half-space-steps` of seeds 32 and 34, the last one on 32 and 35, the first one on 60 frames of each page
-  /// of kinds and on seeds 38 and 39. Exact states take a seventh more time on the way in and a tenth on the way out of frames that
-  /// jump, and are no nearer to finer steps; kPassing all the way in takes a tenth more on frames that do not jump; 1000 in place
+  /// of kinds and on seeds 38 and 39. Exact states take a seventh more time on the loading branch and a tenth on the unloading branch of frames that
+  /// jump, and are no nearer to finer steps; kPassing all the loading branch takes a tenth more on frames that do not jump; 1000 in place
   /// of 300, or 300 behind jumps, puts 1 % of the areas and forces out, and near rest stiffnesses by up to 13 %; 100 on the way
   /// out 1 to 2 % of the works, and states like kSummit over the small steps that meet a jump 8 % of the forces.
   static constexpr Accuracy kPassingIn{300.0, 0.05};
   static constexpr Accuracy kPassing{100.0, 0.01};
   static constexpr Accuracy kPassingOut{30.0, 0.01};
   static constexpr Accuracy kSummit{100.0, 1e-3};
-  /// Smallest step of the way out, whose jumps tell force and work, and largest step, of the usual one.
+  /// Smallest step of the unloading branch, whose jumps tell force and work, and largest step, of the usual one.
   static constexpr double kSmallestStep = 0.125;
   static constexpr double kLargestStep = 8.0;
   /// Near the largest force is more than this share of it.
   static constexpr double kSummitForce = 0.9;
   /// How far the mean force of a step may lie from the mean of its ends, of the force: wanted; and so many times it counts near
   /// the largest force.
-  static constexpr double kWantedSag = 0.01;
-  static constexpr double kSummitSagShare = 2.0;
-  /// The sag that is taken back on the way out.
+  static constexpr double kWantedError = 0.01;
+  static constexpr double kSummitErrorShare = 2.0;
+  /// The curvature error that is taken back on the unloading branch.
   static constexpr double kLargestSagOut = 0.015;
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
   static constexpr double kLeastClosing = 0.1;
 
   /// What a step to a state says of the curve between.
   struct Judgement {
-    double sag;          ///< with what its begin says
-    double wanted_sag;   ///< that steps are to have
-    double largest_sag;  ///< with which it is not taken back
+    double curvature_error;          ///< with what its begin says
+    double wanted_error;   ///< that steps are to have
+    double largest_error;  ///< with which it is not taken back
     double finest;       ///< step that is not taken back in any case [m]
     bool is_jump;
     bool is_heavy;  ///< bodies are pressed so much that attraction hardly counts
@@ -155,28 +155,28 @@ class ContactPath {
   PathStatus retract(ForceCurve& curve);
   PathStatus leaveRest(ForceCurve& curve);
   PathStatus goOut(ForceCurve& curve);
-  /// Whether the way out is the way in; it may be another one after a jump or flow, under another law, or from another state.
+  /// Whether the unloading branch is the loading branch; it may be another one after a jump or flow, under another law, or from another state.
   bool isWayBack() const;
-  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one, or where its first
+  /// The states of the loading branch from here outwards, but the nearest; empty where the unloading branch may be another one, or where its first
   /// step could not tell the stiffness of the rest with which `curve` begins.
   std::vector<ForcePoint> wayBack(const ForceCurve& curve) const;
-  /// Points of the way in into the curve.
+  /// Points of the loading branch into the curve.
   void recordWay(const std::vector<ForcePoint>& way, double end, ForceCurve& curve);
-  /// Solves at the height of a point of the way in. @return the state, if it has the same force, and the same energy but for this share
+  /// Solves at the height of a point of the loading branch. @return the state, if it has the same force, and the same energy but for this share
   std::optional<ForcePoint> solveAt(const ForcePoint& target, double same_energy);
-  /// The same of a state of the way in. @return whether it is the state that is found there from here
-  bool leap(const ForcePoint& target);
-  /// From rest along the way in, as far as its largest force or before it. @return whether the curve has got further
-  bool leapFromRest(ForceCurve& curve);
-  /// To the largest force where the way in has one summit.
-  bool leapToSummit(ForceCurve& curve);
+  /// The same of a state of the loading branch. @return whether it is the state that is found there from here
+  bool reuse(const ForcePoint& target);
+  /// From rest along the loading branch, as far as its largest force or before it. @return whether the curve has got further
+  bool reuseFromRest(ForceCurve& curve);
+  /// To the largest force where the loading branch has one summit.
+  bool reuseToSummit(ForceCurve& curve);
   /// Where a state is to be solved next to know the largest force of a way whose highest solved state is `top`; nothing if it is known.
   std::optional<ForcePoint> nextOnSummit(const std::vector<ForcePoint>& way,
                                          const std::optional<ForcePoint>& top) const;
-  /// To the last state of the way in before its first summit.
-  bool leapTowardsSummit(ForceCurve& curve);
+  /// To the last state of the loading branch before its first summit.
+  bool reuseTowardsSummit(ForceCurve& curve);
   /// From behind the largest force to the end. @return whether both ways are one there
-  bool leapBehindSummit(ForceCurve& curve);
+  bool reuseBehindSummit(ForceCurve& curve);
   /// Takes the stiffness from the first step out.
   void noteStiffness();
   double startHeight() const;
@@ -196,7 +196,7 @@ class ContactPath {
   void record(const ForcePoint& next, bool is_jump, ForceCurve& curve);
   /// The largest force of the present branch over a further change of height, if it went on as it came [N].
   double continued(double move) const;
-  /// Whether the present branch, on the way out, may lead over this force within a step.
+  /// Whether the present branch, on the unloading branch, may lead over this force within a step.
   bool mayExceed(double direction, double step, double force) const;
   PathStatus begin(double height);
   /// Where a step's curve falls below `force`, of the step, between `from`, where it is above, and `to` at most.
@@ -210,7 +210,7 @@ class ContactPath {
   double gapLeft() const;
   /// How far the bodies may close at once on their way to `force` [m].
   double closingStep(double force) const;
-  /// On the way out of pressed bodies: the farthest height of the way in from where its curve is smooth enough to here.
+  /// On the unloading branch of pressed bodies: the farthest height of the loading branch from where its curve is smooth enough to here.
   void planStep();
   /// Usual smallest step of a way; and of the present part of it [m].
   double smallestStep(bool is_in) const;
@@ -226,7 +226,7 @@ class ContactPath {
   double leftAtRest(double load) const;
   /// Whether the bodies are pressed so much that attraction hardly counts.
   bool isHeavy(const ForcePoint& point) const;
-  double sagOf(const ForcePoint& next) const;
+  double curvatureErrorOf(const ForcePoint& next) const;
   /// How far the slope at the begin of the step to `next` lies from that at the end of the last one, over the step and
   /// of the force; 0 where there is none to go on from.
   double kinkOf(const ForcePoint& next) const;
@@ -240,13 +240,13 @@ class ContactPath {
   double last_move_ = 0.0;       ///< of Z to the present state [m]; 0: there is none to go on from
   double changing_move_ = 0.0;   ///< of Z to the state by whose change the next one begins [m]; 0: none
   double step_ = 0.0;            ///< to be tried next [m]
-  double last_sag_ = 0.0;        ///< of the last step that was accepted; 0: there was none
+  double last_error_ = 0.0;        ///< of the last step that was accepted; 0: there was none
   bool is_before_jump_ = false;  ///< the present branch is known to end before jump_height_
   double jump_height_ = 0.0;     ///< [m]
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
   double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
-  bool is_over_summit_ = false;  ///< the way out has the largest force
-  bool is_on_approach_ = true;   ///< the present branch is that of the way in, as far as is known
+  bool is_over_summit_ = false;  ///< the unloading branch has the largest force
+  bool is_on_approach_ = true;   ///< the present branch is that of the loading branch, as far as is known
   double changed_energy_ = 0.0;  ///< [J]
   double stiffness_ = std::numeric_limits<double>::quiet_NaN();
   double largest_residual_ = 0.0;

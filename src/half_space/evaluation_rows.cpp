@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "numeric/lane_functions.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet_functions.hpp"
+#include "numeric/packet.hpp"
 
 namespace mems_stiction {
 namespace evaluation_rows {
@@ -14,8 +14,8 @@ namespace {
 
 /// Cells that are worked on together: their intermediate values stay in the first cache.
 constexpr int kTile = 256;
-constexpr int kPacket = static_cast<int>(Lanes::kCount);
-static_assert(kTile % kPacket == 0, "tiles are whole lanes");
+constexpr int kPacket = static_cast<int>(Packet::kCount);
+static_assert(kTile % kPacket == 0, "tiles are whole packet");
 
 /// Residual from which on a secant is worth its while, of 8 Gamma/(3 z0).
 constexpr double kSecantShare = 0.05;
@@ -38,12 +38,12 @@ MEMS_STICTION_VECTORIZED void setGaps(int count, double level, const double* rel
 MEMS_STICTION_VECTORIZED double addGaps(int count, double contact_gap, Tile& tile, Sums& sums) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (int i = count; i % kPacket != 0; ++i) tile.gaps[i] = infinity;
-  Lanes gap, contacts;
-  Lanes lowest(infinity);
+  Packet gap, contacts;
+  Packet lowest(infinity);
   for (int i = 0; i < count; i += kPacket) {
-    const Lanes here = Lanes::load(tile.gaps + i);
+    const Packet here = Packet::load(tile.gaps + i);
     gap += select(here < infinity, here, 0.0);
-    contacts += select(here < contact_gap, Lanes(1.0), 0.0);
+    contacts += select(here < contact_gap, Packet(1.0), 0.0);
     lowest = select(here < lowest, here, lowest);
   }
   sums.gap += gap.sum();
@@ -62,7 +62,7 @@ void addFixed(int count, const float* fixed, const double* displacement, Tile& t
   }
 }
 
-/// Residuals into `arrays` and sums in fixed lanes; the tile is filled up with what adds nothing.
+/// Residuals into `arrays` and sums in fixed packets; the tile is filled up with what adds nothing.
 MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile, Sums& sums) {
   alignas(64) double displacement[kTile];
   alignas(64) double elastic[kTile];
@@ -82,25 +82,25 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     tile.traction[end] = tile.traction[count - 1];
     elastic[end] = elastic[count - 1];
   }
-  Lanes traction, elastic_energy, energy, positive, residual, squared;
-  Lanes highest(sums.highest);
-  Lanes lowest(sums.lowest);
+  Packet traction, elastic_energy, energy, positive, residual, squared;
+  Packet highest(sums.highest);
+  Packet lowest(sums.lowest);
   for (int i = 0; i < end; i += kPacket) {
-    Lanes t = Lanes::load(tile.traction + i);
-    const Lanes dt = Lanes::load(tile.slope + i);
-    const Lanes ku = Lanes::load(elastic + i);
-    const Lanes r = t - ku;
-    elastic_energy += Lanes::load(work + i);
-    energy += Lanes::load(tile.energy + i);
+    Packet t = Packet::load(tile.traction + i);
+    const Packet dt = Packet::load(tile.slope + i);
+    const Packet ku = Packet::load(elastic + i);
+    const Packet r = t - ku;
+    elastic_energy += Packet::load(work + i);
+    energy += Packet::load(tile.energy + i);
     positive += select(dt > 0.0, dt, 0.0);
     highest = select(r > highest, r, highest);
     lowest = select(r < lowest, r, lowest);
     r.store(elastic + i);
-    Lanes counted = r;
+    Packet counted = r;
     if (i + kPacket > count) {
       const auto left = static_cast<std::size_t>(count - i);
-      t = Lanes::loadFirst(tile.traction + i, left, 0.0);
-      counted = Lanes::loadFirst(elastic + i, left, 0.0);
+      t = Packet::loadFirst(tile.traction + i, left, 0.0);
+      counted = Packet::loadFirst(elastic + i, left, 0.0);
     }
     traction += t;
     residual += counted;
@@ -126,24 +126,24 @@ MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, doub
                                          Tile& tile) {
   const double least = kSecantShare * law.stress();
   for (int i = 0; i < count; i += kPacket) {
-    const Lanes gap = Lanes::load(tile.gaps + i);  // filled up with what is infinite
-    const LaneMask repels = gap < law.contactGap();
+    const Packet gap = Packet::load(tile.gaps + i);  // filled up with what is infinite
+    const PacketMask repels = gap < law.contactGap();
     if (!isAnywhere(repels)) continue;
     const auto left = static_cast<std::size_t>(std::min(count - i, kPacket));
     const auto take = [&](const auto* from) __attribute__((always_inline)) {
-      return left == Lanes::kCount ? Lanes::load(from) : Lanes::loadFirst(from, left, 0.0);
+      return left == Packet::kCount ? Packet::load(from) : Packet::loadFirst(from, left, 0.0);
     };
-    const Lanes traction = take(tile.traction + i);
-    const Lanes slope = take(tile.slope + i);
-    const Lanes fixed = arrays.fixed != nullptr ? take(arrays.fixed + i) : Lanes();
-    const Lanes elastic =
+    const Packet traction = take(tile.traction + i);
+    const Packet slope = take(tile.slope + i);
+    const Packet fixed = arrays.fixed != nullptr ? take(arrays.fixed + i) : Packet();
+    const Packet elastic =
         arrays.mean + fixed + take(arrays.elastic_traction + i) + length * take(arrays.step_traction + i);
-    const Lanes wanted = select(elastic < 0.0, elastic, Lanes());
-    const Lanes missed = select(repels, greater(traction - wanted, wanted - traction), Lanes());
-    const LaneMask is_missed = missed > least;
+    const Packet wanted = select(elastic < 0.0, elastic, Packet());
+    const Packet missed = select(repels, greater(traction - wanted, wanted - traction), Packet());
+    const PacketMask is_missed = missed > least;
     if (!isAnywhere(is_missed)) continue;
-    const Lanes secant = law.secant(gap, traction, wanted);
-    select(select(is_missed, secant, Lanes()) > 0.0, secant, slope).storeFirst(left, tile.slope + i);
+    const Packet secant = law.secant(gap, traction, wanted);
+    select(select(is_missed, secant, Packet()) > 0.0, secant, slope).storeFirst(left, tile.slope + i);
   }
 }
 

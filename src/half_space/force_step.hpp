@@ -29,7 +29,7 @@ struct StepParabola {
   /// Where it is highest, 0 to 1.
   double summit() const;
   /// How far the mean lies from that of both ends [N].
-  double sag() const { return std::abs(mean - 0.5 * (begin + end)); }
+  double curvatureError() const { return std::abs(mean - 0.5 * (begin + end)); }
   /// Share of the step over which the bodies attract each other.
   double attractingShare() const;
 

@@ -180,8 +180,8 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   solution.is_converged = true;
 }
 
-/// The way out from rest, when the voltage has gone; and, where there was one, a second one under it.
-/// - @p law of the way in
+/// The unloading branch from rest, when the voltage has gone; and, where there was one, a second one under it.
+/// - @p law of the loading branch
 /// - @p flowed on the first one
 PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, TractionLawOptions law,
                         LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
@@ -206,7 +206,7 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
   return status;
 }
 
-/// The first step of the way out, for the stiffness at rest; rest is solved whether it has one or not.
+/// The first step of the unloading branch, for the stiffness at rest; rest is solved whether it has one or not.
 PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, LargePageVector<float>& flowed,
                      SolvedHalfSpace& solution) {
   const PathStatus status = path.leaveRest();

@@ -17,32 +17,32 @@ struct Complexes;
 
 template <>
 struct Complexes<float> {
-  using Lanes = float __attribute__((vector_size(kVectorBytes)));
+  using Packet = float __attribute__((vector_size(kVectorBytes)));
   using Order = std::int32_t __attribute__((vector_size(kVectorBytes)));
   static constexpr std::size_t kCount = 4;
   static constexpr Order kReversed = {6, 7, 4, 5, 2, 3, 0, 1};
   static constexpr Order kSwapped = {1, 0, 3, 2, 5, 4, 7, 6};
-  static constexpr Lanes kConjugate = {1, -1, 1, -1, 1, -1, 1, -1};
+  static constexpr Packet kConjugate = {1, -1, 1, -1, 1, -1, 1, -1};
 };
 
 template <>
 struct Complexes<double> {
-  using Lanes = double __attribute__((vector_size(kVectorBytes)));
+  using Packet = double __attribute__((vector_size(kVectorBytes)));
   using Order = std::int64_t __attribute__((vector_size(kVectorBytes)));
   static constexpr std::size_t kCount = 2;
   static constexpr Order kReversed = {2, 3, 0, 1};
   static constexpr Order kSwapped = {1, 0, 3, 2};
-  static constexpr Lanes kConjugate = {1, -1, 1, -1};
+  static constexpr Packet kConjugate = {1, -1, 1, -1};
 };
 
-template <typename Lanes, typename Order>
-MEMS_STICTION_INLINE void reorder(const Order& order, Lanes& lanes) {
+template <typename Packet, typename Order>
+MEMS_STICTION_INLINE void reorder(const Order& order, Packet& packet) {
 #if defined(__clang__)
-  Lanes moved;
-  for (std::size_t i = 0; i < kVectorBytes / sizeof(lanes[0]); ++i) moved[i] = lanes[order[i]];
-  lanes = moved;
+  Packet moved;
+  for (std::size_t i = 0; i < kVectorBytes / sizeof(packet[0]); ++i) moved[i] = packet[order[i]];
+  packet = moved;
 #else
-  lanes = __builtin_shuffle(lanes, order);
+  packet = __builtin_shuffle(packet, order);
 #endif
 }
 
@@ -79,13 +79,13 @@ MEMS_STICTION_INLINE void splitBoth(std::size_t count, const Scalar* joined, Sca
   const std::size_t last = count / 2;
   std::size_t k = 1;
   for (; k + kCount <= last + 1; k += kCount) {
-    typename Vector::Lanes at, opposite;
+    typename Vector::Packet at, opposite;
     std::memcpy(&at, joined + 2 * k, sizeof at);
     std::memcpy(&opposite, joined + 2 * (count - k - kCount + 1), sizeof opposite);
     reorder(Vector::kReversed, opposite);
     opposite *= Vector::kConjugate;
-    const typename Vector::Lanes sum = at + opposite;
-    typename Vector::Lanes difference = at - opposite;
+    const typename Vector::Packet sum = at + opposite;
+    typename Vector::Packet difference = at - opposite;
     reorder(Vector::kSwapped, difference);
     difference *= Vector::kConjugate;
     std::memcpy(first + 2 * k, &sum, sizeof sum);
@@ -112,13 +112,13 @@ MEMS_STICTION_INLINE void joinBoth(std::size_t count, const Scalar* first, const
   const std::size_t last = (count - 1) / 2;  // with an opposite of its own
   std::size_t k = 1;
   for (; k + kCount <= last + 1; k += kCount) {
-    typename Vector::Lanes a, b;
+    typename Vector::Packet a, b;
     std::memcpy(&a, first + 2 * k, sizeof a);
     std::memcpy(&b, second + 2 * k, sizeof b);
     reorder(Vector::kSwapped, b);
-    const typename Vector::Lanes turned = b * Vector::kConjugate;  // (Im B, -Re B)
-    const typename Vector::Lanes at = a - turned;
-    typename Vector::Lanes opposite = (a + turned) * Vector::kConjugate;
+    const typename Vector::Packet turned = b * Vector::kConjugate;  // (Im B, -Re B)
+    const typename Vector::Packet at = a - turned;
+    typename Vector::Packet opposite = (a + turned) * Vector::kConjugate;
     reorder(Vector::kReversed, opposite);
     std::memcpy(joined + 2 * k, &at, sizeof at);
     std::memcpy(joined + 2 * (count - k - kCount + 1), &opposite, sizeof opposite);

@@ -67,25 +67,25 @@ MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const double* stiff
   multiplyColumn(count, stiffness, multiplier, column);
 }
 
-/// sum of a b in eight lanes.
+/// sum of a b in eight packets.
 template <typename Scalar>
-MEMS_STICTION_INLINE double dotLanes(std::size_t count, const Scalar* a, const Scalar* b) {
-  constexpr std::size_t kDotLanes = 8;
-  Scalar lanes[kDotLanes] = {};
+MEMS_STICTION_INLINE double dotElements(std::size_t count, const Scalar* a, const Scalar* b) {
+  constexpr std::size_t kDotElements = 8;
+  Scalar packet[kDotElements] = {};
   std::size_t i = 0;
-  for (; i + kDotLanes <= count; i += kDotLanes) {
-    for (std::size_t lane = 0; lane < kDotLanes; ++lane) lanes[lane] += a[i + lane] * b[i + lane];
+  for (; i + kDotElements <= count; i += kDotElements) {
+    for (std::size_t element = 0; element < kDotElements; ++element) packet[element] += a[i + element] * b[i + element];
   }
   double sum = 0.0;
-  for (const Scalar lane : lanes) sum += static_cast<double>(lane);
+  for (const Scalar element : packet) sum += static_cast<double>(element);
   for (; i < count; ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
   return sum;
 }
 MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const float* a, const float* b) {
-  return dotLanes(count, a, b);
+  return dotElements(count, a, b);
 }
 MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const double* a, const double* b) {
-  return dotLanes(count, a, b);
+  return dotElements(count, a, b);
 }
 
 /// Fourier transform of even real sequences, which is real and even, too: of both only the first half is given.

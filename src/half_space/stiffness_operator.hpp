@@ -69,7 +69,7 @@ class StiffnessOperator {
   void multiply(const Scalar* displacement, Scalar* traction);
   /// displacement = (K + shift)^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.
   /// - @p shift [Pa/m], > 0
-  /// @return sum of traction times displacement, in the precision of eight lanes a row, added in double
+  /// @return sum of traction times displacement, in the precision of eight packets a row, added in double
   double precondition(double shift, const Scalar* traction, Scalar* displacement);
 
   /// displacement = K^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.

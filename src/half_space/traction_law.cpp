@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -107,15 +107,15 @@ void TractionLaw::atRow(int count, const double* gaps, double* traction, double*
 
 MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* gaps, double* traction, double* slope,
                                                        double* energy) const {
-  const Lanes closest(closest_gap_);
+  const Packet closest(closest_gap_);
   const AdhesionLaw law = law_;
   const double energy_at_range = law.energy(1.0);
-  Lanes smallest = closest;
-  Lanes t, dt, e;
-  const auto evaluate = [&](const Lanes& gap) __attribute__((always_inline)) {
+  Packet smallest = closest;
+  Packet t, dt, e;
+  const auto evaluate = [&](const Packet& gap) __attribute__((always_inline)) {
     smallest = select(gap < smallest, gap, smallest);
-    Lanes x = law.range() / select(gap > closest, gap, closest);
-    const LaneMask repels = x > 1.0;
+    Packet x = law.range() / select(gap > closest, gap, closest);
+    const PacketMask repels = x > 1.0;
     if (!attracts_) x = select(repels, x, 1.0);
     t = law.traction(x);
     dt = law.slope(x);
@@ -126,15 +126,15 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
   };
   const auto size = static_cast<std::size_t>(count);
   std::size_t i = 0;
-  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
-    evaluate(Lanes::load(gaps + i));
+  for (; i + Packet::kCount <= size; i += Packet::kCount) {
+    evaluate(Packet::load(gaps + i));
     t.store(traction + i);
     dt.store(slope + i);
     e.store(energy + i);
   }
   if (i < size) {
     const std::size_t rest = size - i;
-    evaluate(Lanes::loadFirst(gaps + i, rest, range()));
+    evaluate(Packet::loadFirst(gaps + i, rest, range()));
     t.storeFirst(rest, traction + i);
     dt.storeFirst(rest, slope + i);
     e.storeFirst(rest, energy + i);

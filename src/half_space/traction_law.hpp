@@ -26,7 +26,7 @@
 
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/capillary.hpp"
-#include "numeric/lane_functions.hpp"
+#include "numeric/packet_functions.hpp"
 
 namespace mems_stiction {
 
@@ -68,7 +68,7 @@ class TractionLaw {
   void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
 
   /// Slope of the line from a gap with its traction to where the surfaces repel each other with -other_traction, by the
-  /// first part of the law; of one gap or several (Lanes) [Pa/m].
+  /// first part of the law; of one gap or several (Packet) [Pa/m].
   template <typename Real>
   MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction, const Real& other_traction) const {
     const Real gap_there = gapUnder(greater(Real(0.0 - other_traction), Real(0.0)));

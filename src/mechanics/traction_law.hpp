@@ -33,7 +33,7 @@
 
 namespace mems_stiction {
 
-/// The 9-3 law. Its functions take one number or several (Lanes), so that a formula stands once.
+/// The 9-3 law. Its functions take one number or several (Packet), so that a formula stands once.
 class AdhesionLaw {
  public:
   /// - @p work_of_adhesion Gamma [J/m^2], >= 0; without it nothing attracts

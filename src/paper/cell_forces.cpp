@@ -1,7 +1,7 @@
 #include "paper/cell_forces.hpp"
 
 #include "numeric/constants.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -33,9 +33,9 @@ double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
 
 MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std::size_t count, double approach,
                                                    NormalLoad& load) const {
-  Lanes inverse_cubes = 0.0;
-  Lanes inverse_squares = 0.0;
-  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Lanes& gap) {
+  Packet inverse_cubes = 0.0;
+  Packet inverse_squares = 0.0;
+  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Packet& gap) {
     inverse_cubes += 1.0 / cubedDistance(gap, cutoff_);
     inverse_squares += 1.0 / field_.squaredDistance(gap);
   });

@@ -74,8 +74,8 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   curve.comeToRest(field, options, &far);
   AreaAdhesion answer;
   answer.area = curve.frame().area();
-  answer.status = curve.wayIn().status;
-  answer.is_bonded_by_load = curve.wayIn().isBondedByLoad();
+  answer.status = curve.loading().status;
+  answer.is_bonded_by_load = curve.loading().isBondedByLoad();
   answer.approach = curve.rest().approach;
   answer.separation_at_rest = curve.meanGap();
   answer.contact_stiffness = curve.stiffness();
@@ -83,16 +83,16 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   answer.flows = curve.largestFullness() > chosen::kMayFlow;
   takeMedians(curve, options, answer);
   curve.part();
-  const WayOut& way_out = curve.byContacts();
-  answer.contact_area = std::min(way_out.contact_area, answer.area);
-  answer.pull_off_force = way_out.force;
-  answer.pull_off_exponents = way_out.force_exponents;
-  answer.apparent_work_of_adhesion = way_out.work;
-  answer.work_exponents = way_out.work_exponents;
-  const int in_reach = way_out.force > 0.0 ? static_cast<int>(curve.inReachAtPullOff().patches().size()) : 0;
+  const Unloading& unloading = curve.byContacts();
+  answer.contact_area = std::min(unloading.contact_area, answer.area);
+  answer.pull_off_force = unloading.force;
+  answer.pull_off_exponents = unloading.force_exponents;
+  answer.apparent_work_of_adhesion = unloading.work;
+  answer.work_exponents = unloading.work_exponents;
+  const int in_reach = unloading.force > 0.0 ? static_cast<int>(curve.inReachAtPullOff().patches().size()) : 0;
   answer.pull_off_contact_count = in_reach > 0 ? in_reach : answer.contact_count;
-  curve.appendWayIn(answer.curve);
-  answer.curve.insert(answer.curve.end(), way_out.curve.begin(), way_out.curve.end());
+  curve.appendLoading(answer.curve);
+  answer.curve.insert(answer.curve.end(), unloading.curve.begin(), unloading.curve.end());
   return answer;
 }
 

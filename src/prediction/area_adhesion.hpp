@@ -54,7 +54,7 @@ struct AreaAdhesion {
   int pull_off_contact_count = 0;             ///< patches in reach at the pull-off
   double median_composite_radius = kUnknown;  ///< of the contacts at rest [m]
   double median_tabor_parameter = kUnknown;   ///< of one with that radius [-]
-  /// The way in, then the way out where it is another, as in ContactSolution.
+  /// The loading branch, then the unloading branch where it is another, as in ContactSolution.
   std::vector<SeparationCurvePoint> curve;
 };
 

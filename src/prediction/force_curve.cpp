@@ -15,9 +15,9 @@ std::vector<CurvePoint> curveOf(const Prediction& prediction, const InterfaceOpt
   for (const SeparationCurvePoint& point : prediction.curve) {
     add(point, point.is_separation ? CurveDirection::kRetraction : CurveDirection::kApproach, curve);
   }
-  const bool has_way_out = std::any_of(prediction.curve.begin(), prediction.curve.end(),
+  const bool has_unloading = std::any_of(prediction.curve.begin(), prediction.curve.end(),
                                        [](const SeparationCurvePoint& point) { return point.is_separation; });
-  if (!has_way_out) {
+  if (!has_unloading) {
     std::for_each(prediction.curve.rbegin(), prediction.curve.rend(),
                   [&](const SeparationCurvePoint& point) { add(point, CurveDirection::kRetraction, curve); });
   }

@@ -13,8 +13,8 @@
 namespace mems_stiction {
 
 /// Both ways: to rest and apart again. The height is z0 - displacement: surfaces that touch without force are z0 apart,
-/// and the half-space counts from where they would meet. Where nothing flows and nothing conforms, the way out is the
-/// way in, backwards. Empty if the formulation does not follow the force.
+/// and the half-space counts from where they would meet. Where nothing flows and nothing conforms, the unloading branch is the
+/// loading branch, backwards. Empty if the formulation does not follow the force.
 /// - @p interface that the prediction was made with
 std::vector<CurvePoint> curveOf(const Prediction& prediction, const InterfaceOptions& interface);
 

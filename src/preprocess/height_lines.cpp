@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -19,24 +19,24 @@ MEMS_STICTION_INLINE void widen(const Scalar* source, std::size_t size, double* 
   }
 }
 
-/// Visits the values of two lines in lanes; those behind the end are NaN.
+/// Visits the values of two lines in packets; those behind the end are NaN.
 template <typename Visit>
-MEMS_STICTION_INLINE void forLanes(const double* first, const double* second, std::size_t size, const Visit& visit) {
+MEMS_STICTION_INLINE void forElements(const double* first, const double* second, std::size_t size, const Visit& visit) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::size_t i = 0;
-  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
-    visit(i, Lanes::kCount, Lanes::load(first + i), Lanes::load(second + i));
+  for (; i + Packet::kCount <= size; i += Packet::kCount) {
+    visit(i, Packet::kCount, Packet::load(first + i), Packet::load(second + i));
   }
   if (i == size) return;
   const std::size_t rest = size - i;
-  visit(i, rest, Lanes::loadFirst(first + i, rest, kNan), Lanes::loadFirst(second + i, rest, kNan));
+  visit(i, rest, Packet::loadFirst(first + i, rest, kNan), Packet::loadFirst(second + i, rest, kNan));
 }
 
-MEMS_STICTION_INLINE void store(const Lanes& lanes, std::size_t count, double* values) {
-  if (count == Lanes::kCount) {
-    lanes.store(values);
+MEMS_STICTION_INLINE void store(const Packet& packet, std::size_t count, double* values) {
+  if (count == Packet::kCount) {
+    packet.store(values);
   } else {
-    lanes.storeFirst(count, values);
+    packet.storeFirst(count, values);
   }
 }
 
@@ -47,12 +47,12 @@ MEMS_STICTION_INLINE Real lessCurve(const LineCurve& curve, const Real& height, 
 
 /// Changes of the valid pixels among up to four.
 struct ChangeLanes {
-  Lanes squares;
-  Lanes count;
-  Lanes changed;
+  Packet squares;
+  Packet count;
+  Packet changed;
 
-  MEMS_STICTION_INLINE void add(const Lanes& before, const Lanes& after) {
-    const Lanes change = after - before;
+  MEMS_STICTION_INLINE void add(const Packet& before, const Packet& after) {
+    const Packet change = after - before;
     squares += select(isNumber(change), change * change, 0.0);
     count += oneWhere(isNumber(change));
     changed += oneWhere((change < 0.0) | (change > 0.0));
@@ -75,11 +75,11 @@ MEMS_STICTION_VECTORIZED void widenLine(const double* source, std::size_t size, 
 }
 
 MEMS_STICTION_VECTORIZED PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin) {
-  Lanes count, p, pp, h, ph;
-  forLanes(line, places, size, [&](std::size_t, std::size_t, const Lanes& heights, const Lanes& all_places) {
-    const LaneMask is_valid = isNumber(heights);
-    const Lanes height = select(is_valid, heights - origin, 0.0);
-    const Lanes place = select(is_valid, all_places, 0.0);
+  Packet count, p, pp, h, ph;
+  forElements(line, places, size, [&](std::size_t, std::size_t, const Packet& heights, const Packet& all_places) {
+    const PacketMask is_valid = isNumber(heights);
+    const Packet height = select(is_valid, heights - origin, 0.0);
+    const Packet place = select(is_valid, all_places, 0.0);
     count += oneWhere(is_valid);
     p += place;
     pp += place * place;
@@ -93,8 +93,8 @@ MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double
                                             double* line, ChangeSums& changes) {
   const LineCurve local = curve;
   ChangeLanes sums;
-  forLanes(line, places, size, [&](std::size_t i, std::size_t count, const Lanes& heights, const Lanes& all_places) {
-    const Lanes flat = lessCurve(local, heights, all_places);
+  forElements(line, places, size, [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
+    const Packet flat = lessCurve(local, heights, all_places);
     sums.add(heights, flat);
     store(flat, count, line + i);
   });
@@ -104,7 +104,7 @@ MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double
 MEMS_STICTION_VECTORIZED void flattenLine(const LineCurve& curve, const double* places, const double* line,
                                           std::size_t size, double* flat) {
   const LineCurve local = curve;
-  forLanes(line, places, size, [&](std::size_t i, std::size_t count, const Lanes& heights, const Lanes& all_places) {
+  forElements(line, places, size, [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
     store(lessCurve(local, heights, all_places), count, flat + i);
   });
 }
@@ -112,7 +112,7 @@ MEMS_STICTION_VECTORIZED void flattenLine(const LineCurve& curve, const double* 
 MEMS_STICTION_VECTORIZED void addChanges(const double* before, const double* after, std::size_t size,
                                          ChangeSums& changes) {
   ChangeLanes sums;
-  forLanes(before, after, size, [&](std::size_t, std::size_t, const Lanes& old_heights, const Lanes& heights) {
+  forElements(before, after, size, [&](std::size_t, std::size_t, const Packet& old_heights, const Packet& heights) {
     sums.add(old_heights, heights);
     sums.changed += oneWhere(isNumber(old_heights) ^ isNumber(heights));
   });
@@ -141,12 +141,12 @@ MEMS_STICTION_VECTORIZED void makeDistances(double from, double* values, std::si
 }
 
 MEMS_STICTION_VECTORIZED LimitCount countAbove(double limit, const double* values, std::size_t size) {
-  Lanes above, invalid;
+  Packet above, invalid;
   std::size_t i = 0;
-  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
-    const Lanes lanes = Lanes::load(values + i);
-    above += oneWhere(lanes > limit);
-    invalid += select(isNumber(lanes), Lanes(0.0), Lanes(1.0));
+  for (; i + Packet::kCount <= size; i += Packet::kCount) {
+    const Packet packet = Packet::load(values + i);
+    above += oneWhere(packet > limit);
+    invalid += select(isNumber(packet), Packet(0.0), Packet(1.0));
   }
   LimitCount count{static_cast<long long>(above.sum()), static_cast<long long>(invalid.sum())};
   for (; i < size; ++i) {

@@ -2,7 +2,7 @@
 
 /// @file
 /// One line of heights at a time: sums over it, and what is taken off it. NaN is an invalid pixel; it is left out of every
-/// sum and stays NaN. Sums run in fixed lanes, so that they have the same bits on every machine.
+/// sum and stays NaN. Sums run in fixed packets, so that they have the same bits on every machine.
 
 #include <cmath>
 #include <cstddef>

@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -45,21 +45,21 @@ struct RowMoments {
 };
 
 template <Weighting Kind>
-MEMS_STICTION_INLINE Lanes weightOf(const Lanes& residual, double scale) {
+MEMS_STICTION_INLINE Packet weightOf(const Packet& residual, double scale) {
   if (Kind == Weighting::kByHuber) {
-    const Lanes distance = select(residual < 0.0, 0.0 - residual, residual) / scale;
+    const Packet distance = select(residual < 0.0, 0.0 - residual, residual) / scale;
     return select(distance > kHuber, kHuber / distance, 1.0);
   }
   if (Kind == Weighting::kByTukey) {
-    const Lanes distance = residual / (kTukey * scale);
-    const Lanes share = 1.0 - distance * distance;
+    const Packet distance = residual / (kTukey * scale);
+    const Packet share = 1.0 - distance * distance;
     return select(share > 0.0, share * share, 0.0);
   }
   return 1.0;
 }
 
 struct MomentLanes {
-  Lanes w, wu, wuu, wuuu, wuuuu, wh, whu, whuu;
+  Packet w, wu, wuu, wuuu, wuuuu, wh, whu, whuu;
 
   RowMoments sums() const {
     return {{w.sum(), wu.sum(), wuu.sum(), wuuu.sum(), wuuuu.sum()}, {wh.sum(), whu.sum(), whuu.sum()}};
@@ -67,14 +67,14 @@ struct MomentLanes {
 };
 
 template <Weighting Kind>
-MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Lanes& all_heights, const Lanes& u,
+MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Packet& all_heights, const Packet& u,
                                      MomentLanes& sums) {
-  const LaneMask is_valid = isNumber(all_heights);
-  const Lanes height = select(is_valid, all_heights - curve.origin, 0.0);
-  const Lanes residual = height - (curve.a + u * (curve.b + curve.c * u));
-  const Lanes weight = select(is_valid, weightOf<Kind>(residual, scale), 0.0);
-  const Lanes wu = weight * u;
-  const Lanes wuu = wu * u;
+  const PacketMask is_valid = isNumber(all_heights);
+  const Packet height = select(is_valid, all_heights - curve.origin, 0.0);
+  const Packet residual = height - (curve.a + u * (curve.b + curve.c * u));
+  const Packet weight = select(is_valid, weightOf<Kind>(residual, scale), 0.0);
+  const Packet wu = weight * u;
+  const Packet wuu = wu * u;
   sums.w += weight;
   sums.wu += wu;
   sums.wuu += wuu;
@@ -91,13 +91,13 @@ MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* plac
   const LineCurve local = curve;
   MomentLanes sums;
   std::size_t i = 0;
-  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
-    addMoments<Kind>(local, scale, Lanes::load(line + i), Lanes::load(places + i), sums);
+  for (; i + Packet::kCount <= size; i += Packet::kCount) {
+    addMoments<Kind>(local, scale, Packet::load(line + i), Packet::load(places + i), sums);
   }
   if (i < size) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    addMoments<Kind>(local, scale, Lanes::loadFirst(line + i, size - i, kNan),
-                     Lanes::loadFirst(places + i, size - i, 0.0), sums);
+    addMoments<Kind>(local, scale, Packet::loadFirst(line + i, size - i, kNan),
+                     Packet::loadFirst(places + i, size - i, 0.0), sums);
   }
   return sums.sums();
 }

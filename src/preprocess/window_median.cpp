@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/median.hpp"
 #include "numeric/vectorized.hpp"
 
@@ -12,31 +12,31 @@ namespace mems_stiction {
 namespace {
 
 // Written so that the compiler finds one instruction for the smaller, and one for the larger.
-MEMS_STICTION_INLINE void order(Lanes& a, Lanes& b) {
-  const Lanes low = select(a < b, a, b);
+MEMS_STICTION_INLINE void order(Packet& a, Packet& b) {
+  const Packet low = select(a < b, a, b);
   b = select(a > b, a, b);
   a = low;
 }
 
 /// The columns or the rows of a window, one value of each. Named one by one, so that they stay in registers.
 struct Three {
-  Lanes a, b, c;
+  Packet a, b, c;
 };
 struct Five {
-  Lanes a, b, c, d, e;
+  Packet a, b, c, d, e;
 };
 
 MEMS_STICTION_INLINE void loadAll(const double* values, std::size_t apart, Three& all) {
-  all.a = Lanes::load(values);
-  all.b = Lanes::load(values + apart);
-  all.c = Lanes::load(values + 2 * apart);
+  all.a = Packet::load(values);
+  all.b = Packet::load(values + apart);
+  all.c = Packet::load(values + 2 * apart);
 }
 MEMS_STICTION_INLINE void loadAll(const double* values, std::size_t apart, Five& all) {
-  all.a = Lanes::load(values);
-  all.b = Lanes::load(values + apart);
-  all.c = Lanes::load(values + 2 * apart);
-  all.d = Lanes::load(values + 3 * apart);
-  all.e = Lanes::load(values + 4 * apart);
+  all.a = Packet::load(values);
+  all.b = Packet::load(values + apart);
+  all.c = Packet::load(values + 2 * apart);
+  all.d = Packet::load(values + 3 * apart);
+  all.e = Packet::load(values + 4 * apart);
 }
 
 MEMS_STICTION_INLINE void storeAll(const Three& all, std::size_t apart, double* values) {
@@ -69,11 +69,11 @@ MEMS_STICTION_INLINE void sort(Five& all) {
   order(all.b, all.c);
 }
 
-MEMS_STICTION_INLINE Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
-MEMS_STICTION_INLINE Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
+MEMS_STICTION_INLINE Packet larger(const Packet& a, const Packet& b) { return select(a > b, a, b); }
+MEMS_STICTION_INLINE Packet smaller(const Packet& a, const Packet& b) { return select(a < b, a, b); }
 
 /// Of a window whose first column is at `sorted`: the smallest values of its columns, then the next ones, and so on.
-MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, const Three&) {
+MEMS_STICTION_INLINE Packet medianOf(const double* sorted, std::size_t stride, const Three&) {
   Three lowest, middle, highest;
   loadAll(sorted, 1, lowest);
   loadAll(sorted + stride, 1, middle);
@@ -85,9 +85,9 @@ MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, co
   sort(diagonal);
   return diagonal.b;
 }
-MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, const Five&) {
+MEMS_STICTION_INLINE Packet medianOf(const double* sorted, std::size_t stride, const Five&) {
   Five diagonal;
-  Lanes above, below;
+  Packet above, below;
   Five row;
   loadAll(sorted, 1, row);
   sort(row);
@@ -122,15 +122,15 @@ MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, co
 template <typename Column>
 MEMS_STICTION_INLINE void residualsOf(const double* top, std::size_t stride, double* sorted, const double* heights,
                                       std::size_t cols, double* residuals) {
-  for (std::size_t col = 0; col < stride; col += Lanes::kCount) {
+  for (std::size_t col = 0; col < stride; col += Packet::kCount) {
     Column column;
     loadAll(top + col, stride, column);
     sort(column);
     storeAll(column, stride, sorted + col);
   }
-  for (std::size_t col = 0; col < cols; col += Lanes::kCount) {
-    const Lanes residual = Lanes::load(heights + col) - medianOf(sorted + col, stride, Column());
-    if (col + Lanes::kCount <= cols) {
+  for (std::size_t col = 0; col < cols; col += Packet::kCount) {
+    const Packet residual = Packet::load(heights + col) - medianOf(sorted + col, stride, Column());
+    if (col + Packet::kCount <= cols) {
       residual.store(residuals + col);
     } else {
       residual.storeFirst(cols - col, residuals + col);
@@ -155,7 +155,7 @@ void WindowMedian::setFrame(int rows, int cols, int half) {
   half_ = half;
   margin_rows_ = std::min(half, rows - 1);
   margin_cols_ = std::min(half, cols - 1);
-  stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / Lanes::kCount + 2) * Lanes::kCount;
+  stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / Packet::kCount + 2) * Packet::kCount;
   const std::size_t wide_rows = static_cast<std::size_t>(rows) + 2 * static_cast<std::size_t>(margin_rows_);
   wide_.resize(wide_rows * stride_);
   has_hole_.resize(wide_rows);

@@ -38,7 +38,7 @@ class WindowMedian {
   int half_ = 0;
   int margin_rows_ = 0;
   int margin_cols_ = 0;
-  std::size_t stride_ = 0;      ///< values from one row to the next, whole lanes and more than the margins need
+  std::size_t stride_ = 0;      ///< values from one row to the next, whole packets and more than the margins need
   std::vector<double> wide_;    ///< the frame with its margins
   std::vector<char> has_hole_;  ///< of each row with its margins: a pixel is invalid
   std::vector<double> sorted_;  ///< the columns of one row of windows: smallest values, next ones, ...

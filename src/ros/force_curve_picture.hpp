@@ -11,7 +11,7 @@
 
 namespace mems_stiction {
 
-/// Named by its formulation, with the pull-off force at the highest point of the way out; no point where the formulation
+/// Named by its formulation, with the pull-off force at the highest point of the unloading branch; no point where the formulation
 /// does not follow the force.
 DrawnCurve drawnCurve(const PredictedScan& scan);
 

@@ -31,7 +31,7 @@ class ClosingPlaces {
   /// What the places of the size that holds most would hold [N]: the largest, over the way from the rest without a load to the rest;
   /// 0 where no more than `least` can come of it.
   /// - @p contact_modulus E [Pa], > 0
-  /// - @p curve of the way out
+  /// - @p curve of the unloading branch
   /// - @p least what the force is compared with [N]; below, nothing is measured that takes longer
   double force(const GapField& field, const ContactTraction& law, double contact_modulus, const SeparationCurve& curve,
                double least);

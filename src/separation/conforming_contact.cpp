@@ -57,18 +57,18 @@ double ConformingContact::energyGained(const std::vector<SpringState>& springs) 
   return std::max(0.0, -restOf(springs, 0.0)->energy);
 }
 
-WayOut ConformingContact::wayOut(const WayOut& by_contacts, double pressure) {
+Unloading ConformingContact::unloading(const Unloading& by_contacts, double pressure) {
   const auto rest = restOf(branch(), pressure);
-  WayOut way_out;
-  way_out.contact_area = rest->contact_fraction * area();
-  way_out.force = area() * strengthFrom(rest, branch_);
-  way_out.force_exponents = kLawExponents;
-  if (mayTear()) way_out.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
+  Unloading unloading;
+  unloading.contact_area = rest->contact_fraction * area();
+  unloading.force = area() * strengthFrom(rest, branch_);
+  unloading.force_exponents = kLawExponents;
+  if (mayTear()) unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
-    way_out.curve.push_back({law_->range() - state->height, area() * state->traction, true});
+    unloading.curve.push_back({law_->range() - state->height, area() * state->traction, true});
   }
-  takeWork(by_contacts, way_out);
-  return way_out;
+  takeWork(by_contacts, unloading);
+  return unloading;
 }
 
 bool ConformingContact::mayTear() const {
@@ -82,16 +82,16 @@ bool ConformingContact::mayTear() const {
 }
 
 // (S10a)
-void ConformingContact::takeWork(const WayOut& by_contacts, WayOut& way_out) {
+void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
   const double flattening = waves_.of(*field_, contact_modulus_);
   // the surfaces rest in the state of the least energy, and contacts jump in either
   const double work = std::min(energyGained(springsOf(flattening)) + by_contacts.lost, law_->workOfAdhesion());
   if (by_contacts.work > work) {
-    way_out.work = by_contacts.work;
-    way_out.work_exponents = by_contacts.work_exponents;
+    unloading.work = by_contacts.work;
+    unloading.work_exponents = by_contacts.work_exponents;
   } else {
-    way_out.work = work;
-    way_out.work_exponents = flatteningExponents(flattening, work);
+    unloading.work = work;
+    unloading.work_exponents = flatteningExponents(flattening, work);
   }
 }
 

@@ -21,7 +21,7 @@
 #include "separation/contact_traction.hpp"
 #include "separation/flattening_waves.hpp"
 #include "separation/spring_contact.hpp"
-#include "separation/way_out.hpp"
+#include "separation/unloading.hpp"
 
 namespace mems_stiction {
 
@@ -37,7 +37,7 @@ class ConformingContact {
   bool holds() { return energyGained(branch()) > 0.0; }
   /// From rest under a pressure [Pa], >= 0.
   /// - @p by_contacts whose work is taken where it is more, and that says what jumps lose
-  WayOut wayOut(const WayOut& by_contacts, double pressure);
+  Unloading unloading(const Unloading& by_contacts, double pressure);
 
  private:
   /// Of springs that store this energy when all is flat [J/m^2].
@@ -45,7 +45,7 @@ class ConformingContact {
   const std::vector<SpringState>& branch();
   /// By springs and law without a load, per area [J/m^2].
   static double energyGained(const std::vector<SpringState>& springs);
-  void takeWork(const WayOut& by_contacts, WayOut& way_out);
+  void takeWork(const Unloading& by_contacts, Unloading& unloading);
   /// (S10b): whether the interface may tear before all springs pull at their best.
   bool mayTear() const;
   double area() const { return field_->validCount() * field_->cellArea(); }

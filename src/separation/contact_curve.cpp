@@ -54,13 +54,13 @@ void ContactCurve::start(const GapField& field, const ContactSettings& settings,
   flow_ = flow;
   cell_area_ = field.cellArea();
   has_voltage_ = settings.load.voltage != 0.0;
-  has_way_out_ = false;
+  has_unloading_ = false;
   frame_.start(field, settings, far, flow == nullptr);
-  followCurve(frame_, settings, way_in_);
+  followCurve(frame_, settings, loading_);
   const double gaps = takeContacts();
   regime_of_dale_.clear();
   if (flow != nullptr) takeFlow(*flow);
-  if (way_in_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load, gaps);
+  if (loading_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load, gaps);
 }
 
 void ContactCurve::takeFlow(const FlowingPlaces& flow) {
@@ -100,7 +100,7 @@ void ContactCurve::takeFlow(const FlowingPlaces& flow) {
 
 // (S13d)
 void ContactCurve::growTo(double load, double gaps) {
-  const SeparationState& rest = way_in_.rest();
+  const SeparationState& rest = loading_.rest();
   if (!(load > rest.carried)) return;
   const double cells_at_rest = static_cast<double>(rest.contact_count);
   double approach = rest.approach;
@@ -125,7 +125,7 @@ void ContactCurve::growTo(double load, double gaps) {
 }
 
 double ContactCurve::takeContacts() {
-  const SeparationState& rest = way_in_.rest();
+  const SeparationState& rest = loading_.rest();
   const OverlapSweep& sweep = frame_.contactsAt(rest.approach);
   const PatchForces& forces = frame_.patchForces();
   contacts_.assign(sweep.patches().size(), {});
@@ -161,7 +161,7 @@ double ContactCurve::takeContacts() {
 
 double ContactCurve::stiffness() const {
   // a secant to the nearest state that is half a step or more before rest, where the force is known to kAccuracy
-  const std::vector<SeparationState>& states = way_in_.states;
+  const std::vector<SeparationState>& states = loading_.states;
   const SeparationState& rest = states.back();
   const double least = 0.5 * chosen::kStep * (frame_.law().range() + rest.approach);
   for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
@@ -171,26 +171,26 @@ double ContactCurve::stiffness() const {
   return ContactSolution::kUnknown;
 }
 
-void ContactCurve::appendWayIn(std::vector<SeparationCurvePoint>& points) const {
-  for (const SeparationState& state : way_in_.states) points.push_back({state.approach, state.force(), false});
+void ContactCurve::appendLoading(std::vector<SeparationCurvePoint>& points) const {
+  for (const SeparationState& state : loading_.states) points.push_back({state.approach, state.force(), false});
 }
 
 void ContactCurve::part(double force_from_next_rest) {
-  const Way way = wayOutOf(way_in_, frame_.law().range());
-  has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
-  if (has_way_out_) followChanged(way);
-  const SeparationCurve& curve = wayOut();
+  const Way way = unloadingOf(loading_, frame_.law().range());
+  has_unloading_ = has_flowed_ || way.longest_hold > 0.0;
+  if (has_unloading_) followChanged(way);
+  const SeparationCurve& curve = unloading();
   const CurveExponents exponents = exponentsOf(frame_, curve);
   by_contacts_.force = curve.pull_off_force;
   by_contacts_.force_exponents = exponents.pull_off;
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
   by_contacts_.lost =
-      has_flowed_ || flow_ != nullptr ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
+      has_flowed_ || flow_ != nullptr ? 0.0 : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
   by_contacts_.doubt = doubtOf(curve, exponents.pull_off.adhesion, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
-  if (!has_way_out_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;
+  if (!has_unloading_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;
   const double lowering = flow_ != nullptr ? flow_->lowering() : 0.0;
   for (auto state = curve.states.rbegin(); state != curve.states.rend(); ++state) {
     by_contacts_.curve.push_back({state->approach + lowering, state->partingForce(), true});
@@ -212,7 +212,7 @@ void ContactCurve::followChanged(const Way& way) {
       return gap;
     });
   }
-  followWayOut(frame_, first_touch, way, way_out_);
+  followUnloading(frame_, first_touch, way, unloading_);
 }
 
 }  // namespace mems_stiction

@@ -15,7 +15,7 @@
 #include "separation/flowing_places.hpp"
 #include "separation/remaining_overlap.hpp"
 #include "separation/separation_curve.hpp"
-#include "separation/way_out.hpp"
+#include "separation/unloading.hpp"
 
 namespace mems_stiction {
 
@@ -40,13 +40,13 @@ class ContactCurve {
   /// - @p flow of the places of `field`; both must outlive the object's use
   void comeToRest(const GapField& field, const ContactSettings& settings, const FlowingPlaces& flow);
   /// From then on frame() is that of the surfaces as flow has changed them.
-  /// - @p force_from_next_rest forceFromNextRest() of the way in; 0 where they are not asked for another rest [N]
+  /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not asked for another rest [N]
   void part(double force_from_next_rest = 0.0);
 
   FrameSums& frame() { return frame_; }
   const FrameSums& frame() const { return frame_; }
-  const SeparationCurve& wayIn() const { return way_in_; }
-  const SeparationState& rest() const { return way_in_.rest(); }
+  const SeparationCurve& loading() const { return loading_; }
+  const SeparationState& rest() const { return loading_.rest(); }
   /// Share of the area that is in contact or within z0 of it at rest [-].
   double joinedShare() {
     return static_cast<double>(frame_.inReachAt(rest().approach, 0.0).cellCount()) /
@@ -60,16 +60,16 @@ class ContactCurve {
   double meanGap() const { return mean_gap_; }
   /// -dF/dD at rest [N/m]; NaN if it is not known.
   double stiffness() const;
-  /// The way in as a list.
-  void appendWayIn(std::vector<SeparationCurvePoint>& points) const;
+  /// The loading branch as a list.
+  void appendLoading(std::vector<SeparationCurvePoint>& points) const;
 
   /// What parting by contacts takes; contact area from comeToRest(), the rest from part().
-  const WayOut& byContacts() const { return by_contacts_; }
-  /// Of part(): the way in where it is no other.
-  const SeparationCurve& wayOut() const { return has_way_out_ ? way_out_ : way_in_; }
+  const Unloading& byContacts() const { return by_contacts_; }
+  /// Of part(): the loading branch where it is no other.
+  const SeparationCurve& unloading() const { return has_unloading_ ? unloading_ : loading_; }
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   const OverlapSweep& inReachAtPullOff() {
-    return frame_.inReachAt(wayOut().pull_off_approach, wayOut().way.longest_hold);
+    return frame_.inReachAt(unloading().pull_off_approach, unloading().way.longest_hold);
   }
   /// By dale, at rest; of the dales that were in contact where surfaces have flowed.
   const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
@@ -85,22 +85,22 @@ class ContactCurve {
   /// patch, whose overlap is that of the heights.
   /// - @p gaps that takeContacts() has summed
   void growTo(double load, double gaps);
-  /// Where the way out is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
+  /// Where the unloading branch is another than the loading branch: of surfaces that have flowed, or with soft summits, which hold on.
   void followChanged(const Way& way);
 
   FrameSums frame_;
   double cell_area_ = 0.0;  ///< [m^2]
   bool has_voltage_ = false;
-  SeparationCurve way_in_;
+  SeparationCurve loading_;
   std::vector<Contact> contacts_;
   std::vector<PatchLoad> loads_;  ///< in the same order
   double mean_gap_ = 0.0;
   double largest_fullness_ = 0.0;
-  const FlowingPlaces* flow_ = nullptr;  ///< place by place, before the way in
+  const FlowingPlaces* flow_ = nullptr;  ///< place by place, before the loading branch
   bool has_flowed_ = false;              ///< as patches, at rest
-  SeparationCurve way_out_;              ///< where it is another than the way in
-  bool has_way_out_ = false;
-  WayOut by_contacts_;
+  SeparationCurve unloading_;              ///< where it is another than the loading branch
+  bool has_unloading_ = false;
+  Unloading by_contacts_;
   std::vector<Regime> regime_of_dale_;
 };
 

@@ -19,8 +19,8 @@
 
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "numeric/lane_functions.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet_functions.hpp"
+#include "numeric/packet.hpp"
 
 namespace mems_stiction {
 

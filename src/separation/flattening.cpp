@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -25,20 +25,20 @@ MEMS_STICTION_VECTORIZED void StructureFunction::add(const double* line) {
     const double* const near = line;
     const double* const far = line + distance;
     const std::size_t pairs = length - distance;
-    Lanes sum = 0.0;
-    Lanes count = 0.0;
-    const auto take = [&](const Lanes& difference) {
-      const LaneMask is_known = difference - difference == 0.0;
-      const Lanes known = select(is_known, difference, Lanes(0.0));
+    Packet sum = 0.0;
+    Packet count = 0.0;
+    const auto take = [&](const Packet& difference) {
+      const PacketMask is_known = difference - difference == 0.0;
+      const Packet known = select(is_known, difference, Packet(0.0));
       sum += known * known;
       count += oneWhere(is_known);
     };
-    const std::size_t in_lanes = pairs / Lanes::kCount * Lanes::kCount;
-    for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) take(Lanes::load(far + i) - Lanes::load(near + i));
-    if (in_lanes < pairs) {
+    const std::size_t in_packets = pairs / Packet::kCount * Packet::kCount;
+    for (std::size_t i = 0; i < in_packets; i += Packet::kCount) take(Packet::load(far + i) - Packet::load(near + i));
+    if (in_packets < pairs) {
       constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-      take(Lanes::loadFirst(far + in_lanes, pairs - in_lanes, kUnknown) -
-           Lanes::loadFirst(near + in_lanes, pairs - in_lanes, kUnknown));
+      take(Packet::loadFirst(far + in_packets, pairs - in_packets, kUnknown) -
+           Packet::loadFirst(near + in_packets, pairs - in_packets, kUnknown));
     }
     lag.sum += sum.sum();
     lag.count += count.sum();

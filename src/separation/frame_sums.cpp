@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mems_stiction/settings/option_visitor.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
@@ -155,9 +155,9 @@ void FrameSums::add(double approach, double hold, PlaceSums& sums) {
 MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law, const OrderedCell* cells,
                                                   std::size_t count, double approach, Attraction& sum) const {
   const FieldLaw& voltage = *voltage_;
-  Lanes adhesion = 0.0;
-  Lanes field = 0.0;
-  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Lanes& gap) {
+  Packet adhesion = 0.0;
+  Packet field = 0.0;
+  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Packet& gap) {
     adhesion += law.traction(gap);
     field += 1.0 / voltage.squaredDistance(gap);
   });

@@ -15,7 +15,7 @@
 
 #include <cstdint>
 
-#include "numeric/lane_functions.hpp"
+#include "numeric/packet_functions.hpp"
 
 namespace mems_stiction {
 

@@ -6,8 +6,8 @@
 
 #include "mechanics/transition.hpp"
 #include "numeric/constants.hpp"
-#include "numeric/lane_functions.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet_functions.hpp"
+#include "numeric/packet.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -25,10 +25,10 @@ constexpr double kLeastPressure = std::numeric_limits<double>::min();
 /// lambda^1.4 of lambda^3
 constexpr double kPowerOfCube = 1.4 / 3.0;
 
-/// Some patches of a sweep by figure, for passes in lanes; behind the last one there are patches of one cell and weight 0.
+/// Some patches of a sweep by figure, for passes in packets; behind the last one there are patches of one cell and weight 0.
 struct PatchBlock {
   static constexpr std::size_t kMost = 64;
-  static_assert(kMost % Lanes::kCount == 0, "lanes end where a block does");
+  static_assert(kMost % Packet::kCount == 0, "packet end where a block does");
 
   /// From this place of livePatches() on.
   void gather(const OverlapSweep& sweep, std::size_t place) {
@@ -43,13 +43,13 @@ struct PatchBlock {
       summits[i] = patch.summits;
       weight[i] = 1.0;
     }
-    for (; count % Lanes::kCount != 0; ++count) {
+    for (; count % Packet::kCount != 0; ++count) {
       cells[count] = summits[count] = 1.0;
       gap_sum[count] = merged_term[count] = first_gap[count] = weight[count] = 0.0;
     }
   }
 
-  std::size_t count = 0;  ///< a multiple of the lanes
+  std::size_t count = 0;  ///< a multiple of the packets
   double cells[kMost];
   double gap_sum[kMost];
   double merged_term[kMost];
@@ -59,25 +59,25 @@ struct PatchBlock {
 };
 
 /// P/(Ha A) with flow, of x = P/(Ha A) without, x beyond the onset [-].
-MEMS_STICTION_INLINE Lanes flowedFullness(const Lanes& fullness) {
+MEMS_STICTION_INLINE Packet flowedFullness(const Packet& fullness) {
   // Under a pressure Ha everywhere the edge of the contact sinks in by (4/pi) Ha a/E, and what touches is that much
   // less than the overlap: y + b sqrt(y) = 1 for y = P/(Ha A), b = 8 sqrt(2)/(3 pi^2)/fullness = 0.382/fullness; with
   // 0.385 the curve has no step at the onset.
-  const Lanes b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
-  const Lanes root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
+  const Packet b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
+  const Packet root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
   return root * root;
 }
 
 /// 1 - m of a top whose area grows as A ~ delta^m with the depth: 0 of a paraboloid and of all that is sharper, 1 of a punch.
 /// - @p depth of its deepest cell [m]
 /// - @p mean_depth V/A [m], depth/(m + 1)
-MEMS_STICTION_INLINE Lanes flatnessOf(const Lanes& cells, const Lanes& depth, const Lanes& mean_depth) {
+MEMS_STICTION_INLINE Packet flatnessOf(const Packet& cells, const Packet& depth, const Packet& mean_depth) {
   // the summit lies half a cell's share of the depth above the deepest cell
-  const Lanes growth = depth / mean_depth * cells / (cells - 0.5) - 1.0;
+  const Packet growth = depth / mean_depth * cells / (cells - 0.5) - 1.0;
   // n cells tell m within 1/sqrt(n), one cell nothing: what may be a paraboloid is one
-  const Lanes blur = select(cells > 1.5, 1.0 / squareRoot(cells), Lanes(0.5));
-  const Lanes flatness = greater((1.0 - growth - blur) / (1.0 - blur), Lanes(0.0));
-  return select(flatness < 1.0, flatness, Lanes(1.0));
+  const Packet blur = select(cells > 1.5, 1.0 / squareRoot(cells), Packet(0.5));
+  const Packet flatness = greater((1.0 - growth - blur) / (1.0 - blur), Packet(0.0));
+  return select(flatness < 1.0, flatness, Packet(1.0));
 }
 
 }  // namespace
@@ -97,23 +97,23 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
 }
 
-MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells, const Lanes& gap_sum,
-                                                             const Lanes& merged_term, double approach) const {
-  const Lanes area = cells * cell_area_;
-  const Lanes load_term = merged_term + volumeTerm(cells, gap_sum, approach);
+MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Packet& cells, const Packet& gap_sum,
+                                                             const Packet& merged_term, double approach) const {
+  const Packet area = cells * cell_area_;
+  const Packet load_term = merged_term + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
-  const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastDepth));
-  const Lanes pressure = greater(load_factor_ * load_term / area, Lanes(kLeastPressure));
-  const Lanes shared = law_.pressureInSeries(pressure, depth);
+  const Packet depth = greater(approach - gap_sum / cells, Packet(kLeastDepth));
+  const Packet pressure = greater(load_factor_ * load_term / area, Packet(kLeastPressure));
+  const Packet shared = law_.pressureInSeries(pressure, depth);
   Loads loads;
   loads.layer_share = 1.0 - shared / pressure;
   loads.elastic = area * shared;
   loads.carried = loads.elastic;
-  const Lanes capacity = hardness_ * area;
-  const Lanes fullness = loads.elastic / capacity;
-  const LaneMask flows = fullness > kFlowOnset;
+  const Packet capacity = hardness_ * area;
+  const Packet fullness = loads.elastic / capacity;
+  const PacketMask flows = fullness > kFlowOnset;
   if (isAnywhere(flows)) {
-    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Lanes(kFlowOnset))), loads.elastic);
+    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Packet(kFlowOnset))), loads.elastic);
   }
   return loads;
 }
@@ -125,14 +125,14 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
   PatchBlock block;
   for (std::size_t place = 0; place < count; place += PatchBlock::kMost) {
     block.gather(contacts, place);
-    for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes gap_sum = Lanes::load(block.gap_sum + i);
-      const Loads found = loadsOf(cells, gap_sum, Lanes::load(block.merged_term + i), approach);
-      const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastDepth));
-      const Lanes flatness = flatnessOf(cells, approach - Lanes::load(block.first_gap + i), depth);
-      for (std::size_t lane = 0; lane < Lanes::kCount && place + i + lane < count; ++lane) {
-        loads[place + i + lane] = {found.elastic[lane], found.carried[lane], found.layer_share[lane], flatness[lane]};
+    for (std::size_t i = 0; i < block.count; i += Packet::kCount) {
+      const Packet cells = Packet::load(block.cells + i);
+      const Packet gap_sum = Packet::load(block.gap_sum + i);
+      const Loads found = loadsOf(cells, gap_sum, Packet::load(block.merged_term + i), approach);
+      const Packet depth = greater(approach - gap_sum / cells, Packet(kLeastDepth));
+      const Packet flatness = flatnessOf(cells, approach - Packet::load(block.first_gap + i), depth);
+      for (std::size_t element = 0; element < Packet::kCount && place + i + element < count; ++element) {
+        loads[place + i + element] = {found.elastic[element], found.carried[element], found.layer_share[element], flatness[element]};
       }
     }
   }
@@ -140,26 +140,26 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
 
 MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& contacts, double approach,
                                                        PlaceSums& sums) const {
-  Lanes carried = 0.0;
-  Lanes opened = 0.0;
+  Packet carried = 0.0;
+  Packet opened = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < contacts.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(contacts, place);
-    for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes gap_sum = Lanes::load(block.gap_sum + i);
-      const Lanes weight = Lanes::load(block.weight + i);
-      const Loads loads = loadsOf(cells, gap_sum, Lanes::load(block.merged_term + i), approach);
+    for (std::size_t i = 0; i < block.count; i += Packet::kCount) {
+      const Packet cells = Packet::load(block.cells + i);
+      const Packet gap_sum = Packet::load(block.gap_sum + i);
+      const Packet weight = Packet::load(block.weight + i);
+      const Loads loads = loadsOf(cells, gap_sum, Packet::load(block.merged_term + i), approach);
       carried += weight * loads.carried;
       if (!law_.attracts()) continue;
       // A grows as delta^m, and V/A is delta/(m + 1)
-      const Lanes depth =
-          greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::epsilon() * law_.range()));
-      const Lanes delta = greater(approach - Lanes::load(block.first_gap + i), depth);
-      Lanes growth = greater(delta / depth - 1.0, Lanes(1.0));
-      growth = select(growth < kGrowthOfCone, growth, Lanes(kGrowthOfCone));
-      const Lanes work = law_.workOfAdhesion() * cells * cell_area_;
-      const Lanes load = loads.elastic * 2.0 * depth / work;  // P/(2 pi Gamma R)
+      const Packet depth =
+          greater(approach - gap_sum / cells, Packet(std::numeric_limits<double>::epsilon() * law_.range()));
+      const Packet delta = greater(approach - Packet::load(block.first_gap + i), depth);
+      Packet growth = greater(delta / depth - 1.0, Packet(1.0));
+      growth = select(growth < kGrowthOfCone, growth, Packet(kGrowthOfCone));
+      const Packet work = law_.workOfAdhesion() * cells * cell_area_;
+      const Packet load = loads.elastic * 2.0 * depth / work;  // P/(2 pi Gamma R)
       opened += weight * growth * work / delta * 0.5 * (growth - 1.0) * load / (1.0 + load);
     }
   }
@@ -168,43 +168,43 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
 }
 
 double PatchForces::pullOffPrefactor(double radius) const {
-  return maugis::fittedPullOffPrefactorOfPower(power(Lanes(maugis_factor_ * radius), kPowerOfCube)[0]);
+  return maugis::fittedPullOffPrefactorOfPower(power(Packet(maugis_factor_ * radius), kPowerOfCube)[0]);
 }
 
 MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach, double approach,
                                                     PlaceSums& sums) const {
   const double reach = in_reach.approach();
-  Lanes weights = 0.0;
-  Lanes soft = 0.0;
-  Lanes losses = 0.0;
-  Lanes losses_alone = 0.0;
-  Lanes edge_losses = 0.0;
-  Lanes edge_slopes = 0.0;
-  Lanes widths = 0.0;
+  Packet weights = 0.0;
+  Packet soft = 0.0;
+  Packet losses = 0.0;
+  Packet losses_alone = 0.0;
+  Packet edge_losses = 0.0;
+  Packet edge_slopes = 0.0;
+  Packet widths = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < in_reach.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(in_reach, place);
-    for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes first_gap = Lanes::load(block.first_gap + i);
-      const Lanes overlap = greater(reach - Lanes::load(block.gap_sum + i) / cells, Lanes(kLeastDepth));
-      const Lanes depth = overlap + law_.strongestGap();
-      const Lanes radius = cells * cell_area_ / (4.0 * kPi * depth);
-      const Lanes distance = greater(first_gap - approach, Lanes(0.0));
-      const Lanes weight = Lanes::load(block.weight + i) * radius * law_.energy(distance);
-      const Lanes summits = Lanes::load(block.summits + i);
-      const Lanes cube = maugis_factor_ * radius / summits;
-      const Lanes bend = power(cube, kPowerOfCube);
-      const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
-      const Lanes lost = weight * loss / summits;
-      const Lanes flatness = flatnessOf(cells, reach - first_gap, overlap);
+    for (std::size_t i = 0; i < block.count; i += Packet::kCount) {
+      const Packet cells = Packet::load(block.cells + i);
+      const Packet first_gap = Packet::load(block.first_gap + i);
+      const Packet overlap = greater(reach - Packet::load(block.gap_sum + i) / cells, Packet(kLeastDepth));
+      const Packet depth = overlap + law_.strongestGap();
+      const Packet radius = cells * cell_area_ / (4.0 * kPi * depth);
+      const Packet distance = greater(first_gap - approach, Packet(0.0));
+      const Packet weight = Packet::load(block.weight + i) * radius * law_.energy(distance);
+      const Packet summits = Packet::load(block.summits + i);
+      const Packet cube = maugis_factor_ * radius / summits;
+      const Packet bend = power(cube, kPowerOfCube);
+      const Packet loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
+      const Packet lost = weight * loss / summits;
+      const Packet flatness = flatnessOf(cells, reach - first_gap, overlap);
       weights += weight;
       soft += weight * (1.0 - flatness) * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
-      const Lanes exponent = 0.5 * flatness;
-      const Lanes size = squareRoot(cells * (cell_area_ / kPi)) / flaw_length_;
-      const Lanes left = weight * power(1.0 + size, -1.0 * exponent);
+      const Packet exponent = 0.5 * flatness;
+      const Packet size = squareRoot(cells * (cell_area_ / kPi)) / flaw_length_;
+      const Packet left = weight * power(1.0 + size, -1.0 * exponent);
       widths += weight * size;
       edge_losses += weight - left;
       edge_slopes += left * exponent * size / (1.0 + size);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mems_stiction/contact/contact_settings.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "separation/contact_traction.hpp"
 #include "separation/overlap_sweep.hpp"
 #include "separation/place_sums.hpp"
@@ -49,12 +49,12 @@ class PatchForces {
  private:
   /// PatchLoad of four patches.
   struct Loads {
-    Lanes elastic;
-    Lanes carried;
-    Lanes layer_share;
+    Packet elastic;
+    Packet carried;
+    Packet layer_share;
   };
   /// By number of cells, sum of their gaps [m] and P0 [m].
-  Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& merged_term, double approach) const;
+  Loads loadsOf(const Packet& cells, const Packet& gap_sum, const Packet& merged_term, double approach) const;
 
   ContactTraction law_;
   double cell_area_;

@@ -120,8 +120,8 @@ double approachAfter(int steps, double range) {
   return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
 }
 
-/// The approach of a step of the way in, which ends at the contact limit.
-double wayInAfter(FrameSums& frame, int step) {
+/// The approach of a step of the loading branch, which ends at the contact limit.
+double loadingAfter(FrameSums& frame, int step) {
   const double approach = approachAfter(step, frame.law().range());
   return approach < frame.approachBeforeLimit() ? approach : std::min(approach, frame.limitApproach());
 }
@@ -207,7 +207,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   const double work_apart = frame.energy(curve.states.front().approach);
   curve.status = Status::kNoEquilibrium;
   for (int step = 0; step < settings.approach.max_steps; ++step) {
-    const double approach = wayInAfter(frame, step);
+    const double approach = loadingAfter(frame, step);
     curve.states.push_back(stateAt(frame, approach, curve.way, expectedRest(curve.states, load)));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
@@ -223,23 +223,23 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, work_apart, curve);
 }
 
-double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in) {
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& loading) {
   const auto excess = [&](const SeparationState& state) { return state.force() + settings.load.mechanical_load; };
   const auto isPushedBack = [&](const SeparationState& state) { return -excess(state) > kError * state.carried; };
-  if (way_in.status != Status::kEquilibrium || isPushedBack(way_in.beyond_rest)) return 0.0;
+  if (loading.status != Status::kEquilibrium || isPushedBack(loading.beyond_rest)) return 0.0;
   FrameSums farther;  // for more cells than the frame has in order
   FrameSums* sums = &frame;
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
-  double before = way_in.beyond_rest.approach;
-  for (int step = static_cast<int>(way_in.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
+  double before = loading.beyond_rest.approach;
+  for (int step = static_cast<int>(loading.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
     if (sums == &frame && !frame.hasInOrder(approachAfter(step, frame.law().range()))) {
       farther.start(frame.field(), settings);
       sums = &farther;
     }
-    const double approach = wayInAfter(*sums, step);
+    const double approach = loadingAfter(*sums, step);
     if (!(approach > before)) break;
-    const SeparationState state = stateAt(*sums, approach, way_in.way);
+    const SeparationState state = stateAt(*sums, approach, loading.way);
     is_past = is_past || excess(state) > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     if (isPushedBack(state)) break;
@@ -254,13 +254,13 @@ bool hangsOnWhatIsCarried(const SeparationCurve& curve) {
   });
 }
 
-Way wayOutOf(const SeparationCurve& way_in, double range) {
+Way unloadingOf(const SeparationCurve& loading, double range) {
   double softest = 0.0;
-  for (const SeparationState& state : way_in.states) softest = std::max(softest, state.tabor_parameter);
-  return {way_in.rest().approach, holdOf(softest, range)};
+  for (const SeparationState& state : loading.states) softest = std::max(softest, state.tabor_parameter);
+  return {loading.rest().approach, holdOf(softest, range)};
 }
 
-void followWayOut(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve) {
+void followUnloading(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve) {
   const double range = frame.law().range();
   curve.way = way;
   curve.states.clear();

@@ -7,8 +7,8 @@
 ///
 /// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts. P_i is what a patch
 /// carries, O what contacts have opened of the gap around them (S8b), B what the bodies' bending leaves of the attraction
-/// (S7). On the way out soft summits hold until they are drawn out by b (S8a), and flat tops let go from their edges (S8c);
-/// on the way in neither counts.
+/// (S7). On the unloading branch soft summits hold until they are drawn out by b (S8a), and flat tops let go from their edges (S8c);
+/// on the loading branch neither counts.
 
 #include <vector>
 
@@ -43,14 +43,14 @@ struct SeparationState {
 /// On which way the surfaces are.
 struct Way {
   double rest = 0.0;          ///< from which they part [m]
-  double longest_hold = 0.0;  ///< what no b exceeds [m]: nothing holds on the way in
+  double longest_hold = 0.0;  ///< what no b exceeds [m]: nothing holds on the loading branch
 };
 
 /// From apart to rest.
 struct SeparationCurve {
   Way way;
   std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
-  /// Of a way in that has found its rest: the next step, pushed back from there.
+  /// Of a loading branch that has found its rest: the next step, pushed back from there.
   SeparationState beyond_rest;
   Status status = Status::kNoEquilibrium;
   double pull_off_force = 0.0;     ///< largest parting force on the way [N]
@@ -80,17 +80,17 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 /// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where what keeps the surfaces from it
 /// is more than the error with which the curve knows what the contacts carry.
 /// - @p frame whose curve it is, all of whose cells are in its field; its sums stay as they are
-double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in);
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& loading);
 
 /// Whether the pull-off force would be larger by more than the error with which the curve knows what the contacts carry if they
-/// carried less by that error: on the way out, up to the rest without a load.
+/// carried less by that error: on the unloading branch, up to the rest without a load.
 bool hangsOnWhatIsCarried(const SeparationCurve& curve);
 
-/// The way out from the rest of a way in: summits that were soft there hold on.
-Way wayOutOf(const SeparationCurve& way_in, double range);
+/// The unloading branch from the rest of a loading branch: summits that were soft there hold on.
+Way unloadingOf(const SeparationCurve& loading, double range);
 /// Follows the curve outwards: states by ascending approach up to rest.
 /// - @p first_touch approach at which the surfaces touch [m]
-void followWayOut(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve);
+void followUnloading(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve);
 
 /// With which powers force and work of a curve go with the constants.
 struct CurveExponents {

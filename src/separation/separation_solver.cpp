@@ -41,10 +41,10 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
   solution.flattening_energy = flattening_.of(at_rest, contact_modulus);
 
-  curve_.part(forceFromNextRest(curve_.frame(), settings, curve_.wayIn()));
-  const std::optional<WayOut> bonded = bondedWayOut(standing, joined_share, solution);
+  curve_.part(forceFromNextRest(curve_.frame(), settings, curve_.loading()));
+  const std::optional<Unloading> bonded = bondedUnloading(standing, joined_share, solution);
   takeDecision(bonded.has_value(), solution);
-  takeWayOut(bonded ? *bonded : curve_.byContacts(), solution);
+  takeUnloading(bonded ? *bonded : curve_.byContacts(), solution);
   listPullOffContacts(standing, solution);
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
@@ -55,8 +55,8 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
 const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
-  curve_.appendWayIn(solution.curve);
-  solution.steps = static_cast<int>(curve_.wayIn().states.size());
+  curve_.appendLoading(solution.curve);
+  solution.steps = static_cast<int>(curve_.loading().states.size());
   has_flowed_ = mayFlow(problem.settings.load) && flow(problem);
   const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
   const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height, problem.settings};
@@ -66,7 +66,7 @@ const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, Cont
   return gap;
 }
 
-std::optional<WayOut> SeparationSolver::bondedWayOut(const ContactProblem& problem, double joined_share,
+std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem& problem, double joined_share,
                                                      const ContactSolution& solution) {
   const ContactTraction& law = curve_.frame().law();
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
@@ -74,12 +74,12 @@ std::optional<WayOut> SeparationSolver::bondedWayOut(const ContactProblem& probl
   if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio)) return std::nullopt;
   conforming_.start(problem.gap, law, curve_.frame().patchForces().contactModulus(), solution.flattening_energy);
   if (!conforming_.holds()) return std::nullopt;
-  return conforming_.wayOut(curve_.byContacts(), problem.settings.load.mechanical_load / curve_.frame().area());
+  return conforming_.unloading(curve_.byContacts(), problem.settings.load.mechanical_load / curve_.frame().area());
 }
 
 bool SeparationSolver::mayFlow(const LoadOptions& load) const {
   const bool is_pressed = load.mechanical_load > 0.0 || load.voltage != 0.0;
-  return is_pressed && curve_.wayIn().status != Status::kNoEquilibrium && curve_.largestFullness() > chosen::kMayFlow;
+  return is_pressed && curve_.loading().status != Status::kNoEquilibrium && curve_.largestFullness() > chosen::kMayFlow;
 }
 
 bool SeparationSolver::attractsMoreByFlow(const ContactProblem& problem) const {
@@ -94,7 +94,7 @@ bool SeparationSolver::attractsMoreByFlow(const ContactProblem& problem) const {
 bool SeparationSolver::flow(const ContactProblem& problem) {
   const PatchForces& forces = curve_.frame().patchForces();
   const ContactTraction law = forces.law();
-  const bool is_reached = curve_.wayIn().status == Status::kEquilibrium;
+  const bool is_reached = curve_.loading().status == Status::kEquilibrium;
   FlowingPlaces::Press press = {forces.contactModulus(), forces.hardness(),
                                 carriedAtRest(curve_, problem.settings.load),
                                 is_reached ? curve_.rest().approach : GapField::kInvalidGap};
@@ -109,7 +109,7 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
     press.approach =
-        curve_.wayIn().status == Status::kEquilibrium ? std::max(press.approach, approach) : GapField::kInvalidGap;
+        curve_.loading().status == Status::kEquilibrium ? std::max(press.approach, approach) : GapField::kInvalidGap;
   }
   attracts_more_ = has_flowed && attractsMoreByFlow(problem);
   return has_flowed;
@@ -117,20 +117,20 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
 
 void SeparationSolver::takeDecision(bool is_conforming, ContactSolution& solution) const {
   solution.is_conforming = is_conforming;
-  solution.status = is_conforming ? Status::kBonded : curve_.wayIn().status;
-  solution.is_bonded_by_load = !is_conforming && curve_.wayIn().isBondedByLoad();
+  solution.status = is_conforming ? Status::kBonded : curve_.loading().status;
+  solution.is_bonded_by_load = !is_conforming && curve_.loading().isBondedByLoad();
 }
 
-void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& solution) const {
-  solution.model.doubt = way_out.doubt;
-  solution.pull_off_force = way_out.force;
-  solution.pull_off_exponents = way_out.force_exponents;
-  solution.apparent_work_of_adhesion = way_out.work;
-  solution.work_exponents = way_out.work_exponents;
+void SeparationSolver::takeUnloading(const Unloading& unloading, ContactSolution& solution) const {
+  solution.model.doubt = unloading.doubt;
+  solution.pull_off_force = unloading.force;
+  solution.pull_off_exponents = unloading.force_exponents;
+  solution.apparent_work_of_adhesion = unloading.work;
+  solution.work_exponents = unloading.work_exponents;
   // a sum over all cells may be larger by rounding
-  solution.contact_area = std::min(way_out.contact_area, curve_.frame().area());
+  solution.contact_area = std::min(unloading.contact_area, curve_.frame().area());
   solution.contact_fraction = solution.contact_area / curve_.frame().area();
-  solution.curve.insert(solution.curve.end(), way_out.curve.begin(), way_out.curve.end());
+  solution.curve.insert(solution.curve.end(), unloading.curve.begin(), unloading.curve.end());
 }
 
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
@@ -147,7 +147,7 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
     if (places_.largestEnergy(field, modulus) > chosen::kChangingTexture * solution.flattening_energy) {
       solution.model.doubt = "the surfaces are bonded, and their texture changes from place to place";
     }
-  } else if (places_.force(field, frame.law(), modulus, curve_.wayOut(),
+  } else if (places_.force(field, frame.law(), modulus, curve_.unloading(),
                            chosen::kPullOfPlaces * solution.pull_off_force) > 0.0) {
     solution.model.doubt = "places smoother than the rest close by themselves, and hold more than the contacts";
   }
@@ -160,7 +160,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   solution.load.electrostatic = rest.electrostatic;
   solution.load.mechanical = problem.settings.load.mechanical_load;
   solution.load.capillary = rest.capillary;
-  solution.energies.elastic = curve_.wayIn().elastic_energy;
+  solution.energies.elastic = curve_.loading().elastic_energy;
   solution.energies.surface = curve_.frame().energy(rest.approach);
   solution.contact_stiffness = curve_.stiffness();
   solution.mean_gap = curve_.meanGap();

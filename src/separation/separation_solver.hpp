@@ -3,9 +3,9 @@
 /// @file
 /// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
 ///
-/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the way out, the
+/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the unloading branch, the
 /// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Soft
-/// summits hold on longer than they would reach on the way in; surfaces that have flowed come apart along the curve of the
+/// summits hold on longer than they would reach on the loading branch; surfaces that have flowed come apart along the curve of the
 /// changed surfaces, and bonded ones, whose flattening costs less than adhesion gives, along that of springs
 /// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///
@@ -27,7 +27,7 @@
 #include "separation/flattening.hpp"
 #include "separation/flowing_places.hpp"
 #include "separation/plate_tilt.hpp"
-#include "separation/way_out.hpp"
+#include "separation/unloading.hpp"
 
 namespace mems_stiction {
 
@@ -55,12 +55,12 @@ class SeparationSolver : public ContactSolver {
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out of surfaces that are bonded at rest; none if they part by contacts.
-  std::optional<WayOut> bondedWayOut(const ContactProblem& problem, double joined_share,
+  /// The unloading branch of surfaces that are bonded at rest; none if they part by contacts.
+  std::optional<Unloading> bondedUnloading(const ContactProblem& problem, double joined_share,
                                      const ContactSolution& solution);
   /// Which way the surfaces part, of two that have come to rest.
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
-  void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
+  void takeUnloading(const Unloading& unloading, ContactSolution& solution) const;
   /// The doubt of surfaces whose texture changes from place to place, where there is no other.
   void doubtPlaces(const GapField& field, ContactSolution& solution);
   /// The doubt of contacts that have flowed, where there is no other.

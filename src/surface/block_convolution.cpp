@@ -12,7 +12,7 @@
 namespace mems_stiction {
 namespace {
 
-constexpr std::size_t kLanes = FloatLanes::kCount;
+constexpr std::size_t kElements = FloatPacket::kCount;
 /// Margins [cells] of a reach of 1. A round power law in a window of levels needs the last one.
 constexpr int kMargins[] = {32, 48, 64, 96, 128, 160};
 /// Must fit: with it, a power law loses 3e-3 of the rms height of a level.
@@ -27,7 +27,7 @@ constexpr double kLeastShare = 0.125;
 constexpr double kLargestTransform = 4194304.0;  // cells: 32 MB, and 64 MB while the kernel is made
 
 int marginOf(int round_margin, double reach) {
-  const int step = static_cast<int>(kLanes);
+  const int step = static_cast<int>(kElements);
   return step * static_cast<int>(std::ceil(round_margin * reach / step));
 }
 
@@ -130,64 +130,64 @@ std::vector<std::size_t> numbersUpTo(std::size_t count) {
 
 /// Eight rows of noise, the halves of a block as real and imaginary part, transformed along the rows.
 MEMS_STICTION_VECTORIZED void transformRows(const float* noise, std::size_t noise_cols, std::size_t half,
-                                            const LineWaves<float>& waves, Complex<FloatLanes>* line) {
-  FloatLanes re[kLanes];
-  FloatLanes im[kLanes];
-  for (std::size_t col = 0; col < waves.length(); col += kLanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      re[i] = FloatLanes::load(noise + i * noise_cols + col);
-      im[i] = FloatLanes::load(noise + i * noise_cols + half + col);
+                                            const LineWaves<float>& waves, Complex<FloatPacket>* line) {
+  FloatPacket re[kElements];
+  FloatPacket im[kElements];
+  for (std::size_t col = 0; col < waves.length(); col += kElements) {
+    for (std::size_t i = 0; i < kElements; ++i) {
+      re[i] = FloatPacket::load(noise + i * noise_cols + col);
+      im[i] = FloatPacket::load(noise + i * noise_cols + half + col);
     }
     transpose(re);
     transpose(im);
-    for (std::size_t i = 0; i < kLanes; ++i) line[col + i] = {re[i], im[i]};
+    for (std::size_t i = 0; i < kElements; ++i) line[col + i] = {re[i], im[i]};
   }
   waves.forward(line);
 }
 
 /// Eight times eight complex numbers, eight columns of eight rows or the reverse.
-MEMS_STICTION_INLINE void transpose(const Complex<FloatLanes>* from, Complex<FloatLanes>* to) {
-  FloatLanes re[kLanes];
-  FloatLanes im[kLanes];
-  for (std::size_t i = 0; i < kLanes; ++i) {
+MEMS_STICTION_INLINE void transpose(const Complex<FloatPacket>* from, Complex<FloatPacket>* to) {
+  FloatPacket re[kElements];
+  FloatPacket im[kElements];
+  for (std::size_t i = 0; i < kElements; ++i) {
     re[i] = from[i].re;
     im[i] = from[i].im;
   }
   transpose(re);
   transpose(im);
-  for (std::size_t i = 0; i < kLanes; ++i) to[i] = {re[i], im[i]};
+  for (std::size_t i = 0; i < kElements; ++i) to[i] = {re[i], im[i]};
 }
 
 /// Eight columns, of which `block` holds eight rows and the next ones follow `stride` later: transformed, multiplied with the
 /// gains and transformed back.
 MEMS_STICTION_VECTORIZED void filterColumns(const LineWaves<float>& waves, std::size_t stride, const float* gains,
-                                            Complex<FloatLanes>* column, Complex<FloatLanes>* block) {
-  const std::size_t groups = waves.length() / kLanes;
-  for (std::size_t group = 0; group < groups; ++group) transpose(block + group * stride, column + group * kLanes);
+                                            Complex<FloatPacket>* column, Complex<FloatPacket>* block) {
+  const std::size_t groups = waves.length() / kElements;
+  for (std::size_t group = 0; group < groups; ++group) transpose(block + group * stride, column + group * kElements);
   waves.forward(column);
   for (std::size_t row = 0; row < waves.length(); ++row) {
-    const FloatLanes gain = FloatLanes::load(gains + row * kLanes);
+    const FloatPacket gain = FloatPacket::load(gains + row * kElements);
     column[row] = {column[row].re * gain, column[row].im * gain};
   }
   waves.backward(column);
-  for (std::size_t group = 0; group < groups; ++group) transpose(column + group * kLanes, block + group * stride);
+  for (std::size_t group = 0; group < groups; ++group) transpose(column + group * kElements, block + group * stride);
 }
 
 /// Eight rows back from their waves; what lies between the margins into the two halves of the block's rows.
 MEMS_STICTION_VECTORIZED void transformBack(const LineWaves<float>& waves, std::size_t margin,
-                                            Complex<FloatLanes>* line, float* values) {
+                                            Complex<FloatPacket>* line, float* values) {
   waves.backward(line);
-  FloatLanes re[kLanes];
-  FloatLanes im[kLanes];
+  FloatPacket re[kElements];
+  FloatPacket im[kElements];
   const std::size_t half = waves.length() - 2 * margin;
-  for (std::size_t col = 0; col < half; col += kLanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
+  for (std::size_t col = 0; col < half; col += kElements) {
+    for (std::size_t i = 0; i < kElements; ++i) {
       re[i] = line[margin + col + i].re;
       im[i] = line[margin + col + i].im;
     }
     transpose(re);
     transpose(im);
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < kElements; ++i) {
       re[i].store(values + 2 * half * i + col);
       im[i].store(values + 2 * half * i + half + col);
     }
@@ -329,7 +329,7 @@ BlockConvolution::BlockConvolution(const Kernel& kernel)
   for (std::size_t row = 0; row < row_count; ++row) {
     const Complex<double>* const line = &kernel.values[rows_.order()[row] * col_count];
     for (std::size_t col = 0; col < col_count; ++col) {
-      gains_[(col / kLanes * row_count + row) * kLanes + col % kLanes] =
+      gains_[(col / kElements * row_count + row) * kElements + col % kElements] =
           static_cast<float>(line[cols_.order()[col]].re / cells);
     }
   }
@@ -343,24 +343,24 @@ void BlockConvolution::make(NumberedNoise& noise, std::int64_t block_row, std::i
   const auto col_margin = static_cast<std::size_t>(margin_.cols);
   const std::size_t half = col_count - 2 * col_margin;
   const std::size_t noise_cols = half + col_count;
-  memory.waves.resize(std::max(memory.waves.size(), row_count / kLanes * col_count));
+  memory.waves.resize(std::max(memory.waves.size(), row_count / kElements * col_count));
   memory.columns.resize(std::max(memory.columns.size(), row_count));
-  memory.noise.resize(std::max(memory.noise.size(), kLanes * noise_cols));
+  memory.noise.resize(std::max(memory.noise.size(), kElements * noise_cols));
 
   const std::int64_t first_row = block_row * block().rows - margin_.rows;
   const std::int64_t first_col = block_col * block().cols - margin_.cols;
-  for (std::size_t row = 0; row < row_count; row += kLanes) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
+  for (std::size_t row = 0; row < row_count; row += kElements) {
+    for (std::size_t i = 0; i < kElements; ++i) {
       noise.fill(first_row + static_cast<std::int64_t>(row + i), first_col, static_cast<int>(noise_cols),
                  &memory.noise[i * noise_cols]);
     }
-    transformRows(memory.noise.data(), noise_cols, half, cols_, &memory.waves[row / kLanes * col_count]);
+    transformRows(memory.noise.data(), noise_cols, half, cols_, &memory.waves[row / kElements * col_count]);
   }
-  for (std::size_t col = 0; col < col_count; col += kLanes) {
+  for (std::size_t col = 0; col < col_count; col += kElements) {
     filterColumns(rows_, col_count, &gains_[col * row_count], memory.columns.data(), &memory.waves[col]);
   }
-  for (std::size_t row = row_margin; row < row_count - row_margin; row += kLanes) {
-    transformBack(cols_, col_margin, &memory.waves[row / kLanes * col_count], values + (row - row_margin) * 2 * half);
+  for (std::size_t row = row_margin; row < row_count - row_margin; row += kElements) {
+    transformBack(cols_, col_margin, &memory.waves[row / kElements * col_count], values + (row - row_margin) * 2 * half);
   }
 }
 

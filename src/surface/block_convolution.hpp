@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include "numeric/float_lanes.hpp"
+#include "numeric/float_packet.hpp"
 #include "numeric/large_pages.hpp"
 #include "surface/line_waves.hpp"
 #include "surface/numbered_noise.hpp"
@@ -41,8 +41,8 @@ struct BlockLayout {
 
 /// Memory that convolutions share, which work one after the other.
 struct ConvolutionMemory {
-  LargePageVector<Complex<FloatLanes>> waves;
-  std::vector<Complex<FloatLanes>> columns;
+  LargePageVector<Complex<FloatPacket>> waves;
+  std::vector<Complex<FloatPacket>> columns;
   std::vector<float> noise;
 };
 

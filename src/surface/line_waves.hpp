@@ -3,7 +3,7 @@
 /// @file
 /// The discrete Fourier transform of lines whose length is a power of two, in place, for convolutions: `forward` leaves the
 /// coefficients in the order in which its butterflies end, and `backward` starts from that order. A line may be several
-/// lines side by side, one in each lane of FloatLanes. Additions and multiplications alone, in a fixed order: the same bits on
+/// lines side by side, one in each element of FloatPacket. Additions and multiplications alone, in a fixed order: the same bits on
 /// every processor, which libraries that fuse the two where the processor can do not promise.
 /// Source: Gentleman and Sande, AFIPS Conf. Proc. 29 (1966) 563, with four-point butterflies.
 
@@ -14,7 +14,7 @@
 
 namespace mems_stiction {
 
-/// A complex number, or one in each lane.
+/// A complex number, or one in each element.
 template <typename Real>
 struct Complex {
   Real re;
@@ -32,7 +32,7 @@ class LineWaves {
   /// Number of the wave whose coefficient `forward` leaves at each place: wave k is exp(2 pi i j k/length).
   const std::vector<std::size_t>& order() const { return order_; }
 
-  /// Sum over j of line_j exp(-2 pi i j k/length). Real is Scalar, or lanes of it.
+  /// Sum over j of line_j exp(-2 pi i j k/length). Real is Scalar, or packets of it.
   template <typename Real>
   MEMS_STICTION_INLINE void forward(Complex<Real>* line) const;
   /// The same with exp(+2 pi i j k/length), from the order of forward() to that of places. Not divided by the length.

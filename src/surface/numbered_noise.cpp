@@ -97,12 +97,12 @@ MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::u
     Doubles sines;
     loadBits(angles + i, k);
     unitVectors(k, cosines, sines);
-    for (std::size_t lane = 0; lane < kPacket; ++lane) squares[lane] = std::sqrt(squares[lane]);
+    for (std::size_t element = 0; element < kPacket; ++element) squares[element] = std::sqrt(squares[element]);
     cosines *= squares;
     sines *= squares;
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      values[2 * (i + lane)] = static_cast<float>(cosines[lane]);
-      values[2 * (i + lane) + 1] = static_cast<float>(sines[lane]);
+    for (std::size_t element = 0; element < kPacket; ++element) {
+      values[2 * (i + element)] = static_cast<float>(cosines[element]);
+      values[2 * (i + element) + 1] = static_cast<float>(sines[element]);
     }
   }
 }

@@ -32,7 +32,7 @@ int warningPixels(const sensor_msgs::Image& image) {
   return count;
 }
 
-/// The attraction of flat surfaces, both ways; the way out is the stronger one.
+/// The attraction of flat surfaces, both ways; the unloading branch is the stronger one.
 PredictedScan predicted() {
   PredictedScan scan;
   scan.formulation = "separation_curve";

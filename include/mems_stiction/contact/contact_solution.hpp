@@ -61,7 +61,7 @@ struct EnergyPoint {
 struct SeparationCurvePoint {
   double displacement = 0.0;   ///< D of the upper surface past first touch, below zero apart [m]
   double force = 0.0;          ///< attraction positive [N]
-  bool is_separation = false;  ///< of the way out, where it is another: summits are soft, or have flowed, or conform
+  bool is_separation = false;  ///< of the unloading branch, where it is another: summits are soft, or have flowed, or conform
 };
 
 /// One contact at equilibrium.

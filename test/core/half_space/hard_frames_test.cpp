@@ -79,8 +79,8 @@ TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   ASSERT_EQ(solution.jumps, 0);
   const auto isSolved = [](const ForcePoint& point) { return point.is_solved; };
-  const auto way_in = std::count_if(solution.approach.begin(), solution.approach.end(), isSolved);
-  EXPECT_LT(solution.state_count, 25);  // 21; 29 with a way out of its own
+  const auto loading = std::count_if(solution.approach.begin(), solution.approach.end(), isSolved);
+  EXPECT_LT(solution.state_count, 25);  // 21; 29 with an unloading branch of its own
   EXPECT_EQ(solution.approach.front().height, solution.retraction.back().height);
   int shared = 0;
   for (const ForcePoint& point : solution.approach) {
@@ -89,7 +89,7 @@ TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
     };
     if (point.is_solved && std::any_of(solution.retraction.begin(), solution.retraction.end(), isSame)) ++shared;
   }
-  EXPECT_GT(shared, way_in / 2);
+  EXPECT_GT(shared, loading / 2);
   EXPECT_NEAR(solution.hysteresis / solution.work_of_adhesion, 0.0, 1e-9);
   const SolvedHalfSpace reference = inSmallSteps(problem);
   EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
@@ -105,8 +105,8 @@ TEST(HardFrames, WhatFlowsHasAWayOutOfItsOwn) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   ASSERT_GT(solution.flowed_volume, 0.0);
   const auto isStronger = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
-  const double way_in = std::max_element(solution.approach.begin(), solution.approach.end(), isStronger)->force;
-  EXPECT_GT(std::abs(solution.pull_off_force / way_in - 1.0), 0.01);
+  const double loading = std::max_element(solution.approach.begin(), solution.approach.end(), isStronger)->force;
+  EXPECT_GT(std::abs(solution.pull_off_force / loading - 1.0), 0.01);
 }
 
 TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
@@ -114,7 +114,7 @@ TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_LT(solution.products,
-            500);  // 418; 564 with a way out of its own, 1519 in steps as for bodies that nothing presses
+            500);  // 418; 564 with an unloading branch of its own, 1519 in steps as for bodies that nothing presses
   EXPECT_TRUE(solution.is_step_converged);
   const SolvedHalfSpace reference = inSmallSteps(problem);
   EXPECT_NEAR(solution.contact_area / reference.contact_area, 1.0, 5e-3);

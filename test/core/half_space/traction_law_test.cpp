@@ -199,8 +199,8 @@ TEST(TractionLaw, SecantsOfSeveralGapsAreThoseOfEach) {
   const double tractions[] = {law.at(gaps[0]).traction, law.at(gaps[1]).traction, law.at(gaps[2]).traction,
                               law.at(gaps[3]).traction};
   const double others[] = {-3e9, -1e14, 0.0, -2e8};
-  const Lanes secants = law.secant(Lanes::load(gaps), Lanes::load(tractions), Lanes::load(others));
-  for (std::size_t i = 0; i < Lanes::kCount; ++i) {
+  const Packet secants = law.secant(Packet::load(gaps), Packet::load(tractions), Packet::load(others));
+  for (std::size_t i = 0; i < Packet::kCount; ++i) {
     EXPECT_DOUBLE_EQ(secants[i], law.secant(gaps[i], tractions[i], others[i])) << i;
   }
 }

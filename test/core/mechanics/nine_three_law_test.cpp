@@ -7,7 +7,7 @@
 #include "mechanics/surface_forces.hpp"
 #include "mechanics/traction_law.hpp"
 #include "numeric/constants.hpp"
-#include "numeric/lanes.hpp"
+#include "numeric/packet.hpp"
 #include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
@@ -67,10 +67,10 @@ TEST(AdhesionLaw, ScalesWithWorkAndRange) {
 
 TEST(AdhesionLaw, TakesSeveralGapsAtOnceWithTheSameBits) {
   const AdhesionLaw law = silica();
-  const double x[Lanes::kCount] = {0.2, 0.7, 1.0, 1.9};
-  double traction[Lanes::kCount];
-  law.traction(Lanes::load(x)).store(traction);
-  for (std::size_t i = 0; i < Lanes::kCount; ++i) EXPECT_EQ(traction[i], law.traction(x[i]));
+  const double x[Packet::kCount] = {0.2, 0.7, 1.0, 1.9};
+  double traction[Packet::kCount];
+  law.traction(Packet::load(x)).store(traction);
+  for (std::size_t i = 0; i < Packet::kCount; ++i) EXPECT_EQ(traction[i], law.traction(x[i]));
 }
 
 TEST(AdhesionLaw, WithoutWorkNothingAttracts) {

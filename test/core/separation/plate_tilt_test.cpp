@@ -66,7 +66,7 @@ double energyAtRest(const cv::Mat1d& heights, double slope_x, double slope_y, co
   const GapField field = fieldOf(surface);
   ContactCurve curve;
   curve.comeToRest(field, options);
-  const std::vector<SeparationState>& states = curve.wayIn().states;
+  const std::vector<SeparationState>& states = curve.loading().states;
   double energy = options.load.mechanical_load * (highest(surface) - curve.rest().approach);
   energy -= curve.frame().energy(states.front().approach);
   for (std::size_t i = 1; i < states.size(); ++i) {

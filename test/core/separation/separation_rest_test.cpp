@@ -56,7 +56,7 @@ TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHold
 
 TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
   const HeightMap surface = samples::gaussian(64, 64, 4e-9, 4e-9, 0.6e-9, 30e-9, 97);
-  const Options options = separation_cases::elastic(10e9);  // soft: what follows rest is another way out
+  const Options options = separation_cases::elastic(10e9);  // soft: what follows rest is another unloading branch
   const Prediction prediction = AdhesionModel(options).predict(surface);
   ASSERT_NE(prediction.model.doubt, nullptr);
   ASSERT_NE(std::string(prediction.model.doubt).find("nearer rest"), std::string::npos) << prediction.model.doubt;

@@ -247,9 +247,9 @@ TEST(SeparationFlow, flattenedSpheresHoldHarder) {
   options.lower.hardness = options.upper.hardness = 0.5e9;
   const Prediction flowed = predict(options, sphere);
   EXPECT_GT(flowed.pull_off_force, 1.2 * elastic_sphere.pull_off_force);
-  bool has_way_out = false;
-  for (const SeparationCurvePoint& point : flowed.curve) has_way_out = has_way_out || point.is_separation;
-  EXPECT_TRUE(has_way_out);
+  bool has_unloading = false;
+  for (const SeparationCurvePoint& point : flowed.curve) has_unloading = has_unloading || point.is_separation;
+  EXPECT_TRUE(has_unloading);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// What holds on the way out: soft summits beyond their touch, shoulders that the contact has opened, and which way
+/// What holds on the unloading branch: soft summits beyond their touch, shoulders that the contact has opened, and which way
 /// surfaces part. Against JKR's closed form and against the half-space.
 
 #include <algorithm>
@@ -98,7 +98,7 @@ Ratios againstHalfSpace(const HeightMap& surface, const Options& options) {
 }
 
 TEST(SoftTips, holdAsInTheHalfSpace) {
-  // Tabor parameters of 1.6 to 1.9: let go where they would on the way in, they hold 0.83 to 0.86, the paraboloid's work is 0.79
+  // Tabor parameters of 1.6 to 1.9: let go where they would on the loading branch, they hold 0.83 to 0.86, the paraboloid's work is 0.79
   for (const Tip& tip : {Tip{2.0, 3e-9, 5e9}, {1.5, 3e-9, 5e9}, {1.3, 3e-9, 5e9}, {1.3, 6e-9, 5e9}}) {
     SCOPED_TRACE(testing::Message() << "exponent " << tip.exponent << ", height " << tip.height);
     const Ratios ratios = againstHalfSpace(summit(tip.exponent, tip.height, 40e-9, 128, 1e-9), elastic(tip.modulus));

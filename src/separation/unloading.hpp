@@ -10,8 +10,8 @@
 
 namespace mems_stiction {
 
-/// One way out, from rest to apart: whole when it is made, and never changed.
-struct WayOut {
+/// One unloading branch, from rest to apart: whole when it is made, and never changed.
+struct Unloading {
   double force = 0.0;         ///< largest [N]
   double work = 0.0;          ///< per area [J/m^2]
   double lost = 0.0;          ///< of the work: what jumps lose of the energy of the state at rest, per area [J/m^2]
@@ -19,7 +19,7 @@ struct WayOut {
   Exponents force_exponents;
   Exponents work_exponents;
   const char* doubt = nullptr;              ///< why the force may be out by more than 1.3 (ModelStatement::doubt)
-  std::vector<SeparationCurvePoint> curve;  ///< by descending displacement; empty where it is the way in
+  std::vector<SeparationCurvePoint> curve;  ///< by descending displacement; empty where it is the loading branch
 };
 
 }  // namespace mems_stiction

@@ -5,21 +5,21 @@
 
 #include "half_space/contact_path.hpp"
 
-// Leaps of the way out along a way in that is the same branch of states.
+// Reuses of the unloading branch along a loading branch that is the same branch of states.
 
 namespace mems_stiction {
 namespace {
 
 /// States at one height whose forces differ by less than this, of the force, and their energies by less than that, of the
-/// force times z0, are the same: states of the way in are as near as their residuals are small.
+/// force times z0, are the same: states of the loading branch are as near as their residuals are small.
 constexpr double kSameForce = 5e-3;
 constexpr double kSameEnergy = 1e-4;
 /// The same energy of a state and of the curve between two others.
 constexpr double kSameEnergyBetween = 1e-3;
-/// States of the way in that a leap from rest must pass, and states that are solved at most to know the largest force.
-constexpr int kFewestLeapt = 2;
+/// States of the loading branch that a reuse from rest must pass, and states that are solved at most to know the largest force.
+constexpr int kFewestReused = 2;
 constexpr int kMostOnSummit = 5;
-/// The nearest state of the way in tells the stiffness if it is no farther than so many first steps.
+/// The nearest state of the loading branch tells the stiffness if it is no farther than so many first steps.
 constexpr double kLongestFirstStep = 1.5;
 
 bool isWeaker(const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; }
@@ -36,7 +36,7 @@ ForcePoint between(const ForcePoint& from, const ForcePoint& to, double x) {
   return point;
 }
 
-/// Into a way in the order of its heights, in the place of what it has there.
+/// Into a loading branch the order of its heights, in the place of what it has there.
 void insert(const ForcePoint& point, std::vector<ForcePoint>& way) {
   const auto isBelow = [](const ForcePoint& one, const ForcePoint& other) { return one.height < other.height; };
   const auto place = std::lower_bound(way.begin(), way.end(), point, isBelow);
@@ -90,12 +90,12 @@ std::optional<ForcePoint> ContactPath::solveAt(const ForcePoint& target, double 
   return std::nullopt;
 }
 
-bool ContactPath::leap(const ForcePoint& target) {
+bool ContactPath::reuse(const ForcePoint& target) {
   is_on_approach_ = solveAt(target, kSameEnergy).has_value();
   return is_on_approach_;
 }
 
-bool ContactPath::leapFromRest(ForceCurve& curve) { return leapToSummit(curve) || leapTowardsSummit(curve); }
+bool ContactPath::reuseFromRest(ForceCurve& curve) { return reuseToSummit(curve) || reuseTowardsSummit(curve); }
 
 std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint>& way,
                                                     const std::optional<ForcePoint>& top) const {
@@ -108,17 +108,17 @@ std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint
     if (point.force > summit.force) summit = point;
   }
   if (!top || summit.force > (1.0 + kSummit.force) * top->force) return summit;
-  const double largest_sag = kLargestSagOut / kSummitSagShare * settings_.step / kUsualStep;
+  const double largest_error = kLargestSagOut / kSummitErrorShare * settings_.step / kUsualStep;
   for (auto from = first; from != last; ++from) {
-    if (StepParabola(*from, *(from + 1)).sag() > largest_sag * top->force) return between(*from, *(from + 1), 0.5);
+    if (StepParabola(*from, *(from + 1)).curvatureError() > largest_error * top->force) return between(*from, *(from + 1), 0.5);
   }
   return std::nullopt;
 }
 
-bool ContactPath::leapToSummit(ForceCurve& curve) {
+bool ContactPath::reuseToSummit(ForceCurve& curve) {
   std::vector<ForcePoint> way = wayBack(curve);
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
-  if (highest - way.begin() < kFewestLeapt) return false;
+  if (highest - way.begin() < kFewestReused) return false;
   const auto isHigh = [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; };
   const auto first = std::find_if(way.begin(), highest, isHigh);
   const auto end = std::find_if_not(highest, way.end(), isHigh);
@@ -147,26 +147,26 @@ bool ContactPath::leapToSummit(ForceCurve& curve) {
   return true;
 }
 
-bool ContactPath::leapTowardsSummit(ForceCurve& curve) {
+bool ContactPath::reuseTowardsSummit(ForceCurve& curve) {
   const std::vector<ForcePoint> way = wayBack(curve);
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
   if (highest == way.end()) return false;
-  // the first of several, as behind each the way out may be another branch for a while
+  // the first of several, as behind each the unloading branch may be another branch for a while
   auto summit = std::find_if(way.begin(), highest,
                              [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; });
   while (summit != highest && summit->force < (summit + 1)->force) ++summit;
-  if (summit - way.begin() < kFewestLeapt || !leap(*(summit - 1))) return false;
+  if (summit - way.begin() < kFewestReused || !reuse(*(summit - 1))) return false;
   const double from = present_.height;
   recordWay(way, (summit - 1)->height, curve);
   changing_move_ = present_.height - from;
   step_ = summit->height - present_.height;
-  // the way in has told how the curve bends there
-  const double sag = kSummitSagShare * sagOf(*summit) * kUsualStep / settings_.step;
-  if (sag > kWantedSag) step_ *= std::sqrt(kWantedSag / sag);
+  // the loading branch has told how the curve bends there
+  const double curvature_error = kSummitErrorShare * curvatureErrorOf(*summit) * kUsualStep / settings_.step;
+  if (curvature_error > kWantedError) step_ *= std::sqrt(kWantedError / curvature_error);
   return true;
 }
 
-bool ContactPath::leapBehindSummit(ForceCurve& curve) {
+bool ContactPath::reuseBehindSummit(ForceCurve& curve) {
   if (!is_over_summit_) return false;
   const std::vector<ForcePoint> way = wayBack(curve);
   const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
@@ -174,7 +174,7 @@ bool ContactPath::leapBehindSummit(ForceCurve& curve) {
   if (behind == way.end() || isStronger(way.front(), present_)) return false;
   const bool is_last_summit =
       std::is_sorted(way.begin(), behind, isStronger) && std::all_of(behind, way.end(), isBehind);
-  if (!is_last_summit || !leap(*behind)) return false;
+  if (!is_last_summit || !reuse(*behind)) return false;
   recordWay(way, way.back().height, curve);
   return true;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Eight single-precision numbers that a pass takes at once, beside the four doubles of lanes.hpp.
+/// Eight single-precision numbers that a pass takes at once, beside the four doubles of packet.hpp.
 
 #include <cstddef>
 #include <cstring>
@@ -12,40 +12,40 @@ namespace mems_stiction {
 
 /// Eight floats. Every operator is that of the eight numbers, to the bit. The alignment is written out: in memory it would
 /// else depend on the instructions a file is compiled for.
-class alignas(32) FloatLanes {
+class alignas(32) FloatPacket {
  public:
   static constexpr std::size_t kCount = 8;
 
-  /// 0 in all lanes.
-  MEMS_STICTION_INLINE FloatLanes() : values_{} {}
-  // NOLINTNEXTLINE(modernize-use-equals-default): as that of Lanes
-  MEMS_STICTION_INLINE FloatLanes(const FloatLanes& other) : values_(other.values_) {}
-  FloatLanes& operator=(const FloatLanes& other) = default;
+  /// 0 in all packets.
+  MEMS_STICTION_INLINE FloatPacket() : values_{} {}
+  // NOLINTNEXTLINE(modernize-use-equals-default): as that of Packet
+  MEMS_STICTION_INLINE FloatPacket(const FloatPacket& other) : values_(other.values_) {}
+  FloatPacket& operator=(const FloatPacket& other) = default;
 
   /// From memory.
-  MEMS_STICTION_INLINE static FloatLanes load(const float* values) {
+  MEMS_STICTION_INLINE static FloatPacket load(const float* values) {
     Vector loaded;
     std::memcpy(&loaded, values, sizeof loaded);
-    return FloatLanes(loaded);
+    return FloatPacket(loaded);
   }
   /// To memory.
   MEMS_STICTION_INLINE void store(float* values) const { std::memcpy(values, &values_, sizeof values_); }
 
-  friend MEMS_STICTION_INLINE FloatLanes operator+(const FloatLanes& a, const FloatLanes& b) {
-    return FloatLanes(a.values_ + b.values_);
+  friend MEMS_STICTION_INLINE FloatPacket operator+(const FloatPacket& a, const FloatPacket& b) {
+    return FloatPacket(a.values_ + b.values_);
   }
-  friend MEMS_STICTION_INLINE FloatLanes operator-(const FloatLanes& a, const FloatLanes& b) {
-    return FloatLanes(a.values_ - b.values_);
+  friend MEMS_STICTION_INLINE FloatPacket operator-(const FloatPacket& a, const FloatPacket& b) {
+    return FloatPacket(a.values_ - b.values_);
   }
-  friend MEMS_STICTION_INLINE FloatLanes operator*(const FloatLanes& a, const FloatLanes& b) {
-    return FloatLanes(a.values_ * b.values_);
+  friend MEMS_STICTION_INLINE FloatPacket operator*(const FloatPacket& a, const FloatPacket& b) {
+    return FloatPacket(a.values_ * b.values_);
   }
-  friend MEMS_STICTION_INLINE FloatLanes operator*(const FloatLanes& a, float factor) {
-    return FloatLanes(a.values_ * factor);
+  friend MEMS_STICTION_INLINE FloatPacket operator*(const FloatPacket& a, float factor) {
+    return FloatPacket(a.values_ * factor);
   }
 
-  /// Eight times eight numbers: what was lane j of line i is then lane i of line j.
-  friend MEMS_STICTION_INLINE void transpose(FloatLanes (&lines)[kCount]) {
+  /// Eight times eight numbers: what was element j of line i is then element i of line j.
+  friend MEMS_STICTION_INLINE void transpose(FloatPacket (&lines)[kCount]) {
     Vector pairs[kCount];
     for (std::size_t i = 0; i < kCount; i += 2) {
       const Vector& a = lines[i].values_;
@@ -70,7 +70,7 @@ class alignas(32) FloatLanes {
 
  private:
   using Vector = float __attribute__((vector_size(kCount * sizeof(float))));
-  MEMS_STICTION_INLINE explicit FloatLanes(const Vector& values) : values_(values) {}
+  MEMS_STICTION_INLINE explicit FloatPacket(const Vector& values) : values_(values) {}
 
   Vector values_;
 };

@@ -4,7 +4,7 @@
 
 #include "half_space/contact_path.hpp"
 
-// The way out from rest; contact_path_leaps.cpp has its leaps along the way in, contact_path.cpp the steps of both ways.
+// The unloading branch from rest; contact_path_reuse.cpp has its reuses of states along the loading branch, contact_path.cpp the steps of both ways.
 
 namespace mems_stiction {
 namespace {
@@ -53,11 +53,11 @@ PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   last_move_ = 0.0;  // the other way
   is_before_jump_ = false;
   is_over_summit_ = false;
-  if (leapFromRest(curve)) return PathStatus::kDone;
+  if (reuseFromRest(curve)) return PathStatus::kDone;
   const PathStatus status = goOut(curve);
   if (status != PathStatus::kDone) return status;
   noteStiffness();
-  leapFromRest(curve);
+  reuseFromRest(curve);
   return status;
 }
 
@@ -69,7 +69,7 @@ PathStatus ContactPath::retract(ForceCurve& curve) {
   const double end = approach_.points.front().height;
   PathStatus status = leaveRest(curve);
   while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
-    if (leapBehindSummit(curve)) break;
+    if (reuseBehindSummit(curve)) break;
     status = goOut(curve);
     is_over_summit_ = last_parabola_.end < last_parabola_.begin;
   }
