@@ -1,11 +1,21 @@
-"""The large surfaces of the study of devices: each drawn by its kind, number and seed alone, in metres on square pixels."""
+"""The large surfaces of the study of devices: each drawn by its kind, number and seed alone, in
+metres on square pixels."""
 
 import numpy as np
 import scipy.ndimage
 
 import trust_frames
 
-KINDS = ("gaussian", "self-affine", "two scales", "skewed", "polished", "plateaus", "grains", "grooves")
+KINDS = (
+    "gaussian",
+    "self-affine",
+    "two scales",
+    "skewed",
+    "polished",
+    "plateaus",
+    "grains",
+    "grooves",
+)
 
 
 def rms(heights, wanted):
@@ -18,7 +28,7 @@ def grooved_surface(side, pitch, length, stretch, random):
     qx = 2 * np.pi * np.fft.rfftfreq(side, pitch)[None, :]
     qy = 2 * np.pi * np.fft.fftfreq(side, pitch)[:, None]
     waves = np.fft.rfft2(random.standard_normal((side, side)))
-    waves *= np.exp(-length ** 2 * (qx ** 2 + (stretch * qy) ** 2) / 8)
+    waves *= np.exp(-(length**2) * (qx**2 + (stretch * qy) ** 2) / 8)
     waves[0, 0] = 0
     return np.fft.irfft2(waves, s=(side, side))
 
@@ -46,7 +56,10 @@ def draw(kind, number, seed, side, pitch):
         return trust_frames.spectrum_surface(side, pitch, psd, random)
 
     if kind == "self-affine":
-        rolloff, hurst = trust_frames.log_uniform(random, 0.5e-6, side * pitch / 2), random.uniform(0.5, 0.9)
+        rolloff, hurst = (
+            trust_frames.log_uniform(random, 0.5e-6, side * pitch / 2),
+            random.uniform(0.5, 0.9),
+        )
         what.update(rolloff=rolloff, hurst=hurst)
         heights = of_spectrum(trust_frames.self_affine(rolloff, pitch, hurst))
     elif kind == "grooves":
@@ -75,15 +88,22 @@ def draw(kind, number, seed, side, pitch):
             heights = np.where(heights > level, level + 0.1 * (heights - level), heights)
             heights += 0.03 * of_spectrum(trust_frames.gaussian_spectrum(length / 2))
         elif kind == "plateaus":  # etched islands with fine roughness
-            heights = np.tanh(3 * heights) + 0.05 * of_spectrum(trust_frames.gaussian_spectrum(length / 2))
+            heights = np.tanh(3 * heights) + 0.05 * of_spectrum(
+                trust_frames.gaussian_spectrum(length / 2)
+            )
     return what, rms(heights, height).astype(np.float32)
 
 
 def part(heights, row, col, side):
-    return np.ascontiguousarray(heights[row:row + side, col:col + side])
+    return np.ascontiguousarray(heights[row : row + side, col : col + side])
 
 
 def coarse(heights, factor):
     """As an instrument with larger pixels sees it: means over blocks."""
     rows, cols = heights.shape[0] // factor, heights.shape[1] // factor
-    return heights[:rows * factor, :cols * factor].reshape(rows, factor, cols, factor).mean(axis=(1, 3)).astype(np.float32)
+    return (
+        heights[: rows * factor, : cols * factor]
+        .reshape(rows, factor, cols, factor)
+        .mean(axis=(1, 3))
+        .astype(np.float32)
+    )

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""The half-space in its usual steps against a quarter of them, on frames of all kinds; studies/trust --half-space-steps calls it.
+"""The half-space in its usual steps against a quarter of them, on frames of all kinds;
+studies/trust --half-space-steps calls it.
 
 usage: half_space_steps.py FOLDER COUNT [--pixels N] [--seed N] [--limit S] [--page FILE.md]
 
-Frames are those of the error map and those that processes make, in turns; half of them are pressed. FOLDER/steps.jsonl has a line per frame
-and is gone on with: after a change of the solver it is to be removed. The table goes to the standard output, and into its section of the page. Progress goes to the standard error.
+Frames are those of the error map and those that processes make, in turns; half of them are pressed.
+FOLDER/steps.jsonl has a line per frame and is gone on with: after a change of the solver it is to
+be removed. The table goes to the standard output, and into its section of the page. Progress goes
+to the standard error.
 """
 
 import argparse
@@ -29,11 +32,26 @@ SEED = 32
 QUARTER = 0.25
 PRESSURES = 1e5, 1e8  # [Pa]
 HEADING = "## What finer steps say"
-FIGURES = ("status", "is_resolved", "is_converged", "is_step_converged", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "jumps",
-           "state_count", "iterations")
+FIGURES = (
+    "status",
+    "is_resolved",
+    "is_converged",
+    "is_step_converged",
+    "pull_off_force",
+    "apparent_work_of_adhesion",
+    "contact_area",
+    "jumps",
+    "state_count",
+    "iterations",
+)
 # Of which figure, how close [-], and what it is called.
-COMPARED = {"pull_off_force": (0.005, "pull-off force"), "contact_area": (0.005, "contact area at rest"), "apparent_work_of_adhesion": (0.01, "work of adhesion")}
-# A jump counts from this share of the pull-off force on, where the bodies carry less than so many times that force.
+COMPARED = {
+    "pull_off_force": (0.005, "pull-off force"),
+    "contact_area": (0.005, "contact area at rest"),
+    "apparent_work_of_adhesion": (0.01, "work of adhesion"),
+}
+# A jump counts from this share of the pull-off force on, where the bodies carry less than so many
+# times that force.
 COUNTED_JUMP, COUNTED_LOAD = 0.05, 2.0
 
 
@@ -61,16 +79,23 @@ def usual_step():
 
 def solved(frame, heights, step, limit):
     """Its figures and the heights and forces of both ways, or why there are none."""
-    settings = mems_stiction.Settings(trust_run.settings_of(frame, "separation_curve"), half_space={"step": step})
+    settings = mems_stiction.Settings(
+        trust_run.settings_of(frame, "separation_curve"), half_space={"step": step}
+    )
     begin = time.process_time()
     try:
         with trust_run.time_limit(limit):
             solution = mems_stiction.half_space(heights, frame["pitch"], settings)
     except trust_run.TooLong:
         return {"status": "TOO_LONG"}, []
-    figures = dict({name: getattr(solution, name) for name in FIGURES}, seconds=time.process_time() - begin)
+    figures = dict(
+        {name: getattr(solution, name) for name in FIGURES}, seconds=time.process_time() - begin
+    )
     curve = solution.curve
-    ways = [Way(np.column_stack([curve.height, curve.force])[curve.direction == direction]) for direction in (0, 1)]
+    ways = [
+        Way(np.column_stack([curve.height, curve.force])[curve.direction == direction])
+        for direction in (0, 1)
+    ]
     return {name: None if value != value else value for name, value in figures.items()}, ways
 
 
@@ -87,11 +112,20 @@ def passes(heights, forces, place, step):
     """Whether a curve goes over a jump (both heights and both forces) within a step of it."""
     (h_before, h_after), (f_before, f_after) = place
     direction = np.sign(h_after - h_before)
-    along, ends = direction * heights, direction * np.array([h_before, h_after]) + np.array([-step, step])
-    inside = np.concatenate([[np.interp(ends[0], along, forces)], forces[(along > ends[0]) & (along < ends[1])], [np.interp(ends[1], along, forces)]])
+    along, ends = (
+        direction * heights,
+        direction * np.array([h_before, h_after]) + np.array([-step, step]),
+    )
+    inside = np.concatenate(
+        [
+            [np.interp(ends[0], along, forces)],
+            forces[(along > ends[0]) & (along < ends[1])],
+            [np.interp(ends[1], along, forces)],
+        ]
+    )
     middle, sense = 0.5 * (f_before + f_after), np.sign(f_after - f_before)
     is_beyond = sense * (inside - middle) >= 0
-    return bool((~is_beyond).any() and is_beyond[int(np.argmin(is_beyond)):].any())
+    return bool((~is_beyond).any() and is_beyond[int(np.argmin(is_beyond)) :].any())
 
 
 def jumps_of(ways, reference, pull_off, step):
@@ -116,7 +150,9 @@ def line_of(frame, heights, limit):
     if usual["status"] == "SOLVED":
         line["fine"], reference = solved(frame, heights, QUARTER * step, limit / QUARTER)
         if line["fine"]["status"] == "SOLVED":
-            line["jumps"] = jumps_of(ways, reference, line["fine"]["pull_off_force"], step * range_of(frame))
+            line["jumps"] = jumps_of(
+                ways, reference, line["fine"]["pull_off_force"], step * range_of(frame)
+            )
     return line
 
 
@@ -128,7 +164,10 @@ def study(arguments):
             frame, heights = drawn(number, arguments.pixels, arguments.seed)
             if number in known:
                 if known[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit("%s holds other frames than these: give another folder, or the same pixels and seed" % path)
+                    sys.exit(
+                        "%s holds other frames than these: give another folder, or the same pixels "
+                        "and seed" % path
+                    )
                 continue
             known[number] = line_of(frame, heights, arguments.limit)
             file.write(json.dumps(known[number]) + "\n")
@@ -158,10 +197,17 @@ def row_of(name, lines):
     cells = [name, "%d" % len(lines)]
     for figure, (limit, _) in COMPARED.items():
         found = np.array([abs(deviation(line, figure)) for line in lines])
-        cells += [percent(np.mean(found <= limit)), percent(found.max())] if len(lines) else ["", ""]
+        cells += (
+            [percent(np.mean(found <= limit)), percent(found.max())] if len(lines) else ["", ""]
+        )
     count, met = (sum(line["jumps"][i] for line in lines) for i in (0, 1))
-    cells += ["%d of %d" % (met, count), percent(sum(line["usual"]["seconds"] for line in lines) /
-                                                 max(1e-9, sum(line["fine"]["seconds"] for line in lines)))]
+    cells += [
+        "%d of %d" % (met, count),
+        percent(
+            sum(line["usual"]["seconds"] for line in lines)
+            / max(1e-9, sum(line["fine"]["seconds"] for line in lines))
+        ),
+    ]
     return "| " + " | ".join(cells) + " |"
 
 
@@ -172,22 +218,57 @@ def section_of(lines, arguments):
     for line in lines:
         for which in ("usual", "fine"):
             if line[which] and line[which]["status"] != "SOLVED":
-                others.setdefault((which, line[which]["status"]), []).append(line["frame"]["number"])
-    text = [HEADING, "",
-            "Written by `studies/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, "
-            "alternately of the [map's](trust.md) kinds and of those that [processes](trust_kinds.md) "
-            "make. Half of them are under %.2g to %.0f MPa; nothing flows. Each frame is solved with the "
-            "default `half_space/step` of %g and with a quarter of it. Shares are of the frames that both "
-            "solved; an area may differ by a cell. Jumps of at least %g %% of the pull-off force count. "
-            "*Time* is the processor time of the usual steps over that of the fine ones."
-            % (len(lines), arguments.pixels, arguments.pixels, arguments.seed, 1e-6 * PRESSURES[0], 1e-6 * PRESSURES[1], usual_step(), 100 * COUNTED_JUMP), "",
-            "| frames | number | " + " | ".join("%s within %g %% | worst" % (name, 100 * limit) for limit, name in COMPARED.values()) + " | jumps met | time |",
-            "|---|---|" + "---|---|" * len(COMPARED) + "---|---|"]
-    text += [row_of("all", both), row_of("resolved", resolved),
-             row_of("resolved, not pressed", [line for line in resolved if not line["frame"]["pressure"]]),
-             row_of("resolved, pressed", [line for line in resolved if line["frame"]["pressure"]])]
-    text += ["", "Resolved frames of which a figure is out: %d of %d." % (sum(is_out(line) for line in resolved), len(resolved))]
-    unsolved = ["%s in %s steps: %d" % (status, {"usual": "the usual", "fine": "the fine"}[which], len(numbers)) for (which, status), numbers in sorted(others.items())]
+                others.setdefault((which, line[which]["status"]), []).append(
+                    line["frame"]["number"]
+                )
+    text = [
+        HEADING,
+        "",
+        "Written by `studies/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, "
+        "alternately of the [map's](trust.md) kinds and of those that [processes](trust_kinds.md) "
+        "make. Half of them are under %.2g to %.0f MPa; nothing flows. Each frame is solved with "
+        "the "
+        "default `half_space/step` of %g and with a quarter of it. Shares are of the frames that "
+        "both "
+        "solved; an area may differ by a cell. Jumps of at least %g %% of the pull-off force "
+        "count. "
+        "*Time* is the processor time of the usual steps over that of the fine ones."
+        % (
+            len(lines),
+            arguments.pixels,
+            arguments.pixels,
+            arguments.seed,
+            1e-6 * PRESSURES[0],
+            1e-6 * PRESSURES[1],
+            usual_step(),
+            100 * COUNTED_JUMP,
+        ),
+        "",
+        "| frames | number | "
+        + " | ".join(
+            "%s within %g %% | worst" % (name, 100 * limit) for limit, name in COMPARED.values()
+        )
+        + " | jumps met | time |",
+        "|---|---|" + "---|---|" * len(COMPARED) + "---|---|",
+    ]
+    text += [
+        row_of("all", both),
+        row_of("resolved", resolved),
+        row_of(
+            "resolved, not pressed", [line for line in resolved if not line["frame"]["pressure"]]
+        ),
+        row_of("resolved, pressed", [line for line in resolved if line["frame"]["pressure"]]),
+    ]
+    text += [
+        "",
+        "Resolved frames of which a figure is out: %d of %d."
+        % (sum(is_out(line) for line in resolved), len(resolved)),
+    ]
+    unsolved = [
+        "%s in %s steps: %d"
+        % (status, {"usual": "the usual", "fine": "the fine"}[which], len(numbers))
+        for (which, status), numbers in sorted(others.items())
+    ]
     text[-1] += " Not solved: %s." % "; ".join(unsolved) if unsolved else " All were solved."
     return "\n".join(text) + "\n"
 
@@ -195,7 +276,12 @@ def section_of(lines, arguments):
 def put(section, page, heading=HEADING):
     """In place of the section of this heading, which is not the last one of the page."""
     text = page.read_text(encoding="utf-8")
-    changed, count = re.subn(r"^%s\n.*?(?=^## )" % re.escape(heading), lambda _: section + "\n", text, flags=re.MULTILINE | re.DOTALL)
+    changed, count = re.subn(
+        r"^%s\n.*?(?=^## )" % re.escape(heading),
+        lambda _: section + "\n",
+        text,
+        flags=re.MULTILINE | re.DOTALL,
+    )
     if count != 1:
         sys.exit("%s has no section '%s'" % (page, heading))
     page.write_text(changed, encoding="utf-8")
@@ -207,10 +293,19 @@ def main():
     parser.add_argument("count", type=int)
     parser.add_argument("--pixels", type=int, default=96)
     parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument("--limit", type=float, default=30.0, help="seconds of processor time that the usual steps may take; the fine ones four times as many")
+    parser.add_argument(
+        "--limit",
+        type=float,
+        default=30.0,
+        help="seconds of processor time that the usual steps may take; the fine ones four times as "
+        "many",
+    )
     parser.add_argument("--page", type=pathlib.Path, help="whose section is written anew")
     arguments = parser.parse_args()
-    for of_draws in (mems_stiction.ScanWarning, mems_stiction.SettingsWarning):  # of heights that are as drawn, and bodies without a hardness
+    for of_draws in (
+        mems_stiction.ScanWarning,
+        mems_stiction.SettingsWarning,
+    ):  # of heights that are as drawn, and bodies without a hardness
         warnings.simplefilter("ignore", of_draws)
     arguments.folder.mkdir(parents=True, exist_ok=True)
     section = section_of(study(arguments), arguments)

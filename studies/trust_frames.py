@@ -1,8 +1,9 @@
 """The frames of the error map: surfaces, materials and loads, each drawn by its number alone.
 
-Frame N is the same in every run. Every tenth frame is a part of a measured scan where a folder of scans is given, every
-tenth an array of spheres; the others are Gaussian, skewed or self-affine. Nearly all are resolved: pixels are no longer
-than the cohesive length E z0^2/Gamma, which limits how soft a long-waved frame can be.
+Frame N is the same in every run. Every tenth frame is a part of a measured scan where a folder of
+scans is given, every tenth an array of spheres; the others are Gaussian, skewed or self-affine.
+Nearly all are resolved: pixels are no longer than the cohesive length E z0^2/Gamma, which limits
+how soft a long-waved frame can be.
 """
 
 import math
@@ -23,7 +24,11 @@ def log_uniform(random, low, high):
 
 def spectrum_surface(pixels, pitch, psd_of, random):
     """Periodic heights with this spectrum (a function of the wave number), rms height 1."""
-    q = 2 * np.pi * np.hypot(np.fft.fftfreq(pixels, pitch)[:, None], np.fft.rfftfreq(pixels, pitch)[None, :])
+    q = (
+        2
+        * np.pi
+        * np.hypot(np.fft.fftfreq(pixels, pitch)[:, None], np.fft.rfftfreq(pixels, pitch)[None, :])
+    )
     waves = np.fft.rfft2(random.standard_normal((pixels, pixels))) * np.sqrt(psd_of(q))
     waves[0, 0] = 0
     heights = np.fft.irfft2(waves, s=(pixels, pixels))
@@ -31,7 +36,7 @@ def spectrum_surface(pixels, pitch, psd_of, random):
 
 
 def gaussian_spectrum(length):
-    return lambda q: np.exp(-(q * length) ** 2 / 4)
+    return lambda q: np.exp(-((q * length) ** 2) / 4)
 
 
 def self_affine(length, pitch, hurst):
@@ -52,18 +57,25 @@ def levelled(heights):
     """Without plane and row medians."""
     rows, cols = np.indices(heights.shape)
     plane = np.stack([rows.ravel(), cols.ravel(), np.ones(heights.size)], axis=1)
-    flat = heights - (plane @ np.linalg.lstsq(plane, heights.ravel(), rcond=None)[0]).reshape(heights.shape)
+    flat = heights - (plane @ np.linalg.lstsq(plane, heights.ravel(), rcond=None)[0]).reshape(
+        heights.shape
+    )
     return flat - np.median(flat, axis=1, keepdims=True)
 
 
 class Scans:
-    """Imported scans of a folder: float TIFFs in metres, each with its pitch in a YAML file beside it."""
+    """Imported scans of a folder: float TIFFs in metres, each with its pitch in a YAML file beside
+    it."""
 
     def __init__(self, folder):
         self.scans = []
         for path in sorted(pathlib.Path(folder).glob("*.tiff")) if folder else []:
             sidecar = path.with_name(path.name + ".yaml").read_text()
-            pitch = {line.split(":")[0].strip(): line.split(":")[1] for line in sidecar.splitlines() if ":" in line}
+            pitch = {
+                line.split(":")[0].strip(): line.split(":")[1]
+                for line in sidecar.splitlines()
+                if ":" in line
+            }
             heights = cv2.imread(str(path), cv2.IMREAD_UNCHANGED).astype(float)
             pitches = float(pitch["pitch_x"]), float(pitch["pitch_y"])
             if pitches[0] == pitches[1] and pitches[0] < 50e-9 and np.isfinite(heights).all():
@@ -73,7 +85,7 @@ class Scans:
         name, heights, pitch = self.scans[random.integers(len(self.scans))]
         row = int(random.integers(heights.shape[0] - pixels + 1))
         col = int(random.integers(heights.shape[1] - pixels + 1))
-        return name, levelled(heights[row:row + pixels, col:col + pixels]), pitch
+        return name, levelled(heights[row : row + pixels, col : col + pixels]), pitch
 
 
 def material(random):
@@ -85,7 +97,7 @@ def material(random):
 
 def cohesive_length(modulus, work, hamaker):
     """E z0^2/Gamma [m]."""
-    return modulus * hamaker / (16 * math.pi * work ** 2)
+    return modulus * hamaker / (16 * math.pi * work**2)
 
 
 SEED = 20  # of the map
@@ -104,13 +116,19 @@ def draw(number, pixels, scans, seed=SEED):
                 break
         frame.update(kind="scan", source=name, pitch=pitch)
     else:
-        kind = "spheres" if number % ARRAY_EVERY == 3 else ("gaussian", "self-affine", "skewed")[(0, 0, 1, 1, 2)[number % 5]]
+        kind = (
+            "spheres"
+            if number % ARRAY_EVERY == 3
+            else ("gaussian", "self-affine", "skewed")[(0, 0, 1, 1, 2)[number % 5]]
+        )
         while True:
             modulus, work, hamaker = material(random)
             length = log_uniform(random, 10e-9, 300e-9)
             rms = log_uniform(random, 0.03e-9, 12e-9)
             longest = length / 8 if kind != "self-affine" else length / 12
-            longest = longest if is_coarse else min(longest, cohesive_length(modulus, work, hamaker) / 2)
+            longest = (
+                longest if is_coarse else min(longest, cohesive_length(modulus, work, hamaker) / 2)
+            )
             shortest = max(3 * length / pixels, LEAST_PITCH)
             if length / 5000 < rms < length / 8 and shortest < longest:
                 break
@@ -118,12 +136,16 @@ def draw(number, pixels, scans, seed=SEED):
         frame.update(kind=kind, pitch=pitch, length=length, rms=rms)
         if kind == "spheres":
             tiles = max(1, round(pixels * pitch / length))
-            radius = length ** 2 / (8 * max(rms, length / 100))
+            radius = length**2 / (8 * max(rms, length / 100))
             heights = spheres(pixels, pitch, radius, tiles, rms / 3, random)
         else:
             hurst = random.uniform(0.5, 0.9)
             frame["hurst"] = hurst if kind == "self-affine" else None
-            spectrum = self_affine(length, pitch, hurst) if kind == "self-affine" else gaussian_spectrum(length)
+            spectrum = (
+                self_affine(length, pitch, hurst)
+                if kind == "self-affine"
+                else gaussian_spectrum(length)
+            )
             heights = spectrum_surface(pixels, pitch, spectrum, random)
             if kind == "skewed":
                 skew = random.uniform(0.15, 0.5) * random.choice((-1, 1))
@@ -131,22 +153,36 @@ def draw(number, pixels, scans, seed=SEED):
                 heights = (heights - heights.mean()) / heights.std() * np.sign(skew)
             heights = heights * rms
     pressure = log_uniform(random, 1e5, 1e8) if number % LOAD_EVERY == 2 else 0.0
-    frame.update(modulus=modulus, work=work, hamaker=hamaker, pressure=pressure,
-                 cohesive_length=cohesive_length(modulus, work, hamaker))
+    frame.update(
+        modulus=modulus,
+        work=work,
+        hamaker=hamaker,
+        pressure=pressure,
+        cohesive_length=cohesive_length(modulus, work, hamaker),
+    )
     return frame, heights.astype(np.float32)
 
 
 def configuration(frame, formulation):
-    """As YAML: equal bodies with this contact modulus; they flow only where the frame has a hardness."""
+    """As YAML: equal bodies with this contact modulus; they flow only where the frame has a
+    hardness."""
     hardness = frame.get("hardness", NO_HARDNESS)
-    lower, upper = ("{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (
-        2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, of_body) for of_body in (hardness, frame.get("upper_hardness", hardness)))
+    lower, upper = (
+        "{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}"
+        % (2 * frame["modulus"] * (1 - POISSON_RATIO**2), POISSON_RATIO, of_body)
+        for of_body in (hardness, frame.get("upper_hardness", hardness))
+    )
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))
-    return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (lower, upper, formulation) +
-            "interface: {work_of_adhesion: %r, hamaker_constant: %r}\n" % (frame["work"], frame["hamaker"]) +
-            ("" if formulation == "separation_curve" else "paper: {cutoff_distance: %r}\n" % cut_off) +
-            "output: {roughness: false}\nlimits: {accept_implausible: true}\nload: {max_mechanical_load: 1.0e+3}\n" +
-            "half_space: {flow: %s, step: 0.3}\n" % str("hardness" in frame).lower())
+    return (
+        "lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (lower, upper, formulation)
+        + "interface: {work_of_adhesion: %r, hamaker_constant: %r}\n"
+        % (frame["work"], frame["hamaker"])
+        + ("" if formulation == "separation_curve" else "paper: {cutoff_distance: %r}\n" % cut_off)
+        + "output: {roughness: false}\nlimits: {accept_implausible: true}\nload: "
+        "{max_mechanical_load: 1.0e+3}\n"
+        + "half_space: {flow: %s, step: 0.3}\n"
+        % str("hardness" in frame).lower()
+    )
 
 
 def load_of(frame):
@@ -159,4 +195,4 @@ def rigid_pull_off(heights, frame):
     gap = float(heights.max()) - heights.astype(float)
     z0 = math.sqrt(frame["hamaker"] / (16 * math.pi * frame["work"]))
     cube = (z0 / (gap + z0)) ** 3
-    return float(np.sum(8 * frame["work"] / (3 * z0) * (cube - cube ** 3)) * frame["pitch"] ** 2)
+    return float(np.sum(8 * frame["work"] / (3 * z0) * (cube - cube**3)) * frame["pitch"] ** 2)

@@ -26,22 +26,45 @@ FEW_CONTACTS = 10
 WARNING_FLAGS = {"near_bonding", "resolution"}
 COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
-OF_THE_MAP = ("rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to 100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
-              "Hamaker constants of 65 and 200 zJ.")
-SETS = ("**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9 and checked on those of 7 "
-        "(168 frames each) and 14 to 17 (504 each). The flag was set on all of these. This page uses seed 19, whose "
-        "frames nobody had compared before; its 72 frames whose texture changes from place to place (smooth places, "
-        "changing) joined the page later. `studies/trust --kinds --seed N` draws others. On seed 18 the area "
-        "of small contacts was judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, led to the doubt "
-        "about contacts where bonded surfaces have less energy. Seeds 5 to 9 and 14 to 18 together, 3,360 frames, with "
-        "earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others 99.3 % of the forces are within 1.3, the worst 1.54. With the "
-        "flagged frames solved it is 99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the area within 1.3 on "
-        "90.7 % (94.4 %).")
-CONSTANTS = pathlib.Path(__file__).resolve().parents[1] / "src" / "separation" / "chosen_constants.hpp"
-ERRORS = {"without a doubt": "Sure", "contacts with a doubt": "Doubt", "bonded with a doubt": "Bonded"}
-OF_PROCESSES = ["in equal shares as processes make them (`studies/trust_kinds.py`): " + ", ".join(trust_kinds.KINDS),
-                "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, works of adhesion of 10 to 120 mJ/m^2, Hamaker "
-                "constants of 40 to 150 zJ."]
+OF_THE_MAP = (
+    "rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to "
+    "100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
+    "Hamaker constants of 65 and 200 zJ."
+)
+SETS = (
+    "**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9 and checked "
+    "on those of 7 "
+    "(168 frames each) and 14 to 17 (504 each). The flag was set on all of these. This page uses "
+    "seed 19, whose "
+    "frames nobody had compared before; its 72 frames whose texture changes from place to place "
+    "(smooth places, "
+    "changing) joined the page later. `studies/trust --kinds --seed N` draws others. On seed 18 "
+    "the area "
+    "of small contacts was judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, "
+    "led to the doubt "
+    "about contacts where bonded surfaces have less energy. Seeds 5 to 9 and 14 to 18 together, "
+    "3,360 frames, with "
+    "earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others 99.3 % of the forces "
+    "are within 1.3, the worst 1.54. With the "
+    "flagged frames solved it is 99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the "
+    "area within 1.3 on "
+    "90.7 % (94.4 %)."
+)
+CONSTANTS = (
+    pathlib.Path(__file__).resolve().parents[1] / "src" / "separation" / "chosen_constants.hpp"
+)
+ERRORS = {
+    "without a doubt": "Sure",
+    "contacts with a doubt": "Doubt",
+    "bonded with a doubt": "Bonded",
+}
+OF_PROCESSES = [
+    "in equal shares as processes make them (`studies/trust_kinds.py`): "
+    + ", ".join(trust_kinds.KINDS),
+    "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, "
+    "works of adhesion of 10 to 120 mJ/m^2, Hamaker "
+    "constants of 40 to 150 zJ.",
+]
 
 
 def is_doubted(frame):
@@ -58,19 +81,29 @@ def error_group(frame):
     """Which of ERRORS the curve states of a frame."""
     if not is_doubted(frame):
         return "without a doubt"
-    return "bonded with a doubt" if frame["separation_curve"]["is_conforming"] else "contacts with a doubt"
+    return (
+        "bonded with a doubt"
+        if frame["separation_curve"]["is_conforming"]
+        else "contacts with a doubt"
+    )
 
 
 def errors_of_code():
-    """Deviations of force and work that the curve states, by group, at flattening ratios up to 1."""
+    """Deviations of force and work that the curve states, by group, at flattening ratios up to
+    1."""
     source = CONSTANTS.read_text(encoding="utf-8")
-    found = {name: re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % word, source) for name, word in ERRORS.items()}
+    found = {
+        name: re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % word, source)
+        for name, word in ERRORS.items()
+    }
     return {name: tuple(map(float, match.groups())) for name, match in found.items()}
 
 
 def error_power():
     """Of the flattening ratio: how fast these fall where it is above 1."""
-    above, below = re.search(r"kErrorPower = (\d\.\d) / (\d\.\d);", CONSTANTS.read_text(encoding="utf-8")).groups()
+    above, below = re.search(
+        r"kErrorPower = (\d\.\d) / (\d\.\d);", CONSTANTS.read_text(encoding="utf-8")
+    ).groups()
     return float(above) / float(below)
 
 
@@ -104,12 +137,25 @@ def row(title, logs):
     if logs.size == 0:
         return "| %s | 0 | | | | | | |" % title
     within = [share_within(logs, limit) for limit in (1.1, 1.15, 1.3)]
-    return "| %s | %d | %.3g | %.2g | %s | %.3g |" % (title, logs.size, math.exp(logs.mean()), logs.std(), " | ".join(within),
-                                                    math.exp(np.abs(logs).max()))
+    return "| %s | %d | %.3g | %.2g | %s | %.3g |" % (
+        title,
+        logs.size,
+        math.exp(logs.mean()),
+        logs.std(),
+        " | ".join(within),
+        math.exp(np.abs(logs).max()),
+    )
 
 
 def table(title, rows):
-    return ["| %s | frames | bias | spread | within 1.1 | 1.15 | 1.3 | worst |" % title, "|---|---|---|---|---|---|---|---|"] + rows + [""]
+    return (
+        [
+            "| %s | frames | bias | spread | within 1.1 | 1.15 | 1.3 | worst |" % title,
+            "|---|---|---|---|---|---|---|---|",
+        ]
+        + rows
+        + [""]
+    )
 
 
 def share_within(logs, limit):
@@ -121,26 +167,54 @@ def share_within(logs, limit):
 
 
 def kind_rows(frames, kinds):
-    """Force, work and area by kind, how many the curve doubts, and the same figures where those are judged by the half-space."""
-    lines = ["| kind | frames | force within 1.15 | 1.3 | work within 1.2 | area within 1.3 | doubted | others: force within 1.3 | judged: force within 1.3 | work 1.2 | area 1.3 |",
-             "|---|" + "---|" * 10]
+    """Force, work and area by kind, how many the curve doubts, and the same figures where those are
+    judged by the half-space."""
+    lines = [
+        "| kind | frames | force within 1.15 | 1.3 | work within 1.2 | area within 1.3 | doubted | "
+        "others: force within 1.3 | judged: force within 1.3 | work 1.2 | area 1.3 |",
+        "|---|" + "---|" * 10,
+    ]
     for kind in list(kinds) + [None]:
         of_kind = [frame for frame in frames if kind in (None, frame["frame"]["kind"])]
-        force, of_work, of_area = (ratios(of_kind, quantity("separation_curve"), quantity("half_space")) for quantity in (pull_off, work, area))
+        force, of_work, of_area = (
+            ratios(of_kind, quantity("separation_curve"), quantity("half_space"))
+            for quantity in (pull_off, work, area)
+        )
         is_solved = np.array([is_doubted(frame) for frame in of_kind])
         judged = [np.where(is_solved, 0.0, logs) for logs in (force, of_work, of_area)]
-        lines.append("| %s | %d | %s | %s | %s | %s | %.0f %% | %s | %s |" % (
-            kind or "all", len(of_kind), share_within(force, 1.15), share_within(force, 1.3), share_within(of_work, 1.2), share_within(of_area, 1.3), 100 * np.mean(is_solved),
-            share_within(force[~is_solved], 1.3), " | ".join(map(share_within, judged, (1.3, 1.2, 1.3)))))
-    return lines + ["", "*Judged*: as for a device with `half_space/enabled: flagged`, where doubted frames are solved as half-spaces.", ""]
+        lines.append(
+            "| %s | %d | %s | %s | %s | %s | %.0f %% | %s | %s |"
+            % (
+                kind or "all",
+                len(of_kind),
+                share_within(force, 1.15),
+                share_within(force, 1.3),
+                share_within(of_work, 1.2),
+                share_within(of_area, 1.3),
+                100 * np.mean(is_solved),
+                share_within(force[~is_solved], 1.3),
+                " | ".join(map(share_within, judged, (1.3, 1.2, 1.3))),
+            )
+        )
+    return lines + [
+        "",
+        "*Judged*: as for a device with `half_space/enabled: flagged`, where doubted frames are "
+        "solved as half-spaces.",
+        "",
+    ]
 
 
 def coverage_rows(frames):
-    """How many of the frames the deviations of the code cover: by the flag, and in each third of the frames by flattening ratio."""
+    """How many of the frames the deviations of the code cover: by the flag, and in each third of
+    the frames by flattening ratio."""
     stated, power = errors_of_code(), error_power()
 
     def reach_of(frame, i):
-        return NORMAL_95 * stated[error_group(frame)][i] * max(1.0, frame["separation_curve"]["flattening_ratio"]) ** -power
+        return (
+            NORMAL_95
+            * stated[error_group(frame)][i]
+            * max(1.0, frame["separation_curve"]["flattening_ratio"]) ** -power
+        )
 
     def covered(some):
         cells = []
@@ -148,16 +222,26 @@ def coverage_rows(frames):
             logs = ratios(some, quantity("separation_curve"), quantity("half_space"))
             reach = np.array([reach_of(frame, i) for frame in some])
             known = np.isfinite(logs)
-            cells.append("%.0f %%" % (100 * np.mean(np.abs(logs[known]) <= reach[known])) if known.any() else "")
+            cells.append(
+                "%.0f %%" % (100 * np.mean(np.abs(logs[known]) <= reach[known]))
+                if known.any()
+                else ""
+            )
         return tuple(cells)
 
-    lines = ["| frames | number | pull-off force | work | covered, pull-off force | covered, work |", "|---|---|---|---|---|---|"]
+    lines = [
+        "| frames | number | pull-off force | work | covered, pull-off force | covered, work |",
+        "|---|---|---|---|---|---|",
+    ]
     for name in ERRORS:
         some = [frame for frame in frames if error_group(frame) == name]
-        lines.append("| %s | %d | %.3g | %.3g | %s | %s |" % ((name, len(some)) + stated[name] + covered(some)))
+        lines.append(
+            "| %s | %d | %.3g | %.3g | %s | %s |"
+            % ((name, len(some)) + stated[name] + covered(some))
+        )
     ordered = sorted(frames, key=lambda frame: frame["separation_curve"]["flattening_ratio"])
     for i, name in enumerate(("lowest flattening ratios", "middle third", "highest")):
-        some = ordered[i * len(ordered) // 3:(i + 1) * len(ordered) // 3]
+        some = ordered[i * len(ordered) // 3 : (i + 1) * len(ordered) // 3]
         lines.append("| %s | %d | | | %s | %s |" % ((name, len(some)) + covered(some)))
     lines.append("| all | %d | | | %s | %s |" % ((len(frames),) + covered(frames)))
     return lines + [""]
@@ -168,20 +252,44 @@ def draw(frames, figure):
     for name, colour in COLOURS.items():
         chosen = [frame for frame in frames if regime(frame) == name]
         if chosen:
-            axes[0].loglog([frame["separation_curve"]["flattening_ratio"] for frame in chosen],
-                           np.exp(ratios(chosen, pull_off("separation_curve"), pull_off("half_space"))), ".", color=colour, label=name)
+            axes[0].loglog(
+                [frame["separation_curve"]["flattening_ratio"] for frame in chosen],
+                np.exp(ratios(chosen, pull_off("separation_curve"), pull_off("half_space"))),
+                ".",
+                color=colour,
+                label=name,
+            )
     axes[0].axhspan(1 / 1.15, 1.15, color="#dddddd", zorder=0)
-    axes[0].set(xlabel="flattening energy / work of adhesion", ylabel="separation curve / half-space", title="pull-off force, resolved frames")
+    axes[0].set(
+        xlabel="flattening energy / work of adhesion",
+        ylabel="separation curve / half-space",
+        title="pull-off force, resolved frames",
+    )
     axes[0].yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
     axes[0].yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axes[0].yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     axes[0].legend()
-    for name, colour in (("separation_curve", "#2f7fd1"), ("paper", "#d1322f"), ("printed", "#f2b705"), ("rigid", "#7a7a7a")):
+    for name, colour in (
+        ("separation_curve", "#2f7fd1"),
+        ("paper", "#d1322f"),
+        ("printed", "#f2b705"),
+        ("rigid", "#7a7a7a"),
+    ):
         value = (lambda frame: frame["rigid"]) if name == "rigid" else pull_off(name)
         logs = ratios(frames, value, pull_off("half_space"))
         logs = np.sort(np.abs(logs[np.isfinite(logs)]))
-        axes[1].semilogx(np.exp(logs), 100 * (np.arange(logs.size) + 1) / max(logs.size, 1), color=colour, label=name)
-    axes[1].set(xlabel="off by this factor at most", ylabel="share of frames [%]", xlim=(1, 100), title="pull-off force, all formulations")
+        axes[1].semilogx(
+            np.exp(logs),
+            100 * (np.arange(logs.size) + 1) / max(logs.size, 1),
+            color=colour,
+            label=name,
+        )
+    axes[1].set(
+        xlabel="off by this factor at most",
+        ylabel="share of frames [%]",
+        xlim=(1, 100),
+        title="pull-off force, all formulations",
+    )
     axes[1].legend()
     for axis in axes:
         axis.grid(alpha=0.3)
@@ -202,48 +310,125 @@ def page(lines, figure):
     rigid = ratios(resolved, lambda frame: frame["rigid"], reference)
     of_kinds = sorted({line["frame"]["kind"] for line in resolved})
     is_of_processes = bool(set(of_kinds) & set(trust_kinds.KINDS))
-    frames = OF_PROCESSES if is_of_processes else ["Gaussian, skewed, self-affine (H 0.5 to 0.9), arrays of spheres" + (
-        ", parts of measured scans" if "scan" in of_kinds else ""), OF_THE_MAP]
+    frames = (
+        OF_PROCESSES
+        if is_of_processes
+        else [
+            "Gaussian, skewed, self-affine (H 0.5 to 0.9), arrays of spheres"
+            + (", parts of measured scans" if "scan" in of_kinds else ""),
+            OF_THE_MAP,
+        ]
+    )
     text = [
-        "# Error map" + (" of other kinds" if is_of_processes else ""), "",
-        "How far each formulation lies from the [adhesive half-space](half_space.md), on random surfaces of many kinds. "
-        "Written by `studies/trust%s`." % (" --kinds" if is_of_processes else ""), "",
-        "- **Frames.** %d of %d x %d pixels: %s. Nothing flows." % (len(lines), size, size, frames[0]),
+        "# Error map" + (" of other kinds" if is_of_processes else ""),
+        "",
+        "How far each formulation lies from the [adhesive half-space](half_space.md), on random "
+        "surfaces of many kinds. "
+        "Written by `studies/trust%s`." % (" --kinds" if is_of_processes else ""),
+        "",
+        "- **Frames.** %d of %d x %d pixels: %s. Nothing flows."
+        % (len(lines), size, size, frames[0]),
         "- **Drawn from** %s A third is pressed with 0.1 to 100 MPa." % frames[1],
-        "- **Reference.** The half-space solved %d in the time given. Its pixels resolve the cohesive length E z0^2/Gamma on "
+        "- **Reference.** The half-space solved %d in the time given. Its pixels resolve the "
+        "cohesive length E z0^2/Gamma on "
         "%d of these, and only those count." % (len(solved), len(resolved)),
-        "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* the standard deviation of "
-        "their logarithm.", "",
-        "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name, "",
-        "## Formulations", ""]
-    text += table("pull-off force", [row("`separation_curve`", ratios(resolved, ours, reference)), row("`paper`", ratios(resolved, pull_off("paper"), reference)),
-                                     row("`printed`", ratios(resolved, pull_off("printed"), reference)), row("rigid, at first touch", rigid)])
-    text += ["## Where `separation_curve` is right", "", "*conforming*: frames that are bonded. *doubted*: other frames with the flag NEAR_BONDING; `model_doubt` gives the reason. "
-             "*sparse*: the rest.", ""]
-    for title, quantity in (("pull-off force", pull_off), ("apparent work of adhesion", work), ("contact area at rest", area)):
+        "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* "
+        "the standard deviation of "
+        "their logarithm.",
+        "",
+        "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name,
+        "",
+        "## Formulations",
+        "",
+    ]
+    text += table(
+        "pull-off force",
+        [
+            row("`separation_curve`", ratios(resolved, ours, reference)),
+            row("`paper`", ratios(resolved, pull_off("paper"), reference)),
+            row("`printed`", ratios(resolved, pull_off("printed"), reference)),
+            row("rigid, at first touch", rigid),
+        ],
+    )
+    text += [
+        "## Where `separation_curve` is right",
+        "",
+        "*conforming*: frames that are bonded. *doubted*: other frames with the flag NEAR_BONDING; "
+        "`model_doubt` gives the reason. "
+        "*sparse*: the rest.",
+        "",
+    ]
+    for title, quantity in (
+        ("pull-off force", pull_off),
+        ("apparent work of adhesion", work),
+        ("contact area at rest", area),
+    ):
         rows = [row("all", ratios(resolved, quantity("separation_curve"), quantity("half_space")))]
         for name in (SPARSE, CONFORMING, DOUBTED):
-            rows.append(row(name, ratios([line for line in resolved if regime(line) == name], quantity("separation_curve"), quantity("half_space"))))
+            rows.append(
+                row(
+                    name,
+                    ratios(
+                        [line for line in resolved if regime(line) == name],
+                        quantity("separation_curve"),
+                        quantity("half_space"),
+                    ),
+                )
+            )
         text += table(title, rows)
-    rows = [row("under load", ratios(loaded, ours, reference)), row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),
-             row("more contacts", ratios(many, ours, reference)), row("not resolved", ratios(unresolved, ours, reference))]
+    rows = [
+        row("under load", ratios(loaded, ours, reference)),
+        row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),
+        row("more contacts", ratios(many, ours, reference)),
+        row("not resolved", ratios(unresolved, ours, reference)),
+    ]
     text += table("pull-off force, by group of frames", rows)
     text += kind_rows(resolved, of_kinds)
-    rows = [row("without NEAR_BONDING", ratios([line for line in resolved if not is_doubted(line)], ours, reference)),
-            row("neither NEAR_BONDING nor RESOLUTION", ratios([line for line in resolved if not flags_of(line) & WARNING_FLAGS], ours, reference)),
-            row("RESOLUTION alone", ratios([line for line in resolved if flags_of(line) & WARNING_FLAGS == {"resolution"}], ours, reference)),
-            row("NEAR_BONDING", ratios([line for line in resolved if is_doubted(line)], ours, reference))]
+    rows = [
+        row(
+            "without NEAR_BONDING",
+            ratios([line for line in resolved if not is_doubted(line)], ours, reference),
+        ),
+        row(
+            "neither NEAR_BONDING nor RESOLUTION",
+            ratios(
+                [line for line in resolved if not flags_of(line) & WARNING_FLAGS], ours, reference
+            ),
+        ),
+        row(
+            "RESOLUTION alone",
+            ratios(
+                [line for line in resolved if flags_of(line) & WARNING_FLAGS == {"resolution"}],
+                ours,
+                reference,
+            ),
+        ),
+        row(
+            "NEAR_BONDING", ratios([line for line in resolved if is_doubted(line)], ours, reference)
+        ),
+    ]
     text += table("pull-off force, by [flags](validity.md#the-flags)", rows)
-    text += ["The contact area counts cells that repel each other, so a pixel more or less at each rim changes it. Frames that are "
-             "not resolved show the effect of the grid on the half-space, not the error of the curve.", ""]
     text += [
-             "## The interval of the margin", "",
-             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`): a standard "
-             "deviation of the logarithm, without a doubt and with one. It holds for flattening ratios up to 1; above, it "
-             "falls with the power %s of that ratio. It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of "
-             "them lie within 1.96 times it. On the easier frames of the map it is wide. *Covered*: share of this page's "
-             "frames whose deviation lies within the model's part of the 95 %% interval."
-             % fractions.Fraction(error_power()).limit_denominator(100), ""]
+        "The contact area counts cells that repel each other, so a pixel more or less at each rim "
+        "changes it. Frames that are "
+        "not resolved show the effect of the grid on the half-space, not the error of the curve.",
+        "",
+    ]
+    text += [
+        "## The interval of the margin",
+        "",
+        "The margin's interval contains the error of the model beside that of the constants "
+        "(`uncertainty/...`): a standard "
+        "deviation of the logarithm, without a doubt and with one. It holds for flattening ratios "
+        "up to 1; above, it "
+        "falls with the power %s of that ratio. It was set on [other kinds](trust_kinds.md), so "
+        "that 95 %% of each third of "
+        "them lie within 1.96 times it. On the easier frames of the map it is wide. *Covered*: "
+        "share of this page's "
+        "frames whose deviation lies within the model's part of the 95 %% interval."
+        % fractions.Fraction(error_power()).limit_denominator(100),
+        "",
+    ]
     text += coverage_rows(resolved)
     return "\n".join(text + ([SETS, ""] if is_of_processes else []))
 
@@ -251,7 +436,11 @@ def page(lines, figure):
 def main():
     source, target, figure = sys.argv[1:]
     lines = [json.loads(line) for line in pathlib.Path(source).read_text().splitlines()]
-    solved = [line for line in lines if line["half_space"]["status"] == "SOLVED" and line["half_space"]["is_resolved"]]
+    solved = [
+        line
+        for line in lines
+        if line["half_space"]["status"] == "SOLVED" and line["half_space"]["is_resolved"]
+    ]
     pathlib.Path(target).write_text(page(lines, figure), encoding="utf-8")
     draw(solved, figure)
 

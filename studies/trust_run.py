@@ -3,8 +3,9 @@
 
 usage: trust_run.py FOLDER COUNT [--kinds] [--pixels N] [--seed N] [--scans FOLDER] [--limit S]
 
-FOLDER/half_space.jsonl has a line per solved frame and is gone on with: it is the part that takes long and does not depend on
-the formulations. FOLDER/predictions.jsonl is written anew. Progress goes to the standard error.
+FOLDER/half_space.jsonl has a line per solved frame and is gone on with: it is the part that takes
+long and does not depend on the formulations. FOLDER/predictions.jsonl is written anew. Progress
+goes to the standard error.
 """
 
 import argparse
@@ -22,10 +23,28 @@ import trust_frames
 import trust_kinds
 
 FORMULATIONS = ("separation_curve", "paper", "printed")
-HALF_SPACE_FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "contact_count", "is_resolved",
-                      "processing_time")
-FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "nominal_area", "flattening_ratio",
-           "is_conforming", "regime_flag_names", "asperity_count", "median_contact_pixels", "processing_time")
+HALF_SPACE_FIGURES = (
+    "status",
+    "pull_off_force",
+    "apparent_work_of_adhesion",
+    "contact_area",
+    "contact_count",
+    "is_resolved",
+    "processing_time",
+)
+FIGURES = (
+    "status",
+    "pull_off_force",
+    "apparent_work_of_adhesion",
+    "contact_area",
+    "nominal_area",
+    "flattening_ratio",
+    "is_conforming",
+    "regime_flag_names",
+    "asperity_count",
+    "median_contact_pixels",
+    "processing_time",
+)
 
 
 class TooLong(Exception):
@@ -35,6 +54,7 @@ class TooLong(Exception):
 @contextlib.contextmanager
 def time_limit(seconds):
     """Raises TooLong after so many seconds of processor time; Ctrl-C goes the same way."""
+
     def stop(*_):
         raise TooLong
 
@@ -48,18 +68,26 @@ def time_limit(seconds):
 
 
 def settings_of(frame, formulation):
-    return mems_stiction.Settings(yaml.safe_load(trust_frames.configuration(frame, formulation)),
-                                  load={"mechanical_load": trust_frames.load_of(frame)})
+    return mems_stiction.Settings(
+        yaml.safe_load(trust_frames.configuration(frame, formulation)),
+        load={"mechanical_load": trust_frames.load_of(frame)},
+    )
 
 
 def half_space_of(frame, heights, limit):
     """Its figures, or why there are none."""
     try:
         with time_limit(limit):
-            solved = mems_stiction.half_space(heights, frame["pitch"], settings_of(frame, "separation_curve"))
+            solved = mems_stiction.half_space(
+                heights, frame["pitch"], settings_of(frame, "separation_curve")
+            )
     except TooLong:
         return {"status": "TOO_LONG"}
-    return {name: None if value != value else value for name, value in vars(solved).items() if name in HALF_SPACE_FIGURES}
+    return {
+        name: None if value != value else value
+        for name, value in vars(solved).items()
+        if name in HALF_SPACE_FIGURES
+    }
 
 
 def lines_of(path):
@@ -67,7 +95,7 @@ def lines_of(path):
     if not path.exists():
         return []
     text = path.read_text()
-    whole = text[:text.rfind("\n") + 1]
+    whole = text[: text.rfind("\n") + 1]
     if whole != text:
         path.write_text(whole)
     return [json.loads(line) for line in whole.splitlines()]
@@ -91,9 +119,17 @@ def solve(arguments, scans):
             frame, heights = drawn(number, arguments, scans)
             if number in solved:
                 if solved[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit("%s holds other frames than these: give another --output, or the same scans, pixels and seed" % path)
+                    sys.exit(
+                        "%s holds other frames than these: give another --output, or the same "
+                        "scans, pixels and seed" % path
+                    )
                 continue
-            line = {"frame": frame, "half_space": chosen(half_space_of(frame, heights, arguments.limit), HALF_SPACE_FIGURES)}
+            line = {
+                "frame": frame,
+                "half_space": chosen(
+                    half_space_of(frame, heights, arguments.limit), HALF_SPACE_FIGURES
+                ),
+            }
             file.write(json.dumps(line) + "\n")
             file.flush()
             solved[number] = line
@@ -105,11 +141,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("count", type=int)
-    parser.add_argument("--kinds", action="store_true", help="of the surfaces that processes make, in place of the map's")
+    parser.add_argument(
+        "--kinds",
+        action="store_true",
+        help="of the surfaces that processes make, in place of the map's",
+    )
     parser.add_argument("--pixels", type=int, default=128)
-    parser.add_argument("--seed", type=int, help="of the frames; another one draws frames that no rule was set on")
+    parser.add_argument(
+        "--seed", type=int, help="of the frames; another one draws frames that no rule was set on"
+    )
     parser.add_argument("--scans", help="folder of imported scans")
-    parser.add_argument("--limit", type=float, default=90.0, help="seconds of processor time that one half-space may take")
+    parser.add_argument(
+        "--limit",
+        type=float,
+        default=90.0,
+        help="seconds of processor time that one half-space may take",
+    )
     arguments = parser.parse_args()
     if arguments.seed is None:
         arguments.seed = trust_kinds.SEED if arguments.kinds else trust_frames.SEED
@@ -123,10 +170,16 @@ def main():
                 frame, heights = drawn(line["frame"]["number"], arguments, scans)
                 line["rigid"] = trust_frames.rigid_pull_off(heights, frame)
                 for formulation in FORMULATIONS:
-                    prediction = mems_stiction.predict(heights, frame["pitch"], settings_of(frame, formulation))
+                    prediction = mems_stiction.predict(
+                        heights, frame["pitch"], settings_of(frame, formulation)
+                    )
                     line[formulation] = chosen(prediction.to_dict(), FIGURES)
             file.write(json.dumps(line) + "\n")
-            print("predicted %d of %d" % (line["frame"]["number"] + 1, arguments.count), file=sys.stderr, flush=True)
+            print(
+                "predicted %d of %d" % (line["frame"]["number"] + 1, arguments.count),
+                file=sys.stderr,
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

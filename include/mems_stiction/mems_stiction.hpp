@@ -1,16 +1,18 @@
 #pragma once
 
 /// @file
-/// All that a program outside needs, in one header: read a scan, predict, judge the device, solve the half-space.
+/// All that a program outside needs, in one header: read a scan, predict, judge the device, solve
+/// the half-space.
 ///
 ///     const Configuration configuration = loadConfiguration("stiction.yaml");
 ///     ScanPredictor predictor(configuration);
-///     const PreparedScan prepared = predictor.preparer().prepare(readScanFile("scan.tiff", configuration.scan));
-///     const Prediction prediction = predictor.predict(prepared);
-///     const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
+///     const PreparedScan prepared = predictor.preparer().prepare(readScanFile("scan.tiff",
+///     configuration.scan)); const Prediction prediction = predictor.predict(prepared); const
+///     Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
 ///                                       predictor.options(), prepared.surfaces.lower.cellArea());
 ///
-/// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error (errors/errors.hpp).
+/// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error
+/// (errors/errors.hpp).
 
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/device/device_force.hpp"

@@ -1,4 +1,5 @@
-"""Heights from whatever has them, and the core's memory as NumPy arrays: neither is copied where the type allows."""
+"""Heights from whatever has them, and the core's memory as NumPy arrays: neither is copied where
+the type allows."""
 
 from __future__ import annotations
 
@@ -12,8 +13,20 @@ from mems_stiction import _core
 from mems_stiction._settings import Settings, SurfaceError
 
 # As SurfaceTopography writes them.
-METRES = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "A": 1e-10, "\u00c5": 1e-10,
-          "\u212b": 1e-10, "pm": 1e-12}
+METRES = {
+    "m": 1.0,
+    "dm": 1e-1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "µm": 1e-6,
+    "μm": 1e-6,
+    "nm": 1e-9,
+    "A": 1e-10,
+    "\u00c5": 1e-10,
+    "\u212b": 1e-10,
+    "pm": 1e-12,
+}
 AS_IT_IS = ("float32", "float64", "uint8", "uint16", "int16")
 
 Pitch = Union[float, Sequence[float]]
@@ -36,8 +49,11 @@ class Surface(NamedTuple):
         return array.T if self.is_transposed else array
 
 
-def surface_of(heights: Any, pitch: Optional[Pitch], settings: Settings, what: str = "heights") -> Surface:
-    """Heights, by whatever they are: a path, a Scan, a topography (heights(), physical_sizes, unit), an array.
+def surface_of(
+    heights: Any, pitch: Optional[Pitch], settings: Settings, what: str = "heights"
+) -> Surface:
+    """Heights, by whatever they are: a path, a Scan, a topography (heights(), physical_sizes,
+    unit), an array.
 
     Raises SurfaceError with the cause; what: the name of the argument, for messages.
     """
@@ -45,41 +61,63 @@ def surface_of(heights: Any, pitch: Optional[Pitch], settings: Settings, what: s
         return heights
     if isinstance(heights, (str, os.PathLike)):
         x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
-        core, channel, notes, identity = _core.read(os.fspath(heights), settings._configuration, x, y, "", False)
+        core, channel, notes, identity = _core.read(
+            os.fspath(heights), settings._configuration, x, y, "", False
+        )
         return Surface(core, os.fspath(heights), False, channel, tuple(notes), identity)
     own = getattr(heights, "_surface", None)
     if isinstance(own, Surface):
         if pitch is not None:
-            raise SurfaceError("pitch: %r is given, but the scan brings its own; leave it out" % (pitch,))
+            raise SurfaceError(
+                "pitch: %r is given, but the scan brings its own; leave it out" % (pitch,)
+            )
         return own
     if callable(getattr(heights, "heights", None)):
         return _of_topography(heights, pitch, settings, what)
     unit = getattr(heights, "unit", getattr(heights, "units", None))
     if unit is not None:
-        raise SurfaceError("%s: values with a unit (%s) are not allowed, must be plain numbers in metres" % (what, unit))
+        raise SurfaceError(
+            "%s: values with a unit (%s) are not allowed, must be plain numbers in metres"
+            % (what, unit)
+        )
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
     pixels = pixels_of(heights, what)
     if pitch is None and settings._configuration.pitch[0] <= 0:
-        raise SurfaceError("pitch: an array says nothing of it; must be a number > 0 m, or two of them (x, y), here or as scan/pitch_x and scan/pitch_y")
+        raise SurfaceError(
+            "pitch: an array says nothing of it; must be a number > 0 m, or two of them (x, y), "
+            "here or as scan/pitch_x and scan/pitch_y"
+        )
     return Surface(_core.height_map(pixels, x, y, settings._configuration), "", False)
 
 
-def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, what: str) -> Surface:
+def _of_topography(
+    topography: Any, pitch: Optional[Pitch], settings: Settings, what: str
+) -> Surface:
     """x is the first index of a topography, and the columns of a height map."""
     sizes = getattr(topography, "physical_sizes", None)
     heights = np.ma.asanyarray(topography.heights())
     if heights.ndim != 2:
         raise SurfaceError(_shape_text(heights, what))
     if sizes is None and pitch is None:
-        raise SurfaceError("%s: the topography states no physical_sizes; give them there, or a pitch" % what)
+        raise SurfaceError(
+            "%s: the topography states no physical_sizes; give them there, or a pitch" % what
+        )
     if sizes is not None and pitch is not None:
-        raise SurfaceError("pitch: %r is given, but the topography brings its own (physical_sizes); leave it out" % (pitch,))
+        raise SurfaceError(
+            "pitch: %r is given, but the topography brings its own (physical_sizes); leave it out"
+            % (pitch,)
+        )
     unit = getattr(topography, "unit", None)
     if unit is None:
-        raise SurfaceError("%s: the topography states no unit; must be one of: %s" % (what, ", ".join(METRES)))
+        raise SurfaceError(
+            "%s: the topography states no unit; must be one of: %s" % (what, ", ".join(METRES))
+        )
     factor = METRES.get(unit) if isinstance(unit, str) else None
     if factor is None:
-        raise SurfaceError("%s: the unit '%s' of the topography is not allowed, must be one of: %s" % (what, unit, ", ".join(METRES)))
+        raise SurfaceError(
+            "%s: the unit '%s' of the topography is not allowed, must be one of: %s"
+            % (what, unit, ", ".join(METRES))
+        )
     if sizes is not None and heights.size:
         pitches = _pitch_of_sizes(sizes, heights.shape, factor)
     else:
@@ -87,8 +125,12 @@ def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, 
     pixels = pixels_of(heights.T, what)
     if factor != 1.0:
         pixels = pixels * factor
-    return Surface(_core.height_map(pixels, pitches[0], pitches[1], settings._configuration), "", True,
-                   is_periodic=getattr(topography, "is_periodic", False) is True)
+    return Surface(
+        _core.height_map(pixels, pitches[0], pitches[1], settings._configuration),
+        "",
+        True,
+        is_periodic=getattr(topography, "is_periodic", False) is True,
+    )
 
 
 def _pitch_of_sizes(sizes: Any, shape: Sequence[int], factor: float) -> Tuple[float, float]:
@@ -98,7 +140,9 @@ def _pitch_of_sizes(sizes: Any, shape: Sequence[int], factor: float) -> Tuple[fl
             return pitch_of((x, y))
     except (TypeError, ValueError):  # SurfaceError is a ValueError
         pass
-    raise SurfaceError("physical_sizes: %r is not allowed, must be two numbers > 0 (along x, along y)" % (sizes,))
+    raise SurfaceError(
+        "physical_sizes: %r is not allowed, must be two numbers > 0 (along x, along y)" % (sizes,)
+    )
 
 
 def pitch_of(pitch: Pitch) -> Tuple[float, float]:
@@ -117,24 +161,41 @@ def pitch_of(pitch: Pitch) -> Tuple[float, float]:
 
 
 def _shape_text(array: np.ndarray, what: str) -> str:
-    line = ("; one line says nothing of the contacts beside it: of a surface of grooves, repeat the line as the rows of an array"
-            if array.ndim == 1 or array.ndim == 2 and 1 in array.shape else "")
-    return "%s: an array of shape %s is not allowed, must have two dimensions, rows x columns%s" % (what, array.shape, line)
+    line = (
+        "; one line says nothing of the contacts beside it: of a surface of grooves, repeat the "
+        "line as the rows of an array"
+        if array.ndim == 1 or array.ndim == 2 and 1 in array.shape
+        else ""
+    )
+    return "%s: an array of shape %s is not allowed, must have two dimensions, rows x columns%s" % (
+        what,
+        array.shape,
+        line,
+    )
 
 
 def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
-    """The array itself where the core can show it as it lies: float32 or float64 of this machine, columns next to each
-    other, rows at any distance, writeable or not. Else a copy. Masked pixels are NaN: missing."""
+    """The array itself where the core can show it as it lies: float32 or float64 of this machine,
+    columns next to each other, rows at any distance, writeable or not. Else a copy. Masked pixels
+    are NaN: missing."""
     try:
         array = heights if isinstance(heights, np.ma.MaskedArray) else np.asarray(heights)
     except ValueError as error:  # rows of different lengths
         raise SurfaceError("%s: %s" % (what, error)) from None
     if array.dtype.kind == "O" and array.ndim == 0:
-        raise SurfaceError("%s: %s is not allowed, must be an array, a topography, a Scan or the path of a scan" % (what, type(heights).__name__))
+        raise SurfaceError(
+            "%s: %s is not allowed, must be an array, a topography, a Scan or the path of a scan"
+            % (what, type(heights).__name__)
+        )
     if array.dtype == np.float16:
-        raise SurfaceError("%s: an array of type float16 is not allowed, its steps are 60 nm where they are finest; must be float32 or float64" % what)
+        raise SurfaceError(
+            "%s: an array of type float16 is not allowed, its steps are 60 nm where they are "
+            "finest; must be float32 or float64" % what
+        )
     if array.dtype.kind not in "fiu":
-        raise SurfaceError("%s: an array of type %s is not allowed, must be real numbers [m]" % (what, array.dtype))
+        raise SurfaceError(
+            "%s: an array of type %s is not allowed, must be real numbers [m]" % (what, array.dtype)
+        )
     if array.ndim == 2 and array.size == 0:
         raise SurfaceError("%s: an array of shape %s has no pixel" % (what, array.shape))
     if array.ndim != 2 or 1 in array.shape:
@@ -162,8 +223,14 @@ def array_of(memory: Any) -> Optional[np.ndarray]:
 def records_of(records: _core.Records) -> np.recarray:
     """A view of a list of the core as an array with named fields, read-only."""
     names, formats, offsets = zip(*records.fields)
-    layout = np.dtype({"names": list(names), "formats": list(formats), "offsets": list(offsets),
-                       "itemsize": records.record_size})
+    layout = np.dtype(
+        {
+            "names": list(names),
+            "formats": list(formats),
+            "offsets": list(offsets),
+            "itemsize": records.record_size,
+        }
+    )
     memory = np.asarray(records.bytes)
     memory.flags.writeable = False
     return memory.view(layout).view(np.recarray)
@@ -180,8 +247,10 @@ class ReadOnly:
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_"):
-            raise AttributeError("%s.%s: a result cannot be changed; predict with other settings, or take a copy of its figures" % (
-                type(self).__name__, name))
+            raise AttributeError(
+                "%s.%s: a result cannot be changed; predict with other settings, or take a copy of "
+                "its figures" % (type(self).__name__, name)
+            )
         super().__setattr__(name, value)
 
     def __delattr__(self, name: str) -> None:
@@ -189,6 +258,7 @@ class ReadOnly:
 
 
 def explained(kind: Kind) -> Kind:
-    """The class with the text of its first base behind its own: what the core declares of its figures."""
+    """The class with the text of its first base behind its own: what the core declares of its
+    figures."""
     kind.__doc__ = "%s\n\n%s" % (inspect.cleandoc(kind.__doc__ or ""), kind.__bases__[0].__doc__)
     return kind

@@ -1,4 +1,5 @@
-"""The constants of a process from what was measured on its parts: forces, beams, works, each with the scans of its surfaces."""
+"""The constants of a process from what was measured on its parts: forces, beams, works, each with
+the scans of its surfaces."""
 
 from __future__ import annotations
 
@@ -17,7 +18,11 @@ from mems_stiction.calibration_grid import between_nodes
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.quantities import ratio, with_interval, with_unit
 
-WORK, HAMAKER, ANGLE = "interface/work_of_adhesion", "interface/hamaker_constant", "interface/contact_angle"
+WORK, HAMAKER, ANGLE = (
+    "interface/work_of_adhesion",
+    "interface/hamaker_constant",
+    "interface/contact_angle",
+)
 RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18)}  # that is searched [J/m^2, J]
 WIDEST_COSINES = (0.01, 1.0)
 COARSE_NODES = 13
@@ -31,7 +36,9 @@ MOST_REFINEMENTS = 3
 STEPS_FOR_SLOPES = (1.0 / 1.15, 1.15)
 TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
 TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
-DEPENDING = 2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
+DEPENDING = (
+    2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
+)
 FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
 MOST_ASKED = 3  # values that are asked for their unit
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
@@ -45,15 +52,18 @@ OnProgress = Callable[[float], None]
 class Calibration(ReadOnly):
     """Constants that a process has, by measurements; NaN: they do not tell.
 
-    work_of_adhesion, work_of_adhesion_lower, work_of_adhesion_upper: best fit and 95 % interval [J/m^2]. hamaker_constant,
-    ..._lower, ..._upper [J] and contact_angle, ... [rad]: the same where the measurements tell; else the configured value, its
-    ends NaN. The intervals are those of the measurements; the model's own error comes with each prediction.
+    work_of_adhesion, work_of_adhesion_lower, work_of_adhesion_upper: best fit and 95 % interval
+    [J/m^2]. hamaker_constant,
+    ..._lower, ..._upper [J] and contact_angle, ... [rad]: the same where the measurements tell;
+    else the configured value, its ends NaN. The intervals are those of the measurements; the
+    model's own error comes with each prediction.
     relative_uncertainty: of the work, as uncertainty/work_of_adhesion takes it.
-    chi_square, degrees_of_freedom: of the misfit. scatter: share of the surfaces' stated scatter from place to place that the
-    measurements show; NaN where none has any.
-    measurements: a record of each: name, kind, value, uncertainty, fitted [its unit], deviation (standardised), is_outlier: it does
-    not belong to the others, and was left out.
-    statements: what the measurements tell and what they cannot. settings: Settings with the fitted constants.
+    chi_square, degrees_of_freedom: of the misfit. scatter: share of the surfaces' stated scatter
+    from place to place that the measurements show; NaN where none has any.
+    measurements: a record of each: name, kind, value, uncertainty, fitted [its unit], deviation
+    (standardised), is_outlier: it does not belong to the others, and was left out.
+    statements: what the measurements tell and what they cannot. settings: Settings with the fitted
+    constants.
     """
 
     work_of_adhesion: float
@@ -82,9 +92,16 @@ class Calibration(ReadOnly):
 
     def to_dict(self) -> Dict[str, Any]:
         """What json() prints. None stands for what is not known."""
-        names = [name for name in type(self).__annotations__ if name not in ("measurements", "statements", "settings")]
+        names = [
+            name
+            for name in type(self).__annotations__
+            if name not in ("measurements", "statements", "settings")
+        ]
         record: Dict[str, Any] = {name: plain_value(getattr(self, name)) for name in names}
-        record["measurements"] = [{name: plain_value(row[name]) for name in self.measurements.dtype.names} for row in self.measurements]
+        record["measurements"] = [
+            {name: plain_value(row[name]) for name in self.measurements.dtype.names}
+            for row in self.measurements
+        ]
         record["statements"] = list(self.statements)
         return record
 
@@ -93,33 +110,60 @@ class Calibration(ReadOnly):
         return json.dumps(self.to_dict())
 
     def yaml(self) -> str:
-        """The settings with these constants, as every program takes them, with what they come from in comments.
+        """The settings with these constants, as every program takes them, with what they come from
+        in comments.
 
-        What the measurements do not tell stays as configured. Raises OptionsError where they tell nothing.
+        What the measurements do not tell stays as configured. Raises OptionsError where they tell
+        nothing.
         """
         if not self.is_told:
-            raise OptionsError("calibration: %s; there is nothing to configure" % self.statements[0])
+            raise OptionsError(
+                "calibration: %s; there is nothing to configure" % self.statements[0]
+            )
         return "".join("# %s\n" % line for line in self._provenance()) + self.settings.yaml()
 
     @property
     def is_told(self) -> bool:
         """Whether the measurements tell one constant at least."""
-        lower_ends = self.work_of_adhesion_lower, self.hamaker_constant_lower, self.contact_angle_lower
+        lower_ends = (
+            self.work_of_adhesion_lower,
+            self.hamaker_constant_lower,
+            self.contact_angle_lower,
+        )
         return not all(math.isnan(end) for end in lower_ends)
 
     def _provenance(self) -> List[str]:
-        lines = ["Calibrated by mems_stiction %s: work of adhesion %s" % (self.version, self._work_text())]
+        lines = [
+            "Calibrated by mems_stiction %s: work of adhesion %s"
+            % (self.version, self._work_text())
+        ]
         lines += list(self.statements)
-        lines.append("measurement, kind, value, standard uncertainty, fitted, deviation, scans (SHA-256 of their heights)")
+        lines.append(
+            "measurement, kind, value, standard uncertainty, fitted, deviation, scans (SHA-256 of "
+            "their heights)"
+        )
         for row, fingerprint in zip(self.measurements, self._fingerprints):
-            lines.append("%s, %s, %.6g, %.3g, %.6g, %.2f, %s%s" % (row.name, row.kind, row.value, row.uncertainty, row.fitted, row.deviation,
-                                                               fingerprint, ", left out" if row.is_outlier else ""))
+            lines.append(
+                "%s, %s, %.6g, %.3g, %.6g, %.2f, %s%s"
+                % (
+                    row.name,
+                    row.kind,
+                    row.value,
+                    row.uncertainty,
+                    row.fitted,
+                    row.deviation,
+                    fingerprint,
+                    ", left out" if row.is_outlier else "",
+                )
+            )
         return lines
 
     def _work_text(self) -> str:
         if math.isnan(self.work_of_adhesion):
             return "not known"
-        return with_interval(self.work_of_adhesion, self.work_of_adhesion_lower, self.work_of_adhesion_upper, "J/m^2")
+        return with_interval(
+            self.work_of_adhesion, self.work_of_adhesion_lower, self.work_of_adhesion_upper, "J/m^2"
+        )
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes yaml() to a file."""
@@ -138,13 +182,23 @@ class Calibration(ReadOnly):
     picture = save_picture
 
     def __repr__(self) -> str:
-        lines = ["Calibration by %d measurements: work of adhesion %s" % (
-            len(self.measurements), self._work_text())]
+        lines = [
+            "Calibration by %d measurements: work of adhesion %s"
+            % (len(self.measurements), self._work_text())
+        ]
         lines += ["  " + statement for statement in self.statements]
         for row in self.measurements:
-            lines.append("  %s: %s %s, fitted %s, %+.1f standard deviations%s" % (
-                row.name, row.kind, with_unit(row.value, UNITS[row.kind]), with_unit(row.fitted, UNITS[row.kind]), row.deviation,
-                " (left out)" if row.is_outlier else ""))
+            lines.append(
+                "  %s: %s %s, fitted %s, %+.1f standard deviations%s"
+                % (
+                    row.name,
+                    row.kind,
+                    with_unit(row.value, UNITS[row.kind]),
+                    with_unit(row.fitted, UNITS[row.kind]),
+                    row.deviation,
+                    " (left out)" if row.is_outlier else "",
+                )
+            )
         return "\n".join(lines)
 
 
@@ -168,13 +222,17 @@ class _Axis:
     def tells(self, interval: Interval) -> bool:
         if self.is_cosine:
             return interval.upper - interval.lower < TELLING_COSINE
-        return interval.is_closed and interval.upper - interval.lower < 2.0 * math.log(TELLING_WORK if self.name == WORK else TELLING)
+        return interval.is_closed and interval.upper - interval.lower < 2.0 * math.log(
+            TELLING_WORK if self.name == WORK else TELLING
+        )
 
 
 class _Surrogate:
     """ln of the expected values at nodes of the constants, and between them."""
 
-    def __init__(self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]) -> None:
+    def __init__(
+        self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]
+    ) -> None:
         self.measurements, self.axes, self.on_step = measurements, axes, on_step
         self.known: Dict[Tuple[float, ...], np.ndarray] = {}
         self.nodes: List[np.ndarray] = []
@@ -186,12 +244,20 @@ class _Surrogate:
         self.nodes = nodes
         grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
         self._prepare([tuple(parameters) for parameters in grid.reshape(-1, len(nodes))])
-        values = np.array([self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))])
+        values = np.array(
+            [self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))]
+        )
         values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
-        self.interpolation = PchipInterpolator(nodes[0], values, axis=0) if len(nodes) == 1 else between_nodes(nodes[0], nodes[1], values)
+        self.interpolation = (
+            PchipInterpolator(nodes[0], values, axis=0)
+            if len(nodes) == 1
+            else between_nodes(nodes[0], nodes[1], values)
+        )
 
     def expected(self, parameters: np.ndarray) -> np.ndarray:
-        inside = [min(max(value, nodes[0]), nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
+        inside = [
+            min(max(value, nodes[0]), nodes[-1]) for value, nodes in zip(parameters, self.nodes)
+        ]
         return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else [inside])))
 
     def bounds(self) -> List[Tuple[float, float]]:
@@ -202,8 +268,14 @@ class _Surrogate:
 
     def _prepare(self, nodes: List[Tuple[float, ...]]) -> None:
         """All that is missing of one place after the other."""
-        missing = [self._constants(parameters) for parameters in nodes if parameters not in self.known]
-        for measurement in {id(measurement.place): measurement for measurement in self.measurements}.values() if missing else ():
+        missing = [
+            self._constants(parameters) for parameters in nodes if parameters not in self.known
+        ]
+        for measurement in (
+            {id(measurement.place): measurement for measurement in self.measurements}.values()
+            if missing
+            else ()
+        ):
             measurement.prepare(missing)
             self.on_step()
 
@@ -213,9 +285,18 @@ class _Surrogate:
             values = [measurement.expected(constants) for measurement in self.measurements]
             for measurement, value in zip(self.measurements, values):
                 if not np.isfinite(value):
-                    raise OptionsError("%s: what is expected of it is not known (%r) with %s; are its scans and settings those that it was measured with?" % (
-                        measurement.name, value, ", ".join("%s = %.3g" % item for item in constants.items())))
-            self.known[parameters] = np.log(np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements]))
+                    raise OptionsError(
+                        "%s: what is expected of it is not known (%r) with %s; are its scans and "
+                        "settings those that it was measured with?"
+                        % (
+                            measurement.name,
+                            value,
+                            ", ".join("%s = %.3g" % item for item in constants.items()),
+                        )
+                    )
+            self.known[parameters] = np.log(
+                np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements])
+            )
         return self.known[parameters]
 
 
@@ -237,7 +318,9 @@ class _Found(NamedTuple):
 class _Search:
     """Best constants of a list of axes."""
 
-    def __init__(self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]) -> None:
+    def __init__(
+        self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]
+    ) -> None:
         self.measurements, self.axes = measurements, axes
         self.surrogate = _Surrogate(measurements, axes, on_step)
         self.shared = shared_scans(measurements)
@@ -245,10 +328,14 @@ class _Search:
     def run(self, around: Optional[float] = None) -> "_Found":
         """- around: ln work of adhesion, as it is known from before"""
         has_made = any(measurement.place.is_made for measurement in self.measurements)
-        fine = FINE_NODES_MADE if has_made else FINE_NODES_OF_TWO if len(self.axes) > 1 else FINE_NODES
+        fine = (
+            FINE_NODES_MADE if has_made else FINE_NODES_OF_TWO if len(self.axes) > 1 else FINE_NODES
+        )
         first = COARSE_NODES_MADE if has_made and len(self.axes) == 1 else COARSE_NODES
-        nodes = [np.linspace(axis.bounds[0], axis.bounds[1], count)
-                 for axis, count in zip(self.axes, (first, COARSE_NODES_SECOND))]
+        nodes = [
+            np.linspace(axis.bounds[0], axis.bounds[1], count)
+            for axis, count in zip(self.axes, (first, COARSE_NODES_SECOND))
+        ]
         if around is not None:
             nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
         constants = {axis.name: axis.configured for axis in self.axes}
@@ -256,10 +343,15 @@ class _Search:
             self.surrogate.take(nodes)
             whole = self._likelihood(constants)
             outliers = whole.outliers()
-            likelihood = whole.part([place for place in range(len(self.measurements)) if place not in outliers])
+            likelihood = whole.part(
+                [place for place in range(len(self.measurements)) if place not in outliers]
+            )
             fit = likelihood.fit()
             intervals = [likelihood.interval(fit, index) for index in range(len(self.axes))]
-            constants = {axis.name: axis.value(parameter) for axis, parameter in zip(self.axes, fit.parameters)}
+            constants = {
+                axis.name: axis.value(parameter)
+                for axis, parameter in zip(self.axes, fit.parameters)
+            }
             finer = [_refined(axis, interval, fine) for axis, interval in zip(nodes, intervals)]
             if all(len(one) == len(other) for one, other in zip(finer, nodes)):
                 break
@@ -269,48 +361,67 @@ class _Search:
     def _likelihood(self, constants: Dict[str, float]) -> Likelihood:
         """- constants: those at which surfaces scatter from place to place as they do"""
         data = self.measurements
-        return Likelihood([datum.value for datum in data], [datum.uncertainty for datum in data],
-                          pooled([datum.scatter(constants) for datum in data], data),
-                          [datum.kind for datum in data], self.surrogate.expected,
-                          self.surrogate.bounds(),
-                          pooled([datum.common(constants) for datum in data], data), self.shared)
+        return Likelihood(
+            [datum.value for datum in data],
+            [datum.uncertainty for datum in data],
+            pooled([datum.scatter(constants) for datum in data], data),
+            [datum.kind for datum in data],
+            self.surrogate.expected,
+            self.surrogate.bounds(),
+            pooled([datum.common(constants) for datum in data], data),
+            self.shared,
+        )
 
 
 def _refined(nodes: np.ndarray, interval: Interval, count: int) -> np.ndarray:
     """With so many nodes where the interval lies, unless most of them are there or within 1 %."""
     width = interval.upper - interval.lower
-    low, high = max(interval.lower - 0.25 * width, nodes[0]), min(interval.upper + 0.25 * width, nodes[-1])
+    low, high = (
+        max(interval.lower - 0.25 * width, nodes[0]),
+        min(interval.upper + 0.25 * width, nodes[-1]),
+    )
     inside = nodes[(nodes > low) & (nodes < high)]
     if len(inside) >= count - 2 or high - low < 0.01 * count:
         return nodes
     return np.unique(np.concatenate([nodes, np.linspace(low, high, count)]))
 
 
-def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, on_progress: Optional[OnProgress] = None,
-              **settings: Any) -> Calibration:
+def calibrate(
+    measurements: Sequence[Any],
+    config: Optional[Config] = None,
+    *,
+    on_progress: Optional[OnProgress] = None,
+    **settings: Any,
+) -> Calibration:
     """Which work of adhesion has this process, by what was measured on its parts?
 
         found = mems_stiction.calibrate([
-            {"kind": "pull_off_force", "value": 210e-9, "uncertainty": 40e-9, "scans": "dimple.gwy"},
-            {"kind": "detachment_length", "value": 350e-6, "uncertainty": 30e-6, "scans": ["a.gwy", "b.gwy"], "area": 4e-9,
-             "beam_type": "cantilever", "thickness": 2e-6, "gap": 2e-6, "modulus": 169e9}], config="process.yaml")
+            {"kind": "pull_off_force", "value": 210e-9, "uncertainty": 40e-9, "scans":
+            "dimple.gwy"},
+            {"kind": "detachment_length", "value": 350e-6, "uncertainty": 30e-6, "scans": ["a.gwy",
+            "b.gwy"], "area": 4e-9,
+             "beam_type": "cantilever", "thickness": 2e-6, "gap": 2e-6, "modulus": 169e9}],
+             config="process.yaml")
         found.work_of_adhesion, found.work_of_adhesion_lower, found.work_of_adhesion_upper
 
     measurements: dictionaries with
-        kind: pull_off_force [N], apparent_work_of_adhesion [J/m^2], detachment_length [m] (the longest beam that comes off by
+        kind: pull_off_force [N], apparent_work_of_adhesion [J/m^2], detachment_length [m] (the
+        longest beam that comes off by
             itself) or crack_length [m] (the free arm of a stuck, S-shaped beam);
         value, uncertainty: as measured, and its standard uncertainty in the same unit;
-        scans, pitch, upper: of the surfaces that it was measured on, as predict_device() takes them;
-        area, contacts: of the contact [m^2], larger or smaller than the scans; without it, the scan itself is what touched;
-        radius: of a tip or sphere [m] that was pulled off the scanned surface, or off a smooth plane without scans;
-        beam_type (cantilever, doubly_clamped), thickness [m], gap [m], modulus [Pa], residual_stress [Pa]: of a beam;
-        relative_humidity, mechanical_load [N], name: of this measurement.
+        scans, pitch, upper: of the surfaces that it was measured on, as predict_device() takes
+        them; area, contacts: of the contact [m^2], larger or smaller than the scans; without it,
+        the scan itself is what touched;
+        radius: of a tip or sphere [m] that was pulled off the scanned surface, or off a smooth
+        plane without scans; beam_type (cantilever, doubly_clamped), thickness [m], gap [m], modulus
+        [Pa], residual_stress [Pa]: of a beam; relative_humidity, mechanical_load [N], name: of this
+        measurement.
     config, settings: as of predict(): materials, cleaning, and the constants that are not sought.
     on_progress: called with the share of the work that is done; what it throws ends it.
 
-    Maximum likelihood with profile intervals (doc/process.md). The Hamaker constant is fitted, too, where the measurements tell
-    it; the angle of contact of the liquid where they were made at several humidities. Raises OptionsError and SurfaceError,
-    which name the measurement.
+    Maximum likelihood with profile intervals (doc/process.md). The Hamaker constant is fitted, too,
+    where the measurements tell it; the angle of contact of the liquid where they were made at
+    several humidities. Raises OptionsError and SurfaceError, which name the measurement.
     """
     base = Settings(config, **settings)
     data = measurements_of(measurements, base, {})
@@ -343,7 +454,8 @@ def _keeps_work(both: _Found, found: _Found) -> bool:
 
 
 def _fits_better(both: _Found, found: _Found) -> bool:
-    """Whether measurements contradict the second constant as configured: a misfit, which it mends."""
+    """Whether measurements contradict the second constant as configured: a misfit, which it
+    mends."""
     is_misfit = found.fit.widening > 1.0 and both.outliers == found.outliers
     return is_misfit and found.fit.deviance - both.fit.deviance > BETTER
 
@@ -357,15 +469,20 @@ class _Progress:
     def step(self) -> None:
         self.steps += 1
         if self.on_progress is not None:
-            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / self.places))  # a half after the first look at all of them
+            self.on_progress(
+                1.0 - 1.0 / (1.0 + self.steps / self.places)
+            )  # a half after the first look at all of them
 
     def end(self) -> None:
         if self.on_progress is not None:
             self.on_progress(1.0)
 
 
-def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found) -> Tuple[Optional[_Axis], List[str]]:
-    """A second constant that the measurements may tell, and a sentence where they clearly do not."""
+def _second_axis(
+    data: List[Measurement], values: Dict[str, Any], found: _Found
+) -> Tuple[Optional[_Axis], List[str]]:
+    """A second constant that the measurements may tell, and a sentence where they clearly do
+    not."""
     humidities = {datum.place.humidity for datum in data}
     if len(humidities) > 1:
         return _Axis(ANGLE, values), []
@@ -376,7 +493,7 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
     slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
     widths = np.array([math.log(RANGE[name][1] / RANGE[name][0]) for name in (WORK, HAMAKER)])
     # what measurements leave open of the work ends with its range
-    information = found.whole.information(slopes, found.fit) + np.diag(12.0 / widths ** 2)
+    information = found.whole.information(slopes, found.fit) + np.diag(12.0 / widths**2)
     if math.sqrt(np.linalg.inv(information)[1, 1]) * NORMAL_95 > 1.5 * math.log(TELLING):
         return None, [_not_told(axis)]
     return axis, []
@@ -394,62 +511,128 @@ def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
 
 
 def _told(axis: _Axis, found: _Found) -> str:
-    best, low, high = (axis.value(value) for value in (found.fit.parameters[1], found.intervals[1].lower, found.intervals[1].upper))
+    best, low, high = (
+        axis.value(value)
+        for value in (found.fit.parameters[1], found.intervals[1].lower, found.intervals[1].upper)
+    )
     if axis.is_cosine:
-        return "the liquid's angle of contact is %s rad (%s to %s)" % (ratio(best), ratio(min(low, high)), ratio(max(low, high)))
-    return "the measurements tell the Hamaker constant, too: %s" % with_interval(best, low, high, "J")
+        return "the liquid's angle of contact is %s rad (%s to %s)" % (
+            ratio(best),
+            ratio(min(low, high)),
+            ratio(max(low, high)),
+        )
+    return "the measurements tell the Hamaker constant, too: %s" % with_interval(
+        best, low, high, "J"
+    )
 
 
 def _not_told(axis: _Axis) -> str:
     if axis.is_cosine:
-        return "these humidities do not tell the liquid's angle of contact; it stays at %s rad as configured" % ratio(axis.configured)
-    return "the measurements do not tell the Hamaker constant apart from the work of adhesion; it stays at %.3g J as configured" % axis.configured
+        return (
+            "these humidities do not tell the liquid's angle of contact; it stays at %s rad as "
+            "configured" % ratio(axis.configured)
+        )
+    return (
+        "the measurements do not tell the Hamaker constant apart from the work of adhesion; it "
+        "stays at %.3g J as configured" % axis.configured
+    )
 
 
-def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any], found: _Found, statements: List[str]) -> Calibration:
+def _calibration(
+    data: List[Measurement],
+    base: Settings,
+    values: Dict[str, Any],
+    found: _Found,
+    statements: List[str],
+) -> Calibration:
     fit = found.fit
     has_places = (found.likelihood.places > 0).any()
-    figures: Dict[str, Any] = {"chi_square": fit.chi_square, "degrees_of_freedom": max(len(fit.values) - len(found.axes), 0),
-                               "scatter": fit.scatter if has_places else math.nan}
+    figures: Dict[str, Any] = {
+        "chi_square": fit.chi_square,
+        "degrees_of_freedom": max(len(fit.values) - len(found.axes), 0),
+        "scatter": fit.scatter if has_places else math.nan,
+    }
     for name, word in ((HAMAKER, "hamaker_constant"), (ANGLE, "contact_angle")):
-        figures.update({word: float(values[name]), word + "_lower": math.nan, word + "_upper": math.nan})
+        figures.update(
+            {word: float(values[name]), word + "_lower": math.nan, word + "_upper": math.nan}
+        )
     constants: Dict[str, float] = {}
     for axis, parameter, interval in zip(found.axes, fit.parameters, found.intervals):
         word = axis.name.partition("/")[2]
         ends = sorted(axis.value(end) for end in (interval.lower, interval.upper))
-        figures.update({word: axis.value(parameter), word + "_lower": ends[0], word + "_upper": ends[1]})
+        figures.update(
+            {word: axis.value(parameter), word + "_lower": ends[0], word + "_upper": ends[1]}
+        )
         constants[axis.name] = axis.value(parameter)
         if not axis.is_cosine:
             constants["uncertainty/" + word] = _relative(interval)
     statements = _of_other_places(data) + _of_outliers(data, found) + _of_misfit(found) + statements
     if not found.axes[0].tells(found.intervals[0]):
         statements[:0] = [_open_end(found)] + _of_units(data, found)
-        figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
-        constants = {name: value for name, value in constants.items()
-                     if not name.endswith("/work_of_adhesion")}
+        figures.update(
+            work_of_adhesion=math.nan,
+            work_of_adhesion_lower=math.nan,
+            work_of_adhesion_upper=math.nan,
+        )
+        constants = {
+            name: value
+            for name, value in constants.items()
+            if not name.endswith("/work_of_adhesion")
+        }
         if constants:
             configured = with_unit(found.axes[0].configured, "J/m^2")
             statements.insert(1, "the work of adhesion stays at %s as configured" % configured)
-    rows = [(datum.name, datum.kind, datum.value, datum.uncertainty, float(value), float(deviation), place in found.outliers)
-            for place, (datum, value, deviation) in enumerate(zip(data, found.whole.model(fit.parameters), found.deviations()))]
-    table = np.rec.fromrecords(rows, dtype=[("name", object), ("kind", object), ("value", float), ("uncertainty", float), ("fitted", float),
-                                            ("deviation", float), ("is_outlier", bool)])
-    figures.update(relative_uncertainty=constants.get("uncertainty/work_of_adhesion", math.nan), measurements=table,
-                   statements=tuple(statements), settings=Settings(base, **constants))
+    rows = [
+        (
+            datum.name,
+            datum.kind,
+            datum.value,
+            datum.uncertainty,
+            float(value),
+            float(deviation),
+            place in found.outliers,
+        )
+        for place, (datum, value, deviation) in enumerate(
+            zip(data, found.whole.model(fit.parameters), found.deviations())
+        )
+    ]
+    table = np.rec.fromrecords(
+        rows,
+        dtype=[
+            ("name", object),
+            ("kind", object),
+            ("value", float),
+            ("uncertainty", float),
+            ("fitted", float),
+            ("deviation", float),
+            ("is_outlier", bool),
+        ],
+    )
+    figures.update(
+        relative_uncertainty=constants.get("uncertainty/work_of_adhesion", math.nan),
+        measurements=table,
+        statements=tuple(statements),
+        settings=Settings(base, **constants),
+    )
     return Calibration(figures, [datum.place.fingerprint() for datum in data])
 
 
 def _relative(interval: Interval) -> float:
-    """Relative standard deviation of a lognormal number with this 95 % interval of its logarithm, as uncertainty/... take it."""
-    return min(math.sqrt(math.expm1(((interval.upper - interval.lower) / (2.0 * NORMAL_95)) ** 2)), 1.0)
+    """Relative standard deviation of a lognormal number with this 95 % interval of its logarithm,
+    as uncertainty/... take it."""
+    return min(
+        math.sqrt(math.expm1(((interval.upper - interval.lower) / (2.0 * NORMAL_95)) ** 2)), 1.0
+    )
 
 
 def _of_other_places(data: List[Measurement]) -> List[str]:
     """Of values on one scan that are not of its place alone."""
     if not any(datum.place.stands_for_others for datum in data):
         return []
-    return ["values on one scan's area differ by more than their uncertainties say: they were taken "
-            "for other places of the surface"]
+    return [
+        "values on one scan's area differ by more than their uncertainties say: they were taken "
+        "for other places of the surface"
+    ]
 
 
 def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:
@@ -457,9 +640,17 @@ def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:
         return []
     expected = found.whole.model(found.fit.parameters)
     with_all = found.axes[0].value(found.whole.fit().parameters[0])
-    return ["%s does not belong to the others and was left out: %s was measured, %s is expected; with all measurements the work of adhesion would be %s" % (
-        data[place].name, with_unit(data[place].value, UNITS[data[place].kind]), with_unit(float(expected[place]), UNITS[data[place].kind]),
-        with_unit(with_all, "J/m^2")) for place in found.outliers]
+    return [
+        "%s does not belong to the others and was left out: %s was measured, %s is expected; with "
+        "all measurements the work of adhesion would be %s"
+        % (
+            data[place].name,
+            with_unit(data[place].value, UNITS[data[place].kind]),
+            with_unit(float(expected[place]), UNITS[data[place].kind]),
+            with_unit(with_all, "J/m^2"),
+        )
+        for place in found.outliers
+    ]
 
 
 def _open_end(found: _Found) -> str:
@@ -467,35 +658,68 @@ def _open_end(found: _Found) -> str:
     interval, axis = found.intervals[0], found.axes[0]
     low, high = (with_unit(axis.value(end), "J/m^2") for end in (interval.lower, interval.upper))
     if interval.is_closed:
-        return "these measurements hardly tell the work of adhesion: it lies between %s and %s" % (low, high)
+        return "these measurements hardly tell the work of adhesion: it lies between %s and %s" % (
+            low,
+            high,
+        )
     if interval.has_lower:
-        return "these measurements do not tell the work of adhesion: it is at least %s, and may be anything above" % low
+        return (
+            "these measurements do not tell the work of adhesion: it is at least %s, and may be "
+            "anything above" % low
+        )
     if interval.has_upper:
-        return "these measurements do not tell the work of adhesion: it is at most %s, and may be anything below" % high
+        return (
+            "these measurements do not tell the work of adhesion: it is at most %s, and may be "
+            "anything below" % high
+        )
     ends = [np.concatenate([[bound], found.fit.parameters[1:]]) for bound in axis.bounds]
-    if np.abs(np.log(found.whole.model(ends[1]) / found.whole.model(ends[0]))).max() > math.log(DEPENDING):
-        return "these measurements do not tell the work of adhesion: their uncertainties leave it open from %s to %s" % (low, high)
-    return "these surfaces do not tell the work of adhesion: what holds them hardly depends on it (rough, stiff, or far apart)"
+    if np.abs(np.log(found.whole.model(ends[1]) / found.whole.model(ends[0]))).max() > math.log(
+        DEPENDING
+    ):
+        return (
+            "these measurements do not tell the work of adhesion: their uncertainties leave it "
+            "open from %s to %s" % (low, high)
+        )
+    return (
+        "these surfaces do not tell the work of adhesion: what holds them hardly depends on it "
+        "(rough, stiff, or far apart)"
+    )
 
 
 def _of_units(data: List[Measurement], found: _Found) -> List[str]:
-    """Of values far from all that the range of the work of adhesion gives: mostly another unit, or another area."""
+    """Of values far from all that the range of the work of adhesion gives: mostly another unit, or
+    another area."""
     works = np.linspace(*found.axes[0].bounds, COARSE_NODES)
-    given = np.array([found.whole.model(np.concatenate([[work], found.fit.parameters[1:]])) for work in works])
+    given = np.array(
+        [found.whole.model(np.concatenate([[work], found.fit.parameters[1:]])) for work in works]
+    )
     said = []
     for datum, low, high in zip(data, given.min(axis=0), given.max(axis=0)):
         nearest = float(min(max(datum.value, low), high))
         if abs(math.log(datum.value / nearest)) > math.log(FAR_OFF):
-            said.append("%s: %s was measured, and the nearest that any work of adhesion gives is %s: is it in SI units, and of these surfaces and this area?" % (
-                datum.name, with_unit(datum.value, UNITS[datum.kind]), with_unit(nearest, UNITS[datum.kind])))
+            said.append(
+                "%s: %s was measured, and the nearest that any work of adhesion gives is %s: is it "
+                "in SI units, and of these surfaces and this area?"
+                % (
+                    datum.name,
+                    with_unit(datum.value, UNITS[datum.kind]),
+                    with_unit(nearest, UNITS[datum.kind]),
+                )
+            )
     return said[:MOST_ASKED]
 
 
 def _of_misfit(found: _Found) -> List[str]:
     fit, said = found.fit, []
     if fit.widening > 1.0:
-        said.append("the measurements scatter %s times as much as their uncertainties say (chi^2 %s of %d); the interval was widened by that" % (
-            ratio(fit.widening), ratio(fit.chi_square), fit.freedom))
+        said.append(
+            "the measurements scatter %s times as much as their uncertainties say (chi^2 %s of "
+            "%d); the interval was widened by that"
+            % (ratio(fit.widening), ratio(fit.chi_square), fit.freedom)
+        )
     if found.likelihood.has_scatter and fit.scatter > 0.5:
-        said.append("much of the scatter is that of surfaces from place to place: more parts tell more, more precise ones do not")
+        said.append(
+            "much of the scatter is that of surfaces from place to place: more parts tell more, "
+            "more precise ones do not"
+        )
     return said

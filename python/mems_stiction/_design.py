@@ -1,4 +1,5 @@
-"""Which design releases? The margin of a device over one or two quantities of its design, and where it is surely above 1."""
+"""Which design releases? The margin of a device over one or two quantities of its design, and where
+it is surely above 1."""
 
 from __future__ import annotations
 
@@ -30,8 +31,9 @@ class DesignSweep(ReadOnly):
 
     axes: names of the quantities, each with its values in ascending order.
     margin, margin_lower, margin_upper: over the axes, in their order [-]: median and 95 % interval.
-    rows: a record for each point: the axes by their names, restoring_force, pull_off_force, pull_off_force_lower,
-    pull_off_force_upper [N], margin, margin_lower, margin_upper, margin_transition [-], sticks, doubt: why no verdict is sure there.
+    rows: a record for each point: the axes by their names, restoring_force, pull_off_force,
+    pull_off_force_lower, pull_off_force_upper [N], margin, margin_lower, margin_upper,
+    margin_transition [-], sticks, doubt: why no verdict is sure there.
     statements: where the device surely releases, in sentences.
     """
 
@@ -49,31 +51,57 @@ class DesignSweep(ReadOnly):
         shape = [len(axis.values) for axis in rows.axes]
         names = [axis.name for axis in rows.axes] + list(FIGURES) + ["sticks", "doubt"]
         kinds = [(name, object if name in ("sticks", "doubt") else float) for name in names]
-        table = np.rec.fromrecords([tuple(row[name] for name in names) for row in listed], dtype=kinds)
+        table = np.rec.fromrecords(
+            [tuple(row[name] for name in names) for row in listed], dtype=kinds
+        )
         self.__dict__.update(
-            axes={axis.name: np.array(axis.values) for axis in rows.axes}, rows=table, statements=statements_of(rows.axes, listed),
-            **{name: table[name].reshape(shape) for name in ("margin", "margin_lower", "margin_upper")})
+            axes={axis.name: np.array(axis.values) for axis in rows.axes},
+            rows=table,
+            statements=statements_of(rows.axes, listed),
+            **{
+                name: table[name].reshape(shape)
+                for name in ("margin", "margin_lower", "margin_upper")
+            },
+        )
 
     def save_rows(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """CSV, or Parquet with units where the path ends in .parquet: every point, as in rows."""
         from mems_stiction import row_table
 
-        units = dict({name: "N" for name in FIGURES if name.endswith("force") or "_force_" in name}, **self._units)
+        units = dict(
+            {name: "N" for name in FIGURES if name.endswith("force") or "_force_" in name},
+            **self._units,
+        )
         rows = [dict(zip(self.rows.dtype.names or (), point)) for point in self.rows.tolist()]
-        row_table.write_rows(os.fspath(path), self.rows.dtype.names, rows, {name: unit for name, unit in units.items() if unit}, self._origin)
+        row_table.write_rows(
+            os.fspath(path),
+            self.rows.dtype.names,
+            rows,
+            {name: unit for name, unit in units.items() if unit},
+            self._origin,
+        )
 
     def to_dict(self) -> Dict[str, Any]:
-        """What json() prints. None stands for what is not known, and for the infinite margin where nothing holds."""
-        return dict(self._origin, axes={name: list(map(float, values)) for name, values in self.axes.items()}, units=dict(self._units),
-                    statements=list(self.statements),
-                    rows=[{name: plain_value(row[name]) for name in self.rows.dtype.names} for row in self.rows])
+        """What json() prints. None stands for what is not known, and for the infinite margin where
+        nothing holds."""
+        return dict(
+            self._origin,
+            axes={name: list(map(float, values)) for name, values in self.axes.items()},
+            units=dict(self._units),
+            statements=list(self.statements),
+            rows=[
+                {name: plain_value(row[name]) for name in self.rows.dtype.names}
+                for row in self.rows
+            ],
+        )
 
     def json(self) -> str:
         """One line."""
         return json.dumps(self.to_dict())
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """PNG, PDF or SVG: the margin over the axes, with the line of margin 1 and its 95 % band."""
+        """PNG, PDF or SVG: the margin over the axes, with the line of margin 1 and its 95 %
+        band."""
         from mems_stiction.design_figure import save_design
 
         save_design(self.to_dict(), path)
@@ -85,30 +113,47 @@ class DesignSweep(ReadOnly):
         return "\n".join(lines + ["  " + statement for statement in self.statements])
 
 
-def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] = None, pitch: Optional[Pitches] = None,
-                 output: Optional[Union[str, "os.PathLike[str]"]] = None, workers: Optional[int] = None,
-                 on_progress: Optional[OnProgress] = None, *, upper: Any = None, etch_wavelength: Optional[float] = None,
-                 executor: Optional[Executor] = None, **settings: Any) -> DesignSweep:
+def design_sweep(
+    scans: Any,
+    axes: Mapping[str, Any],
+    config: Optional[Config] = None,
+    pitch: Optional[Pitches] = None,
+    output: Optional[Union[str, "os.PathLike[str]"]] = None,
+    workers: Optional[int] = None,
+    on_progress: Optional[OnProgress] = None,
+    *,
+    upper: Any = None,
+    etch_wavelength: Optional[float] = None,
+    executor: Optional[Executor] = None,
+    **settings: Any,
+) -> DesignSweep:
     """Which design of this device releases?
 
-        found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], {"device/spring_stiffness": (0.5, 50, 12),
-                                           "interface/work_of_adhesion": [0.02, 0.05, 0.1]}, config="part.yaml", output="rows.csv")
+        found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], {"device/spring_stiffness": (0.5, 50,
+        12),
+                                           "interface/work_of_adhesion": [0.02, 0.05, 0.1]},
+                                           config="part.yaml", output="rows.csv")
         found.statements
 
     scans, pitch, upper, config, settings: as of predict_device(); the settings state the device.
-    axes: one or two names of settings, each with its values: a list, or (from, to, count), which is filled by ratio where the ends lie
-    a factor of 10 or more apart. `hardness` [Pa] is that of both bodies, load/pressure what presses them before they are drawn apart.
+    axes: one or two names of settings, each with its values: a list, or (from, to, count), which is
+    filled by ratio where the ends lie a factor of 10 or more apart. `hardness` [Pa] is that of both
+    bodies, load/pressure what presses them before they are drawn apart.
     Beside settings, what processing makes of the scans' heights: roughness/scale, a factor of all
-    heights; roughness/polish [m], a wavelength that a Gaussian filter halves (shorter waves go, 0: none); roughness/etch, a factor of
-    the waves that are shorter than etch_wavelength [m].
-    output: a .csv file that gets the rows as they come; a run that finds rows of the same sweep there goes on after them.
-    workers: processes; as many as processors if None. With 1 all is done in this one. A program that starts more needs the usual
+    heights; roughness/polish [m], a wavelength that a Gaussian filter halves (shorter waves go, 0:
+    none); roughness/etch, a factor of the waves that are shorter than etch_wavelength [m].
+    output: a .csv file that gets the rows as they come; a run that finds rows of the same sweep
+    there goes on after them.
+    workers: processes; as many as processors if None. With 1 all is done in this one. A program
+    that starts more needs the usual
     `if __name__ == "__main__":`.
     on_progress: called with the share of the work that is done; what it throws ends it.
-    executor: of concurrent.futures, that gets the points instead of processes of this machine: processes elsewhere, as those of
+    executor: of concurrent.futures, that gets the points instead of processes of this machine:
+    processes elsewhere, as those of
     Client.get_executor() of Dask.
 
-    Each margin is that of predict_device(). Stiffness and travel of the spring do not change what holds: their values cost no time.
+    Each margin is that of predict_device(). Stiffness and travel of the spring do not change what
+    holds: their values cost no time.
     Ctrl-C ends it; the rows that are written stay. Raises OptionsError, SurfaceError and FileError.
     """
     count = os.cpu_count() or 1 if workers is None else workers
@@ -121,13 +166,20 @@ def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] =
     holding = Holding(lower, above, checked, etch_wavelength)
     rows = Rows(sought, fixed, holding.fingerprint(sought), output)
     force_axes = [axis for axis in sought if axis.name not in OF_THE_SPRING]
-    points = [dict(zip([axis.name for axis in force_axes], values)) for values in itertools.product(*(axis.values for axis in force_axes))]
+    points = [
+        dict(zip([axis.name for axis in force_axes], values))
+        for values in itertools.product(*(axis.values for axis in force_axes))
+    ]
     missing = [point for point in points if rows.key(point) not in rows.rows]
     tell = on_progress or (lambda share: None)
     done = len(points) - len(missing)
     tell(done / len(points))
     told: List[str] = []
-    answers_of = _found(holding, missing, min(count, len(missing))) if executor is None else _found_by(executor, holding, missing)
+    answers_of = (
+        _found(holding, missing, min(count, len(missing)))
+        if executor is None
+        else _found_by(executor, holding, missing)
+    )
     with contextlib.closing(answers_of) as answers:
         for point, (hold, said) in answers:
             rows.add(point, hold)
@@ -144,7 +196,10 @@ def _check_etching(axes: List[Axis], wavelength: Optional[float]) -> None:
     if not is_etched and wavelength is not None:
         raise OptionsError("etch_wavelength: is not allowed without the axis %s" % ETCH)
     if is_etched and not (isinstance(wavelength, (int, float)) and 0.0 < wavelength < math.inf):
-        raise OptionsError("etch_wavelength: %r is not allowed with the axis %s, must be a number > 0 m" % (wavelength, ETCH))
+        raise OptionsError(
+            "etch_wavelength: %r is not allowed with the axis %s, must be a number > 0 m"
+            % (wavelength, ETCH)
+        )
 
 
 def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
@@ -157,7 +212,8 @@ def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
 
 
 def _found_by(executor: Executor, holding: Holding, points: List[Dict[str, float]]) -> Answers:
-    """The same by whoever has the processors. What is not begun when it ends is not begun any more."""
+    """The same by whoever has the processors. What is not begun when it ends is not begun any
+    more."""
     futures = {executor.submit(holding.at, point): point for point in points}
     try:
         for future in as_completed(futures):

@@ -9,7 +9,15 @@ from typing import Any, Dict, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, plain_value, records_of
+from mems_stiction._arrays import (
+    Pitch,
+    ReadOnly,
+    Surface,
+    array_of,
+    explained,
+    plain_value,
+    records_of,
+)
 from mems_stiction._inputs import inputs_of
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
@@ -18,10 +26,11 @@ from mems_stiction.quantities import percent, with_unit
 
 @explained
 class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
-    """What the half-space answers. Forces and areas are of the frame, attraction is positive; NaN: not reached.
+    """What the half-space answers. Forces and areas are of the frame, attraction is positive; NaN:
+    not reached.
 
-    verdict: on the device, by the half-space if it can judge, else by a prediction of the same surfaces (verdict_by says
-    which, and the reason why); None without a device.
+    verdict: on the device, by the half-space if it can judge, else by a prediction of the same
+    surfaces (verdict_by says which, and the reason why); None without a device.
     Sources: doc/half_space.md.
     """
 
@@ -37,9 +46,11 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         self.pitch: Tuple[float, float]
         self._is_transposed = surface.is_transposed
         self._origin = core.origin
-        #: force over height, both ways: height [m] over first touch, force [N], direction (0 approach, 1 retraction)
+        #: force over height, both ways: height [m] over first touch, force [N], direction (0
+        # approach, 1 retraction)
         self.curve: np.recarray
-        #: between the surfaces at rest [Pa], repulsion positive; None if there is no rest, as the maps below
+        #: between the surfaces at rest [Pa], repulsion positive; None if there is no rest, as the
+        # maps below
         self.pressure: Optional[np.ndarray]
         #: at rest [m]
         self.gap: Optional[np.ndarray]
@@ -50,18 +61,35 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         #: the same of the upper surface; None if it is flat and harder
         self.deformed_upper: Optional[np.ndarray]
         self.__dict__.update(
-            verdict=None if verdict is None else Verdict(verdict), name=surface.name, pitch=surface.core.pitch, curve=records_of(core.curve),
-            pressure=view(core.pressure), gap=view(core.gap), contact_map=view(core.contact_map), deformed_lower=view(core.deformed_lower.pixels),
-            deformed_upper=view(core.deformed_upper.pixels))
+            verdict=None if verdict is None else Verdict(verdict),
+            name=surface.name,
+            pitch=surface.core.pitch,
+            curve=records_of(core.curve),
+            pressure=view(core.pressure),
+            gap=view(core.gap),
+            contact_map=view(core.contact_map),
+            deformed_lower=view(core.deformed_lower.pixels),
+            deformed_upper=view(core.deformed_upper.pixels),
+        )
 
     def save_maps(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """HDF5 in the layout of NetCDF-4 (.h5, .hdf5, .nc), by h5py: the maps and the curve (group curve) with their units as attributes."""
+        """HDF5 in the layout of NetCDF-4 (.h5, .hdf5, .nc), by h5py: the maps and the curve (group
+        curve) with their units as attributes."""
         from mems_stiction import map_file
 
-        maps = [map_file.Map("gap", self.gap, "m", "gap at rest")] + map_file.maps_after_contact(self)
+        maps = [map_file.Map("gap", self.gap, "m", "gap at rest")] + map_file.maps_after_contact(
+            self
+        )
         figures = {name: getattr(self, name) for name in _core.figures["HalfSpaceFigures"]}
-        map_file.save(path, maps, {"curve": self.curve}, self.pitch, self._is_transposed,
-                      dict({"scan_name": self.name}, **self._origin, status=self.status), json.dumps({name: plain_value(value) for name, value in figures.items()}))
+        map_file.save(
+            path,
+            maps,
+            {"curve": self.curve},
+            self.pitch,
+            self._is_transposed,
+            dict({"scan_name": self.name}, **self._origin, status=self.status),
+            json.dumps({name: plain_value(value) for name, value in figures.items()}),
+        )
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: pressure at rest, and force over height."""
@@ -70,16 +98,34 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         _pictures.save_half_space(self, os.fspath(path))
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
-                for name, value in self.__dict__.items()}
+        return {
+            name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
+            for name, value in self.__dict__.items()
+        }
 
     def __repr__(self) -> str:
-        lines = ["Half-space%s: %s" % (" of " + self.name if self.name else "", self.status.lower().replace("_", " "))]
-        lines.append("  pull-off force %s; contact %s in %d groups; mean gap %s" % (
-            with_unit(self.pull_off_force, "N"), percent(self.contact_fraction), self.contact_count, with_unit(self.mean_gap, "m")))
-        lines.append("  %s, %s; %d states in %s" % (
-            "converged" if self.is_converged else "not converged", "resolved" if self.is_resolved else "pixels too large",
-            self.state_count, with_unit(self.processing_time, "s")))
+        lines = [
+            "Half-space%s: %s"
+            % (" of " + self.name if self.name else "", self.status.lower().replace("_", " "))
+        ]
+        lines.append(
+            "  pull-off force %s; contact %s in %d groups; mean gap %s"
+            % (
+                with_unit(self.pull_off_force, "N"),
+                percent(self.contact_fraction),
+                self.contact_count,
+                with_unit(self.mean_gap, "m"),
+            )
+        )
+        lines.append(
+            "  %s, %s; %d states in %s"
+            % (
+                "converged" if self.is_converged else "not converged",
+                "resolved" if self.is_resolved else "pixels too large",
+                self.state_count,
+                with_unit(self.processing_time, "s"),
+            )
+        )
         if self.verdict is not None:
             lines.append("  sticks: %s" % self.verdict.summary)
         return "\n".join(lines)
@@ -92,14 +138,22 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         return _pictures.half_space_html(self)
 
 
-def half_space(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, upper: Any = None,
-               **settings: Any) -> HalfSpace:
-    """Solves the same surfaces, with the same settings, as one elastic half-space: seconds to minutes, for the frames that
-    matter. Arguments are those of predict(); half_space/... are its own settings.
+def half_space(
+    heights: Any,
+    pitch: Optional[Pitch] = None,
+    config: Optional[Config] = None,
+    upper: Any = None,
+    **settings: Any,
+) -> HalfSpace:
+    """Solves the same surfaces, with the same settings, as one elastic half-space: seconds to
+    minutes, for the frames that matter. Arguments are those of predict(); half_space/... are its
+    own settings.
 
-    Ctrl-C stops it; the interpreter's lock is released. half_space={"threads": N} uses more processors, for the same bits.
-    Raises OptionsError for a work of adhesion, Hamaker constant, material or load that has no solution; SurfaceError for a
-    frame without a valid pixel, or with more than half_space/max_pixels.
+    Ctrl-C stops it; the interpreter's lock is released. half_space={"threads": N} uses more
+    processors, for the same bits.
+    Raises OptionsError for a work of adhesion, Hamaker constant, material or load that has no
+    solution; SurfaceError for a frame without a valid pixel, or with more than
+    half_space/max_pixels.
     """
     checked, surface, prepared = inputs_of(heights, pitch, config, upper, settings)
     return HalfSpace(_core.half_space(prepared, surface.identity, checked._configuration), surface)

@@ -28,14 +28,16 @@ def odd_in(surface: Surface) -> List[str]:
 
 
 def scan_of(heights: Any, pitch: Optional[Pitch], settings: Settings) -> Surface:
-    """A scan by itself, without a counter-surface. Warns about one that does not look like a scan."""
+    """A scan by itself, without a counter-surface. Warns about one that does not look like a
+    scan."""
     surface = surface_of(heights, pitch, settings)
     warn_about(surface, odd_in(surface))
     return surface
 
 
 def section_or_surface(upper: Any, settings: Dict[str, Any]) -> Any:
-    """`upper` is a counter-surface, and a section of the settings; a dictionary is the latter, and goes there."""
+    """`upper` is a counter-surface, and a section of the settings; a dictionary is the latter, and
+    goes there."""
     if not isinstance(upper, Mapping):
         return upper
     settings["upper"] = upper
@@ -43,31 +45,43 @@ def section_or_surface(upper: Any, settings: Dict[str, Any]) -> Any:
 
 
 def counter_of(upper: Any, surface: Surface, settings: Settings) -> Optional[_core.HeightMap]:
-    """The counter-surface that was measured beside the scan; an array is on its grid, in its index order. None if there is none."""
+    """The counter-surface that was measured beside the scan; an array is on its grid, in its index
+    order. None if there is none."""
     if upper is None:
         return None
     if brings_pitch(upper):
         counter = surface_of(upper, None, settings, "upper")
         warn_about(counter, counter.notes)
         return counter.core
-    return surface_of(surface.back(pixels_of(upper, "upper")), surface.core.pitch, settings, "upper").core
+    return surface_of(
+        surface.back(pixels_of(upper, "upper")), surface.core.pitch, settings, "upper"
+    ).core
 
 
 def boundary_of(surface: Surface, settings: Settings) -> Settings:
-    """What a topography says of itself goes before the settings: a periodic one has copies of it beyond its frame."""
+    """What a topography says of itself goes before the settings: a periodic one has copies of it
+    beyond its frame."""
     if not surface.is_periodic or values_of(settings)["half_space/boundary"] == "periodic":
         return settings
     warn_about(surface, ["the topography is periodic: half_space/boundary free does not count"])
     return Settings(settings, **{"half_space/boundary": "periodic"})
 
 
-def inputs_of(heights: Any, pitch: Optional[Pitch], config: Optional[Config], upper: Any,
-              settings: Dict[str, Any]) -> Tuple[Settings, Surface, _core.PreparedScan]:
-    """Settings, the scan, and it with its counter-surface, ready for the model. Warns about what does not look like a scan."""
+def inputs_of(
+    heights: Any,
+    pitch: Optional[Pitch],
+    config: Optional[Config],
+    upper: Any,
+    settings: Dict[str, Any],
+) -> Tuple[Settings, Surface, _core.PreparedScan]:
+    """Settings, the scan, and it with its counter-surface, ready for the model. Warns about what
+    does not look like a scan."""
     upper = section_or_surface(upper, settings)
     checked = Settings(config, **settings)
     surface = surface_of(heights, pitch, checked)
     checked = boundary_of(surface, checked)
-    prepared = _core.prepare(surface.core, counter_of(upper, surface, checked), checked._configuration)
+    prepared = _core.prepare(
+        surface.core, counter_of(upper, surface, checked), checked._configuration
+    )
     warn_about(surface, list(surface.notes) + prepared.warnings)
     return checked, surface, prepared

@@ -17,8 +17,12 @@ SurfaceError = _core.SurfaceError
 
 Error.__doc__ = "Base of every error that the core raises on purpose."
 FileError.__doc__ = "A file cannot be read; the message names it and the cause. Also an OSError."
-OptionsError.__doc__ = "Settings are unknown, of the wrong type or out of range: a line each. Also a ValueError."
-SurfaceError.__doc__ = "Heights cannot be used: shape, type, pitch, no valid pixel. Also a ValueError."
+OptionsError.__doc__ = (
+    "Settings are unknown, of the wrong type or out of range: a line each. Also a ValueError."
+)
+SurfaceError.__doc__ = (
+    "Heights cannot be used: shape, type, pitch, no valid pixel. Also a ValueError."
+)
 for _error in (Error, FileError, OptionsError, SurfaceError):
     _error.__module__ = "mems_stiction"
 
@@ -27,9 +31,11 @@ class Settings:
     """A configuration that is read and checked once, for many calls.
 
     config: None for the defaults, a dictionary, the path of a YAML file, or other Settings.
-    settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage": 5.0}. half_space="auto",
+    settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage":
+    5.0}. half_space="auto",
     True or False stands for half_space={"enabled": ...}.
-    Raises OptionsError with a line for each key that is unknown, of the wrong type or out of range; FileError.
+    Raises OptionsError with a line for each key that is unknown, of the wrong type or out of range;
+    FileError.
     Warns (SettingsWarning) about values that look like a wrong unit.
     """
 
@@ -41,7 +47,8 @@ class Settings:
             warn(self._configuration.warnings, SettingsWarning)
 
     def yaml(self) -> str:
-        """Every setting as YAML, with units and ranges as comments; it reads back to the same values."""
+        """Every setting as YAML, with units and ranges as comments; it reads back to the same
+        values."""
         return self._configuration.yaml()
 
     def __repr__(self) -> str:
@@ -62,11 +69,16 @@ def _configuration_of(config: Optional[Config], settings: Dict[str, Any]) -> _co
     elif isinstance(config, (str, os.PathLike)):
         configuration = _core.Configuration().loaded(os.fspath(config))
     else:
-        raise OptionsError("config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings" % (config,))
+        raise OptionsError(
+            "config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings"
+            % (config,)
+        )
     return configuration.changed(_plain(settings)) if settings else configuration
 
 
-def settings_with(config: Optional[Config], settings: Dict[str, Any], stated: Dict[str, Any]) -> Settings:
+def settings_with(
+    config: Optional[Config], settings: Dict[str, Any], stated: Dict[str, Any]
+) -> Settings:
     """Settings with values that go before both, and warnings about what holds in the end alone."""
     if not stated:
         return Settings(config, **settings)
@@ -90,22 +102,30 @@ def _plain(mapping: Mapping) -> Dict[str, Any]:
     Raises OptionsError for a mapping that contains itself.
     """
     budget = [MOST_VALUES]
-    return {str(key): (_half_space_section if key == "half_space" else _plain_value)(value, 1, budget)
-            for key, value in mapping.items()}
+    return {
+        str(key): (_half_space_section if key == "half_space" else _plain_value)(value, 1, budget)
+        for key, value in mapping.items()
+    }
 
 
 def _half_space_section(value: Any, level: int, budget: List[int]) -> Any:
     """half_space="auto" is short for its setting `enabled`."""
     plain = _plain_value(value, level, budget)
-    return {"enabled": "flagged" if plain == "auto" else plain} if isinstance(plain, (bool, str)) else plain
+    return (
+        {"enabled": "flagged" if plain == "auto" else plain}
+        if isinstance(plain, (bool, str))
+        else plain
+    )
 
 
 def _plain_value(value: Any, level: int, budget: List[int]) -> Any:
     """level: maps and lists that the value stands in. budget: how many more values there may be."""
     budget[0] -= 1
     if level > MOST_LEVELS or budget[0] < 0:
-        raise OptionsError("settings: more than %d levels of dictionaries and lists, or %d values; "
-                           "do they contain themselves?" % (MOST_LEVELS, MOST_VALUES))
+        raise OptionsError(
+            "settings: more than %d levels of dictionaries and lists, or %d values; "
+            "do they contain themselves?" % (MOST_LEVELS, MOST_VALUES)
+        )
     if isinstance(value, Mapping):
         return {str(key): _plain_value(inner, level + 1, budget) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
@@ -120,14 +140,18 @@ def _plain_value(value: Any, level: int, budget: List[int]) -> Any:
 
 
 def _lines(text: str) -> Any:
-    """"section/key: value" of each setting."""
+    """ "section/key: value" of each setting."""
     section = ""
     for line in text.splitlines():
         setting = line.partition("  # ")[0].rstrip()
         if setting.endswith(":"):
             section = setting[:-1]
         else:
-            yield "/".join(part for part in (section, setting.strip()) if part) if line.startswith(" ") else setting
+            yield (
+                "/".join(part for part in (section, setting.strip()) if part)
+                if line.startswith(" ")
+                else setting
+            )
 
 
 def values_of(settings: Settings) -> Dict[str, Any]:

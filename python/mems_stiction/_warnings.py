@@ -15,13 +15,16 @@ class ScanWarning(UserWarning):
 
 
 class SettingsWarning(UserWarning):
-    """A setting is allowed, but no material, device or instrument is likely to have it (a unit, most likely), or it has no effect."""
+    """A setting is allowed, but no material, device or instrument is likely to have it (a unit,
+    most likely), or it has no effect."""
 
 
 def warn(texts: Iterable[str], kind: Type[Warning]) -> None:
     """One warning for each text, at the innermost line that is not of this package."""
     level, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and os.path.abspath(frame.f_code.co_filename).startswith(OWN_FOLDER):
+    while frame.f_back is not None and os.path.abspath(frame.f_code.co_filename).startswith(
+        OWN_FOLDER
+    ):
         level, frame = level + 1, frame.f_back
     for text in texts:
         warnings.warn(text, kind, stacklevel=level)

@@ -1,4 +1,5 @@
-"""Values of options, as argparse asks for them: what is not allowed is said in one sentence with what is."""
+"""Values of options, as argparse asks for them: what is not allowed is said in one sentence with
+what is."""
 
 import argparse
 import math
@@ -12,10 +13,18 @@ class PrintVersion(argparse.Action):
     """As the programs print it; found only when it is asked for."""
 
     def __init__(self, option_strings, dest, **_):
-        super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help="print the version and end")
+        super().__init__(
+            option_strings,
+            dest,
+            nargs=0,
+            default=argparse.SUPPRESS,
+            help="print the version and end",
+        )
 
     def __call__(self, parser, *_):
-        print("%s of mems_stiction %s" % (parser.prog, version()))  # argparse alone would write to the standard error
+        print(
+            "%s of mems_stiction %s" % (parser.prog, version())
+        )  # argparse alone would write to the standard error
         parser.exit()
 
 
@@ -31,18 +40,28 @@ def number(text):
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise argparse.ArgumentTypeError("'%s' is not allowed, must be a number: without its unit, and with a point as the decimal sign" % text)
+        raise argparse.ArgumentTypeError(
+            "'%s' is not allowed, must be a number: without its unit, and with a point as the "
+            "decimal sign" % text
+        )
     return value
 
 
 def number_in(least, most=math.inf, is_least_allowed=True):
     """A number of this range, as type=."""
-    allowed = "[%g, %g]" % (least, most) if most < math.inf else "%s %g" % (">=" if is_least_allowed else ">", least)
+    allowed = (
+        "[%g, %g]" % (least, most)
+        if most < math.inf
+        else "%s %g" % (">=" if is_least_allowed else ">", least)
+    )
 
     def checked(text):
         value = number(text)
         if not least <= value <= most or value == least and not is_least_allowed:
-            raise argparse.ArgumentTypeError("'%s' is not allowed, must be %s%s" % (text, "in " if most < math.inf else "", allowed))
+            raise argparse.ArgumentTypeError(
+                "'%s' is not allowed, must be %s%s"
+                % (text, "in " if most < math.inf else "", allowed)
+            )
         return value
 
     return checked
@@ -63,5 +82,8 @@ def count(text):
 def picture(text):
     """The name of a picture that can be drawn."""
     if not text.endswith(PICTURES):
-        raise argparse.ArgumentTypeError("'%s' is not allowed, must end in %s or %s" % (text, ", ".join(PICTURES[:-1]), PICTURES[-1]))
+        raise argparse.ArgumentTypeError(
+            "'%s' is not allowed, must end in %s or %s"
+            % (text, ", ".join(PICTURES[:-1]), PICTURES[-1])
+        )
     return text

@@ -1,4 +1,5 @@
-"""Bags that a script is given: what is none, was cut off, or is damaged inside, is said in one sentence."""
+"""Bags that a script is given: what is none, was cut off, or is damaged inside, is said in one
+sentence."""
 
 import contextlib
 import struct
@@ -33,7 +34,10 @@ def opened_bag(path):
     except FileNotFoundError:
         raise BagError("%s cannot be read: no such file" % path)
     except rosbag.ROSBagUnindexedException:
-        raise BagError("%s cannot be read: was cut off, or is still being recorded; rosbag reindex %s mends it" % (path, path))
+        raise BagError(
+            "%s cannot be read: was cut off, or is still being recorded; rosbag reindex %s mends it"
+            % (path, path)
+        )
     except UnfitFile as error:
         raise BagError("%s cannot be read: %s" % (path, error))
     except UnicodeDecodeError:  # of a name in it
@@ -50,6 +54,14 @@ def messages_of(bag, **options):
             found = next(messages)
         except StopIteration:
             return
-        except (genpy.MessageException, rosbag.ROSBagException, struct.error, KeyError, ValueError) as error:
-            raise BagError("%s cannot be read: a message in it is damaged (%s)" % (bag.filename, error))
+        except (
+            genpy.MessageException,
+            rosbag.ROSBagException,
+            struct.error,
+            KeyError,
+            ValueError,
+        ) as error:
+            raise BagError(
+                "%s cannot be read: a message in it is damaged (%s)" % (bag.filename, error)
+            )
         yield found

@@ -1,4 +1,5 @@
-"""What a calibration is made from: measurements, each checked with its place in the list, and what a model expects them to be.
+"""What a calibration is made from: measurements, each checked with its place in the list, and what
+a model expects them to be.
 
 A measurement is a dictionary. The tables below have its keys; doc/process.md explains them.
 """
@@ -21,8 +22,23 @@ from mems_stiction._settings import OptionsError, Settings, settings_with, value
 from mems_stiction.calibration_places import Figures, Place, digest_of
 from mems_stiction.calibration_words import UNITS
 
-BEAMS: Dict[str, Callable[..., float]] = {"detachment_length": _core.detachment_length, "crack_length": _core.crack_length}
-COMMON = ("kind", "value", "uncertainty", "scans", "pitch", "upper", "area", "contacts", "relative_humidity", "mechanical_load", "name")
+BEAMS: Dict[str, Callable[..., float]] = {
+    "detachment_length": _core.detachment_length,
+    "crack_length": _core.crack_length,
+}
+COMMON = (
+    "kind",
+    "value",
+    "uncertainty",
+    "scans",
+    "pitch",
+    "upper",
+    "area",
+    "contacts",
+    "relative_humidity",
+    "mechanical_load",
+    "name",
+)
 OF_FORCES = ("radius",)
 OF_BEAMS = ("beam_type", "thickness", "gap", "modulus", "residual_stress")
 MOST_CONTACTS = 1000000  # as device/contacts has it
@@ -34,7 +50,8 @@ FALSE_OTHERS = 0.05  # probability that values of one place are taken for those 
 
 
 class Measurement(NamedTuple):
-    """One datum, checked. kind, value and uncertainty as given; what it was measured on is a Place."""
+    """One datum, checked. kind, value and uncertainty as given; what it was measured on is a
+    Place."""
 
     name: str
     kind: str
@@ -44,7 +61,8 @@ class Measurement(NamedTuple):
     beam: Tuple[Any, ...]
 
     def expected(self, constants: Dict[str, float]) -> float:
-        """The value by these constants [its unit]. Raises OptionsError and SurfaceError, which name the measurement."""
+        """The value by these constants [its unit]. Raises OptionsError and SurfaceError, which name
+        the measurement."""
         with _named(self.name):
             return self._value(self.place.figures(constants))
 
@@ -69,7 +87,8 @@ class Measurement(NamedTuple):
         return self._of_value(figures.force_scatter, figures.work_scatter)
 
     def common(self, constants: Dict[str, float]) -> float:
-        """Standard deviation of ln value that is the same at all places of the surfaces: their scans are a sample [-]."""
+        """Standard deviation of ln value that is the same at all places of the surfaces: their
+        scans are a sample [-]."""
         figures = self.place.figures_near(constants)
         return self._of_value(figures.force_common, figures.work_common)
 
@@ -99,10 +118,13 @@ class _Reader:
 
     def surfaces(self, given: Any, pitch: Any, settings: Settings, what: str) -> List[Any]:
         scans = _listed(given, what)
-        names = [what if len(scans) == 1 else "%s[%d]" % (what, place)
-                 for place in range(len(scans))]
-        return [self._scan(scan, own, settings, name)
-                for scan, own, name in zip(scans, _pitches_of(pitch, scans), names)]
+        names = [
+            what if len(scans) == 1 else "%s[%d]" % (what, place) for place in range(len(scans))
+        ]
+        return [
+            self._scan(scan, own, settings, name)
+            for scan, own, name in zip(scans, _pitches_of(pitch, scans), names)
+        ]
 
     def _scan(self, given: Any, pitch: Any, settings: Settings, name: str) -> Any:
         key = _identity(given), _identity(pitch)
@@ -119,15 +141,26 @@ class _Reader:
 
 
 def measurements_of(given: Any, config: Any, settings: Dict[str, Any]) -> List[Measurement]:
-    """Checked measurements; those with the same scans, area and surroundings share a Place. Raises OptionsError, SurfaceError."""
-    if isinstance(given, Mapping) or not hasattr(given, "__iter__") or isinstance(given, (str, bytes)):
-        raise OptionsError("measurements: %r is not allowed, must be a list of dictionaries" % (given,))
+    """Checked measurements; those with the same scans, area and surroundings share a Place. Raises
+    OptionsError, SurfaceError."""
+    if (
+        isinstance(given, Mapping)
+        or not hasattr(given, "__iter__")
+        or isinstance(given, (str, bytes))
+    ):
+        raise OptionsError(
+            "measurements: %r is not allowed, must be a list of dictionaries" % (given,)
+        )
     listed = list(given)
     if not listed:
-        raise OptionsError("measurements: an empty list is not allowed, must hold one measurement at least")
+        raise OptionsError(
+            "measurements: an empty list is not allowed, must hold one measurement at least"
+        )
     reader = _Reader(Settings(config, **settings))
-    data = [_measurement(datum, "measurements[%d]" % place, reader)
-            for place, datum in enumerate(listed)]
+    data = [
+        _measurement(datum, "measurements[%d]" % place, reader)
+        for place, datum in enumerate(listed)
+    ]
     _settle(data)
     return data
 
@@ -149,19 +182,20 @@ def shared_scans(data: Sequence[Measurement]) -> np.ndarray:
 def pooled(deviations: Sequence[float], data: Sequence[Measurement]) -> List[float]:
     """Standard deviations of measurements, each with what those of the other places say of it.
 
-    Few realisations hardly tell how made surfaces scatter. All places where surfaces are made tell it
+    Few realisations hardly tell how made surfaces scatter. All places where surfaces are made tell
+    it
     together: the variance of each is averaged with their mean, which counts as OF_OTHERS degrees of
     freedom.
     """
     own: Dict[Any, List[float]] = {}
     for deviation, datum in zip(deviations, data):
-        own.setdefault((datum.place.is_made, bool(datum.beam)), []).append(deviation ** 2)
+        own.setdefault((datum.place.is_made, bool(datum.beam)), []).append(deviation**2)
     found = []
     for deviation, datum in zip(deviations, data):
         if datum.place.is_made:
             freedom = datum.place.realisations - 1
             mean = float(np.mean(own[True, bool(datum.beam)]))
-            total = freedom * deviation ** 2 + OF_OTHERS * mean
+            total = freedom * deviation**2 + OF_OTHERS * mean
             deviation = math.sqrt(total / (freedom + OF_OTHERS))
         found.append(deviation)
     return found
@@ -210,22 +244,46 @@ def _measurement(datum: Any, what: str, reader: _Reader) -> Measurement:
         raise OptionsError("%s: %r is not allowed, must be a dictionary" % (what, datum))
     kind = datum.get("kind")
     if not isinstance(kind, str) or kind not in UNITS:
-        raise OptionsError("%s/kind: %s, must be one of %s" % (what, "is missing" if kind is None else "%r is not allowed" % (kind,), ", ".join(UNITS)))
-    allowed = COMMON + (OF_FORCES if kind == "pull_off_force" else OF_BEAMS if kind in BEAMS else ())
+        raise OptionsError(
+            "%s/kind: %s, must be one of %s"
+            % (
+                what,
+                "is missing" if kind is None else "%r is not allowed" % (kind,),
+                ", ".join(UNITS),
+            )
+        )
+    allowed = COMMON + (
+        OF_FORCES if kind == "pull_off_force" else OF_BEAMS if kind in BEAMS else ()
+    )
     for key in datum:
         if key not in allowed:
-            raise OptionsError("%s/%s: there is no such key for %s, must be one of %s" % (what, key, kind, ", ".join(allowed)))
+            raise OptionsError(
+                "%s/%s: there is no such key for %s, must be one of %s"
+                % (what, key, kind, ", ".join(allowed))
+            )
     if not isinstance(datum.get("name") or "", str):
         # YAML makes 15 of 0017
-        raise OptionsError("%s/name: %r is not allowed, must be a text: quote it" % (what, datum["name"]))
-    numbers = {key: _number(datum[key], "%s/%s" % (what, key), key) for key in datum
-               if key in POSITIVE + ("relative_humidity", "mechanical_load", "residual_stress") and datum[key] is not None}
+        raise OptionsError(
+            "%s/name: %r is not allowed, must be a text: quote it" % (what, datum["name"])
+        )
+    numbers = {
+        key: _number(datum[key], "%s/%s" % (what, key), key)
+        for key in datum
+        if key in POSITIVE + ("relative_humidity", "mechanical_load", "residual_stress")
+        and datum[key] is not None
+    }
     required = ("value", "uncertainty") + (("thickness", "gap", "modulus") if kind in BEAMS else ())
     for key in required:
         if key not in numbers:
             raise OptionsError("%s/%s: is missing, must be a number > 0" % (what, key))
-    return Measurement(str(datum.get("name") or what), kind, numbers["value"], numbers["uncertainty"],
-                       _place(datum, numbers, what, reader), _beam(datum, numbers, kind))
+    return Measurement(
+        str(datum.get("name") or what),
+        kind,
+        numbers["value"],
+        numbers["uncertainty"],
+        _place(datum, numbers, what, reader),
+        _beam(datum, numbers, kind),
+    )
 
 
 def _number(value: Any, what: str, key: str) -> float:
@@ -245,8 +303,13 @@ def _number(value: Any, what: str, key: str) -> float:
 def _beam(datum: Mapping, numbers: Dict[str, float], kind: str) -> Tuple[Any, ...]:
     if kind not in BEAMS:
         return ()
-    beam = (str(datum.get("beam_type") or "cantilever"), numbers["thickness"], numbers["gap"], numbers["modulus"],
-            numbers.get("residual_stress", 0.0))
+    beam = (
+        str(datum.get("beam_type") or "cantilever"),
+        numbers["thickness"],
+        numbers["gap"],
+        numbers["modulus"],
+        numbers.get("residual_stress", 0.0),
+    )
     BEAMS[kind](*beam, 1.0)  # refuses another type
     return beam
 
@@ -255,13 +318,19 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, reader: _Reader
     scans, upper, pitch = datum.get("scans"), datum.get("upper"), datum.get("pitch")
     radius = numbers.get("radius")
     if scans is None and radius is None:
-        raise OptionsError("%s/scans: are missing, must be scans of the surface that it was measured on" % what)
+        raise OptionsError(
+            "%s/scans: are missing, must be scans of the surface that it was measured on" % what
+        )
     if radius is not None and (numbers.get("area") is not None or upper is not None):
-        raise OptionsError("%s/radius: is not allowed with area or upper: the probe is the counter-surface" % what)
+        raise OptionsError(
+            "%s/radius: is not allowed with area or upper: the probe is the counter-surface" % what
+        )
     contacts = _contacts(datum, "%s/contacts" % what)
-    stated = {"interface/relative_humidity": numbers.get("relative_humidity"),
-              "load/mechanical_load": numbers.get("mechanical_load"),
-              "counter_surface/facing": "down" if radius is not None and scans is not None else None}
+    stated = {
+        "interface/relative_humidity": numbers.get("relative_humidity"),
+        "load/mechanical_load": numbers.get("mechanical_load"),
+        "counter_surface/facing": "down" if radius is not None and scans is not None else None,
+    }
     area = numbers.get("area")
     with _named(str(datum.get("name") or what)):
         given = {name: value for name, value in stated.items() if value is not None}
@@ -269,11 +338,18 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, reader: _Reader
         surfaces = [] if scans is None else reader.surfaces(scans, pitch, settings, "scans")
         above = None if upper is None else reader.surfaces(upper, pitch, settings, "upper")
         digests = [reader.digest(scan) for scan in surfaces]
-        key = (tuple(digests), tuple(map(reader.digest, above or ())), area, contacts, radius,
-               tuple(given.items()))
+        key = (
+            tuple(digests),
+            tuple(map(reader.digest, above or ())),
+            area,
+            contacts,
+            radius,
+            tuple(given.items()),
+        )
         if key not in reader.places:
-            reader.places[key] = Place(surfaces, above, area, contacts, radius, settings, values,
-                                       digests)
+            reader.places[key] = Place(
+                surfaces, above, area, contacts, radius, settings, values, digests
+            )
     return reader.places[key]
 
 
@@ -292,8 +368,14 @@ def _contacts(datum: Mapping, what: str) -> Optional[int]:
         return None
     if datum.get("area") is None:
         raise OptionsError("%s: is not allowed without area, which they share" % what)
-    if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 1 <= given <= MOST_CONTACTS:
-        raise OptionsError("%s: %r is not allowed, must be an integer in [1, %d]" % (what, given, MOST_CONTACTS))
+    if (
+        isinstance(given, bool)
+        or not isinstance(given, (int, np.integer))
+        or not 1 <= given <= MOST_CONTACTS
+    ):
+        raise OptionsError(
+            "%s: %r is not allowed, must be an integer in [1, %d]" % (what, given, MOST_CONTACTS)
+        )
     return int(given)
 
 
@@ -301,4 +383,10 @@ def _identity(given: Any) -> Any:
     """By which the same scans are known again: paths by their text, other things as objects."""
     if isinstance(given, (list, tuple)):
         return tuple(_identity(item) for item in given)
-    return given if given is None or isinstance(given, (str, int, float)) else os.fspath(given) if isinstance(given, os.PathLike) else id(given)
+    return (
+        given
+        if given is None or isinstance(given, (str, int, float))
+        else os.fspath(given)
+        if isinstance(given, os.PathLike)
+        else id(given)
+    )

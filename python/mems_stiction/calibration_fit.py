@@ -1,12 +1,15 @@
-"""Constants of a process by maximum likelihood: what fits measurements best, how far it is known, and which measurement does not belong.
+"""Constants of a process by maximum likelihood: what fits measurements best, how far it is known,
+and which measurement does not belong.
 
-Nothing here knows of surfaces: a model is a function from parameters to the values that would be measured. Errors are
-independent and normal, but for surfaces that scatter from place to place: those are lognormal. An uncertainty that is the same
-share of all values is that share of the true one: taken of the measured values it would give low ones more weight, and so a
-constant that is too low. Its deviance is that of a variance that goes with the square of the mean (Wedderburn, Biometrika 61
-(1974) 439).
+Nothing here knows of surfaces: a model is a function from parameters to the values that would be
+measured. Errors are independent and normal, but for surfaces that scatter from place to place:
+those are lognormal. An uncertainty that is the same share of all values is that share of the true
+one: taken of the measured values it would give low ones more weight, and so a constant that is too
+low. Its deviance is that of a variance that goes with the square of the mean (Wedderburn,
+Biometrika 61 (1974) 439).
 
-Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat. 37 (1988) 87), 95 %.
+Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat. 37 (1988) 87), 95
+%.
 """
 
 from __future__ import annotations
@@ -58,9 +61,10 @@ class Interval:
 class Fit:
     """Best parameters and what they leave.
 
-    values: what the model gives; deviations: standard ones, of each measurement about it; scatter: share of the stated scatter
-    of surfaces that the measurements show; chi_square, freedom, probability: of the misfit; widening: factor on the intervals
-    where that is no chance (Birge, Phys. Rev. 40 (1932) 207).
+    values: what the model gives; deviations: standard ones, of each measurement about it; scatter:
+    share of the stated scatter of surfaces that the measurements show; chi_square, freedom,
+    probability: of the misfit; widening: factor on the intervals where that is no chance (Birge,
+    Phys. Rev. 40 (1932) 207).
     """
 
     parameters: np.ndarray
@@ -74,24 +78,35 @@ class Fit:
 
     @property
     def widening(self) -> float:
-        return float(np.sqrt(self.chi_square / self.freedom)) if self.probability < UNLIKELY else 1.0
+        return (
+            float(np.sqrt(self.chi_square / self.freedom)) if self.probability < UNLIKELY else 1.0
+        )
 
 
 class Likelihood:
     """Of measurements, under a model.
 
-    values, uncertainties: measured, in the same unit. places: standard deviation of ln value from one place of the surfaces to
-    another, which the measurements may show in full or in part; 0 where the very place is known.
+    values, uncertainties: measured, in the same unit. places: standard deviation of ln value from
+    one place of the surfaces to another, which the measurements may show in full or in part; 0
+    where the very place is known.
     groups: a word for each measurement: those of one group are of one kind and unit.
     common: standard deviation of ln value that measurements on the same scans share, since these
-    are a sample of the surfaces. shared: correlation of that between measurements, n x n: 1 where the
-    scans are the same, 0 where all differ.
+    are a sample of the surfaces. shared: correlation of that between measurements, n x n: 1 where
+    the scans are the same, 0 where all differ.
     model: parameters -> values; bounds: of each parameter.
     """
 
-    def __init__(self, values: Sequence[float], uncertainties: Sequence[float], places: Sequence[float], groups: Sequence[str],
-                 model: Model, bounds: Sequence[Tuple[float, float]], common: Sequence[float] = (),
-                 shared: Optional[np.ndarray] = None) -> None:
+    def __init__(
+        self,
+        values: Sequence[float],
+        uncertainties: Sequence[float],
+        places: Sequence[float],
+        groups: Sequence[str],
+        model: Model,
+        bounds: Sequence[Tuple[float, float]],
+        common: Sequence[float] = (),
+        shared: Optional[np.ndarray] = None,
+    ) -> None:
         self.values = np.asarray(values, float)
         self.uncertainties = np.asarray(uncertainties, float)
         self.places = np.asarray(places, float)
@@ -100,7 +115,9 @@ class Likelihood:
         self.bounds = list(bounds)
         self.common = np.asarray(common, float) if len(common) else np.zeros(len(self.values))
         self.shared = np.eye(len(self.values)) if shared is None else np.asarray(shared, float)
-        self.is_lognormal = (self.places > 0) | (self.common > 0)  # what is known of the surfaces is a factor
+        self.is_lognormal = (self.places > 0) | (
+            self.common > 0
+        )  # what is known of the surfaces is a factor
         self.shares = _shares(self.values, self.uncertainties, self.groups)
         self.has_common = bool((self.common > 0).any())
         self.has_scatter = np.count_nonzero(self.places > 0) >= FEWEST_FOR_SCATTER
@@ -108,31 +125,47 @@ class Likelihood:
     def part(self, members: Sequence[int]) -> "Likelihood":
         """Of some of the measurements."""
         chosen = np.array(members, dtype=int)
-        return Likelihood(self.values[chosen], self.uncertainties[chosen], self.places[chosen], [self.groups[i] for i in chosen],
-                          lambda parameters: self.model(parameters)[chosen], self.bounds,
-                          self.common[chosen], self.shared[np.ix_(chosen, chosen)])
+        return Likelihood(
+            self.values[chosen],
+            self.uncertainties[chosen],
+            self.places[chosen],
+            [self.groups[i] for i in chosen],
+            lambda parameters: self.model(parameters)[chosen],
+            self.bounds,
+            self.common[chosen],
+            self.shared[np.ix_(chosen, chosen)],
+        )
 
     def deviations(self, fitted: np.ndarray, scatter: float) -> Tuple[np.ndarray, np.ndarray]:
-        """Standardised deviations of the measurements from what a model gives, and the variances of ln value about it."""
+        """Standardised deviations of the measurements from what a model gives, and the variances of
+        ln value about it."""
         own = np.where(np.isnan(self.shares), self.uncertainties / fitted, self.shares)
-        variances = own ** 2 + (scatter * self.places) ** 2
-        of_places = np.log(self.values / fitted) + own ** 2 / 2  # a normal error of this share lowers the mean logarithm by that
-        return np.where(self.is_lognormal, of_places, self.values / fitted - 1.0) / np.sqrt(variances), variances
+        variances = own**2 + (scatter * self.places) ** 2
+        of_places = (
+            np.log(self.values / fitted) + own**2 / 2
+        )  # a normal error of this share lowers the mean logarithm by that
+        return np.where(self.is_lognormal, of_places, self.values / fitted - 1.0) / np.sqrt(
+            variances
+        ), variances
 
     def standardised(self, fitted: np.ndarray, scatter: float) -> np.ndarray:
-        """Deviations over all that each measurement may be off by, what it shares with others, too."""
+        """Deviations over all that each measurement may be off by, what it shares with others,
+        too."""
         deviations, variances = self.deviations(fitted, scatter)
         return deviations / np.sqrt(np.diag(self._covariance(variances)))
 
     def deviance(self, unknowns: np.ndarray) -> float:
-        """-2 ln quasi-likelihood but for a constant; unknowns: parameters, and the scatter where it is one."""
+        """-2 ln quasi-likelihood but for a constant; unknowns: parameters, and the scatter where it
+        is one."""
         scatter = unknowns[-1] if self.has_scatter else 1.0
-        fitted = self.model(unknowns[:len(self.bounds)])
+        fitted = self.model(unknowns[: len(self.bounds)])
         deviations, variances = self.deviations(fitted, scatter)
         over = self.values / fitted
-        normal = deviations ** 2 + np.where(self.is_lognormal, np.log(variances), 0.0)
+        normal = deviations**2 + np.where(self.is_lognormal, np.log(variances), 0.0)
         of_shares = 2.0 * (over - 1.0 - np.log(over)) / variances
-        found = float(np.sum(np.where(self.is_lognormal | np.isnan(self.shares), normal, of_shares)))
+        found = float(
+            np.sum(np.where(self.is_lognormal | np.isnan(self.shares), normal, of_shares))
+        )
         if self.has_common:
             covariance = self._covariance(variances)
             found += _squared(deviations, covariance) - float(deviations @ deviations)
@@ -140,7 +173,8 @@ class Likelihood:
         return found if np.isfinite(found) else 1e300
 
     def _covariance(self, variances: np.ndarray) -> np.ndarray:
-        """Of standardised deviations: an own error of variance 1, and what is shared with others."""
+        """Of standardised deviations: an own error of variance 1, and what is shared with
+        others."""
         over = self.common / np.sqrt(variances)
         return np.eye(len(over)) + self.shared * np.outer(over, over)
 
@@ -152,21 +186,35 @@ class Likelihood:
 
     def fit(self, near: Optional[np.ndarray] = None) -> Fit:
         """- near: unknowns that are worth a start"""
-        starts = self._starts({})[:STARTS_OF_A_FIT] if near is None else [near] + self._starts({})[:1]
+        starts = (
+            self._starts({})[:STARTS_OF_A_FIT] if near is None else [near] + self._starts({})[:1]
+        )
         best = min((self._improved(start, {}) for start in starts), key=lambda found: found[1])
-        parameters = best[0][:len(self.bounds)]
+        parameters = best[0][: len(self.bounds)]
         scatter = float(best[0][-1]) if self.has_scatter else 1.0
         fitted = self.model(parameters)
         deviations, variances = self.deviations(fitted, scatter)
         freedom = max(len(self.values) - len(self.bounds), 1)
         chi_square = _squared(deviations, self._covariance(variances))
-        probability = float(scipy.stats.chi2.sf(chi_square, freedom)) if len(self.values) > len(self.bounds) else 1.0
-        return Fit(parameters, fitted, self.standardised(fitted, scatter), scatter, best[1],
-                   chi_square, freedom, probability)
+        probability = (
+            float(scipy.stats.chi2.sf(chi_square, freedom))
+            if len(self.values) > len(self.bounds)
+            else 1.0
+        )
+        return Fit(
+            parameters,
+            fitted,
+            self.standardised(fitted, scatter),
+            scatter,
+            best[1],
+            chi_square,
+            freedom,
+            probability,
+        )
 
     def interval(self, fit: Fit, index: int) -> Interval:
         """Of one parameter, 95 %: where the others follow as they fit best."""
-        limit = fit.deviance + QUANTILE_95 * fit.widening ** 2
+        limit = fit.deviance + QUANTILE_95 * fit.widening**2
         ends = [self._end(fit, index, limit, self.bounds[index][side]) for side in (0, 1)]
         return Interval(ends[0][0], ends[1][0], ends[0][1], ends[1][1])
 
@@ -184,15 +232,20 @@ class Likelihood:
         return least, unknowns
 
     def outliers(self) -> List[int]:
-        """Measurements that the others do not expect, the worst first: at most a fifth of them, each against a fit without it."""
+        """Measurements that the others do not expect, the worst first: at most a fifth of them,
+        each against a fit without it."""
         members = list(range(len(self.values)))
         found: List[int] = []
         near: Optional[np.ndarray] = None
-        while len(members) >= max(FEWEST_FOR_OUTLIERS, len(self.bounds) + 2) and 5 * (len(found) + 1) <= len(self.values):
+        while len(members) >= max(FEWEST_FOR_OUTLIERS, len(self.bounds) + 2) and 5 * (
+            len(found) + 1
+        ) <= len(self.values):
             if near is None:
                 near = self._unknowns_of(self.fit())
-            distances = [self._distance(place, [other for other in members if other != place], near)
-                         for place in members]
+            distances = [
+                self._distance(place, [other for other in members if other != place], near)
+                for place in members
+            ]
             # the worst of so many
             if max(distances) < float(scipy.stats.norm.isf(FALSE_OUTLIERS / (2 * len(members)))):
                 break
@@ -205,22 +258,29 @@ class Likelihood:
         fit = likelihood.fit(near if likelihood.has_scatter == self.has_scatter else None)
         # surfaces may scatter as stated, whatever a few of them show
         deviations, variances = self.deviations(self.model(fit.parameters), 1.0)
-        return float(abs(deviations[place]) / self._spread(place, others, fit.parameters, np.sqrt(variances)) / fit.widening)
+        return float(
+            abs(deviations[place])
+            / self._spread(place, others, fit.parameters, np.sqrt(variances))
+            / fit.widening
+        )
 
-    def _spread(self, place: int, others: List[int], parameters: np.ndarray, own: np.ndarray) -> float:
-        """Standard deviation of a measurement about what others expect, over its own: they know the parameters by generalised least squares.
+    def _spread(
+        self, place: int, others: List[int], parameters: np.ndarray, own: np.ndarray
+    ) -> float:
+        """Standard deviation of a measurement about what others expect, over its own: they know the
+        parameters by generalised least squares.
 
-        A force among lengths has few that it can be told from, however many there are. What others leave open of a parameter
-        ends with its range. own: standard deviations of ln value.
+        A force among lengths has few that it can be told from, however many there are. What others
+        leave open of a parameter ends with its range. own: standard deviations of ln value.
         """
         slopes = self._slopes(parameters) / own[:, None]
-        covariance = self._covariance(own ** 2)
+        covariance = self._covariance(own**2)
         weighted = np.linalg.solve(covariance[np.ix_(others, others)], slopes[others])
         of_ranges = np.array([12.0 / (high - low) ** 2 for low, high in self.bounds])
         pulls = np.linalg.solve(slopes[others].T @ weighted + np.diag(of_ranges), slopes[place])
         contrast = np.zeros(len(own))
         contrast[place], contrast[others] = 1.0, -weighted @ pulls
-        return float(np.sqrt(contrast @ covariance @ contrast + pulls ** 2 @ of_ranges))
+        return float(np.sqrt(contrast @ covariance @ contrast + pulls**2 @ of_ranges))
 
     def _slopes(self, parameters: np.ndarray) -> np.ndarray:
         """d ln value/d parameter, of each measurement."""
@@ -229,7 +289,10 @@ class Likelihood:
             ends = [np.array(parameters), np.array(parameters)]
             ends[0][index] = max(parameters[index] - STEP_FOR_SLOPES * (high - low), low)
             ends[1][index] = min(parameters[index] + STEP_FOR_SLOPES * (high - low), high)
-            slopes.append(np.log(self.model(ends[1]) / self.model(ends[0])) / (ends[1][index] - ends[0][index]))
+            slopes.append(
+                np.log(self.model(ends[1]) / self.model(ends[0]))
+                / (ends[1][index] - ends[0][index])
+            )
         return np.stack(slopes, axis=1)
 
     def _end(self, fit: Fit, index: int, limit: float, bound: float) -> Tuple[float, bool]:
@@ -262,7 +325,9 @@ class Likelihood:
     def _free(self, fixed: Dict[int, float]) -> List[int]:
         return [i for i in range(len(self._all_bounds())) if i not in fixed]
 
-    def _unknowns(self, free: Union[Sequence[float], np.ndarray], fixed: Dict[int, float]) -> np.ndarray:
+    def _unknowns(
+        self, free: Union[Sequence[float], np.ndarray], fixed: Dict[int, float]
+    ) -> np.ndarray:
         unknowns = np.empty(len(self._all_bounds()))
         unknowns[self._free(fixed)] = free
         for index, value in fixed.items():
@@ -270,9 +335,13 @@ class Likelihood:
         return unknowns
 
     def _starts(self, fixed: Dict[int, float]) -> List[np.ndarray]:
-        """Places to begin from, the best first: on a grid of the first free parameter, and a few of the others."""
+        """Places to begin from, the best first: on a grid of the first free parameter, and a few of
+        the others."""
         bounds = [self._all_bounds()[i] for i in self._free(fixed)]
-        axes = [np.linspace(low, high, STARTS if place == 0 and 0 not in fixed else 4) for place, (low, high) in enumerate(bounds)]
+        axes = [
+            np.linspace(low, high, STARTS if place == 0 and 0 not in fixed else 4)
+            for place, (low, high) in enumerate(bounds)
+        ]
         grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
         return sorted(grid, key=lambda start: self.deviance(self._unknowns(start, fixed)))
 
@@ -287,13 +356,24 @@ class Likelihood:
         shares = (start - low) / widths
         if len(bounds) == 1:
             reach = 1.0 / (STARTS - 1)
-            shares = np.array([scipy.optimize.minimize_scalar(of_shares, bounds=(max(shares[0] - reach, 0.0), min(shares[0] + reach, 1.0)),
-                                                              method="bounded", options={"xatol": 1e-7}).x])
+            shares = np.array(
+                [
+                    scipy.optimize.minimize_scalar(
+                        of_shares,
+                        bounds=(max(shares[0] - reach, 0.0), min(shares[0] + reach, 1.0)),
+                        method="bounded",
+                        options={"xatol": 1e-7},
+                    ).x
+                ]
+            )
         else:
             shares = scipy.optimize.minimize(
-                of_shares, np.clip(shares, 0.0, 1.0), method="L-BFGS-B",
+                of_shares,
+                np.clip(shares, 0.0, 1.0),
+                method="L-BFGS-B",
                 bounds=[(0.0, 1.0)] * len(bounds),
-                options={"ftol": 1e-12, "gtol": 1e-4, "eps": STEP_OF_SEARCH}).x
+                options={"ftol": 1e-12, "gtol": 1e-4, "eps": STEP_OF_SEARCH},
+            ).x
         unknowns = self._unknowns(low + np.clip(shares, 0.0, 1.0) * widths, fixed)
         return unknowns, self.deviance(unknowns)
 
@@ -301,8 +381,8 @@ class Likelihood:
 def _crossing(function: Callable[[float], float], below: float, above: float) -> float:
     """Where a function becomes positive between two places, to 0.1 % of their distance.
 
-    Halving asks for no sign of the function at the ends: a search that goes on from the one before may end
-    a little elsewhere the second time.
+    Halving asks for no sign of the function at the ends: a search that goes on from the one before
+    may end a little elsewhere the second time.
     """
     for _ in range(HALVINGS):
         middle = 0.5 * (below + above)
@@ -319,7 +399,8 @@ def _squared(deviations: np.ndarray, covariance: np.ndarray) -> float:
 
 
 def _shares(values: np.ndarray, uncertainties: np.ndarray, groups: Sequence[str]) -> np.ndarray:
-    """Uncertainty over value where it goes with the value, else NaN: in its group shares differ less than uncertainties do.
+    """Uncertainty over value where it goes with the value, else NaN: in its group shares differ
+    less than uncertainties do.
 
     Shares that differ by no more than measured values scatter are one share, of the true values.
     """

@@ -20,19 +20,34 @@ from mems_stiction._settings import Settings
 from mems_stiction._warnings import ScanWarning, SettingsWarning
 
 FRAME_ALONE = {"device_force": {"enabled": False}, "half_space": {"enabled": False}}
-NO_CLEANING = {"preprocessing": {
-    "region": {"left": 0.0, "top": 0.0, "width": 0.0, "height": 0.0,
-               "polygon_file": "", "mask_file": ""},
-    "offset": {"enabled": False}, "lines": {"method": "none"}, "spikes": {"enabled": False},
-    "fill": {"enabled": False}, "tip": {"radius": 0.0, "half_angle": 0.0}, "level": "none",
-    "level_robust": False, "low_pass": {"cutoff_wavelength": 0.0}, "refine": {"factor": 1}}}
+NO_CLEANING = {
+    "preprocessing": {
+        "region": {
+            "left": 0.0,
+            "top": 0.0,
+            "width": 0.0,
+            "height": 0.0,
+            "polygon_file": "",
+            "mask_file": "",
+        },
+        "offset": {"enabled": False},
+        "lines": {"method": "none"},
+        "spikes": {"enabled": False},
+        "fill": {"enabled": False},
+        "tip": {"radius": 0.0, "half_angle": 0.0},
+        "level": "none",
+        "level_robust": False,
+        "low_pass": {"cutoff_wavelength": 0.0},
+        "refine": {"factor": 1},
+    }
+}
 
 SAME_AREA = 0.05  # relative; areas are stated with two digits
 PARTS_IN_SCANS = 4  # fewer do not show how places scatter
 PLACES_WITH_ALL = 3  # of made surfaces; where there are more, each has fewer realisations
 MOST_SHARE = 2.5  # of the realisations, where there are fewer: their chance is common to all
 FEWEST_REALISATIONS = 3
-SEEDS = 2 ** 31
+SEEDS = 2**31
 
 PROBE_PIXELS = 256
 PROBE_DEPTH = 12e-9  # of a smooth probe's edge below its summit [m]: deeper parts attract little
@@ -60,13 +75,21 @@ class Place:
     """Surfaces that one or more measurements were made on.
 
     upper: a list of scans of the counter-surface, or None for the configured one. settings, values:
-    with what was stated of these measurements, and the same by names. digests: of the scans, by which
-    one is known again.
+    with what was stated of these measurements, and the same by names. digests: of the scans, by
+    which one is known again.
     """
 
-    def __init__(self, scans: List[Any], upper: Optional[List[Any]], area: Optional[float],
-                 contacts: Optional[int], radius: Optional[float], settings: Settings,
-                 values: Dict[str, Any], digests: Sequence[str]) -> None:
+    def __init__(
+        self,
+        scans: List[Any],
+        upper: Optional[List[Any]],
+        area: Optional[float],
+        contacts: Optional[int],
+        radius: Optional[float],
+        settings: Settings,
+        values: Dict[str, Any],
+        digests: Sequence[str],
+    ) -> None:
         self.scans, self.upper, self.area, self.contacts = scans, upper, area, contacts
         self.radius, self.settings, self.values = radius, settings, values
         self.digests = tuple(digests)
@@ -93,8 +116,8 @@ class Place:
     def settle(self, is_shared: bool, made_places: int) -> None:
         """What depends on the other measurements, before figures are asked for.
 
-        is_shared: others rest on one of the scans, too, so it is no scan of this place. made_places:
-        how many places surfaces are made for.
+        is_shared: others rest on one of the scans, too, so it is no scan of this place.
+        made_places: how many places surfaces are made for.
         """
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SettingsWarning)  # of what was not stated by the user
@@ -138,9 +161,15 @@ class Place:
         near = [key for key in self._known if {name for name, _ in key} == set(constants)]
         if not self.is_made or not near:
             return self.figures(constants)
-        return self._known[min(near, key=lambda key: sum(
-            abs(value - constants[name]) / (abs(value) + abs(constants[name]) or 1.0)
-            for name, value in key))]
+        return self._known[
+            min(
+                near,
+                key=lambda key: sum(
+                    abs(value - constants[name]) / (abs(value) + abs(constants[name]) or 1.0)
+                    for name, value in key
+                ),
+            )
+        ]
 
     def fingerprint(self) -> str:
         """SHA-256 of the heights [m] as they are predicted, one after the other."""
@@ -160,8 +189,11 @@ class Place:
         if self.upper is None:
             return True
         scan = self.scans[0]
-        return len(self.upper) == 1 and self.upper[0].heights.shape == scan.heights.shape \
+        return (
+            len(self.upper) == 1
+            and self.upper[0].heights.shape == scan.heights.shape
             and np.allclose(self.upper[0].pitch, scan.pitch)
+        )
 
     def _few_parts(self) -> bool:
         assert self.area is not None  # as of all made places
@@ -188,8 +220,10 @@ class Place:
             assert self.area is not None
             found = predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)
             return [_of_device(one) for one in found]
-        return [self._of_frame(one, dict(self.values, **values))
-                for one, values in zip(settings, constants)]
+        return [
+            self._of_frame(one, dict(self.values, **values))
+            for one, values in zip(settings, constants)
+        ]
 
     def _of_frame(self, settings: Settings, values: Dict[str, Any]) -> Figures:
         predictor = mems_stiction.Predictor(settings)
@@ -199,14 +233,20 @@ class Place:
         if not self.scans:
             heights, pitch = _probe_alone(self.radius, values)
             return _of_several([predictor.predict(heights, pitch)])
-        return _of_several([predictor.predict(scan, None, probe) for scan in self._cleaned()
-                            for probe in _probes_over(scan, self.radius)])
+        return _of_several(
+            [
+                predictor.predict(scan, None, probe)
+                for scan in self._cleaned()
+                for probe in _probes_over(scan, self.radius)
+            ]
+        )
 
     def _cleaned(self) -> List[Any]:
         """The scans as predicted: cleaning would take a probe over them for their tilt and bow."""
         if self._clean_scans is None:
-            self._clean_scans = [mems_stiction.clean(scan, None, self.settings)
-                                 for scan in self.scans]
+            self._clean_scans = [
+                mems_stiction.clean(scan, None, self.settings) for scan in self.scans
+            ]
         return self._clean_scans
 
 
@@ -236,16 +276,20 @@ def _logs(values: Any) -> np.ndarray:
 
 
 def _of_device(found: Any) -> Figures:
-    """The mean logarithm of the realisations, shifted as the device's figures are from their median.
+    """The mean logarithm of the realisations, shifted as the device's figures are from their
+    median.
 
     What the device's deviation has beyond the scatter of its realisations is common to all places;
     so is the error of a mean of few realisations, which the deviation includes.
     """
     force, force_scatter, force_common = _sampled(
-        found.pull_off_force, found.realisations.pull_off_force, found.force_deviation)
+        found.pull_off_force, found.realisations.pull_off_force, found.force_deviation
+    )
     work, work_scatter, work_common = _sampled(
-        found.apparent_work_of_adhesion, found.realisations.apparent_work_of_adhesion,
-        found._work_deviation)
+        found.apparent_work_of_adhesion,
+        found.realisations.apparent_work_of_adhesion,
+        found._work_deviation,
+    )
     return Figures(force, work, force_scatter, work_scatter, force_common, work_common)
 
 
@@ -255,14 +299,15 @@ def _sampled(figure: float, realisations: Any, deviation: float) -> Tuple[float,
         return figure, 0.0, deviation
     scatter = float(np.std(logs, ddof=1))
     mean = figure * math.exp(float(np.mean(logs) - np.median(logs)))
-    return mean, scatter, math.sqrt(max(deviation ** 2 - scatter ** 2, 0.0))
+    return mean, scatter, math.sqrt(max(deviation**2 - scatter**2, 0.0))
 
 
 def _of_several(predictions: List[Any]) -> Figures:
     """The mean logarithm over places, how places differ, and how far so few tell the mean."""
     force, force_scatter, force_common = _of_places([one.pull_off_force for one in predictions])
     work, work_scatter, work_common = _of_places(
-        [one.apparent_work_of_adhesion for one in predictions])
+        [one.apparent_work_of_adhesion for one in predictions]
+    )
     return Figures(force, work, force_scatter, work_scatter, force_common, work_common)
 
 
@@ -281,10 +326,12 @@ def _probe_alone(radius: float, stated: Dict[str, Any]) -> Tuple[np.ndarray, flo
 
     stated: values of settings, by name.
     """
-    compliance = sum((1.0 - stated[body + "/poisson_ratio"] ** 2) / stated[body + "/youngs_modulus"]
-                     for body in ("lower", "upper"))
+    compliance = sum(
+        (1.0 - stated[body + "/poisson_ratio"] ** 2) / stated[body + "/youngs_modulus"]
+        for body in ("lower", "upper")
+    )
     work = stated["interface/work_of_adhesion"]
-    contact_radius = (6.0 * math.pi * work * radius ** 2 * compliance) ** (1.0 / 3.0)
+    contact_radius = (6.0 * math.pi * work * radius**2 * compliance) ** (1.0 / 3.0)
     half = max(math.sqrt(2.0 * radius * PROBE_DEPTH), PROBE_CONTACTS * contact_radius)
     x = (np.arange(PROBE_PIXELS) + 0.5) / PROBE_PIXELS * 2.0 * half - half
     return -(x[:, None] ** 2 + x[None, :] ** 2) / (2.0 * radius), 2.0 * half / PROBE_PIXELS
@@ -296,5 +343,8 @@ def _probes_over(scan: Any, radius: float) -> List[np.ndarray]:
     places = (np.arange(PROBE_PLACES) + 1.0) / (PROBE_PLACES + 1.0)
     y = (np.arange(rows)[:, None] - places[None, :] * rows) * scan.pitch[1]
     x = (np.arange(cols)[:, None] - places[None, :] * cols) * scan.pitch[0]
-    return [(y[:, [i]] ** 2 + x[:, j][None, :] ** 2) / (2.0 * radius)
-            for i in range(PROBE_PLACES) for j in range(PROBE_PLACES)]
+    return [
+        (y[:, [i]] ** 2 + x[:, j][None, :] ** 2) / (2.0 * radius)
+        for i in range(PROBE_PLACES)
+        for j in range(PROBE_PLACES)
+    ]

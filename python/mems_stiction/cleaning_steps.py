@@ -1,6 +1,8 @@
-"""What each cleaning step did to a scan: the settings with the first steps alone, and a picture of the surfaces between them.
+"""What each cleaning step did to a scan: the settings with the first steps alone, and a picture of
+the surfaces between them.
 
-The surfaces, and what is predicted on each, come from the core: a scan is run with no step, with the first, with the first two, and so on.
+The surfaces, and what is predicted on each, come from the core: a scan is run with no step, with
+the first, with the first two, and so on.
 """
 
 import copy
@@ -12,12 +14,27 @@ from mems_stiction.quantities import length_scale
 from mems_stiction.report_figures import png_of
 
 # In the order in which they run, with the setting and the value that switches each off.
-STEPS = (("offset", "offset/enabled", False), ("lines", "lines/method", "none"), ("spikes", "spikes/enabled", False),
-         ("fill", "fill/enabled", False), ("tip", "tip/radius", 0.0), ("level", "level", "none"),
-         ("low_pass", "low_pass/cutoff_wavelength", 0.0), ("refine", "refine/factor", 1))
+STEPS = (
+    ("offset", "offset/enabled", False),
+    ("lines", "lines/method", "none"),
+    ("spikes", "spikes/enabled", False),
+    ("fill", "fill/enabled", False),
+    ("tip", "tip/radius", 0.0),
+    ("level", "level", "none"),
+    ("low_pass", "low_pass/cutoff_wavelength", 0.0),
+    ("refine", "refine/factor", 1),
+)
 MOST_COLUMNS = 6
-WORDS = {"offset": "mean taken off", "lines": "lines aligned", "spikes": "spikes taken out", "fill": "holes filled", "tip": "tip taken off",
-         "level": "levelled", "low_pass": "low-pass", "refine": "refined"}
+WORDS = {
+    "offset": "mean taken off",
+    "lines": "lines aligned",
+    "spikes": "spikes taken out",
+    "fill": "holes filled",
+    "tip": "tip taken off",
+    "level": "levelled",
+    "low_pass": "low-pass",
+    "refine": "refined",
+}
 
 
 def _lookup(preprocessing, key):
@@ -30,7 +47,8 @@ def _lookup(preprocessing, key):
 
 
 def steps_of(configuration):
-    """The names of the steps that are on in a configuration as stiction_batch writes it beside its rows."""
+    """The names of the steps that are on in a configuration as stiction_batch writes it beside its
+    rows."""
     preprocessing = configuration.get("preprocessing") or {}
     return [name for name, key, off in STEPS if _lookup(preprocessing, key) not in (None, off)]
 
@@ -51,23 +69,29 @@ def first_steps(configuration, names):
 
 
 class Stage:
-    """A surface between two steps: name of the last step ("" before the first), heights [m] rows x columns in the scan's own pixels, and the row that was
-    predicted on it."""
+    """A surface between two steps: name of the last step ("" before the first), heights [m] rows x
+    columns in the scan's own pixels, and the row that was predicted on it."""
 
     def __init__(self, name, heights, row):
         self.name, self.heights, self.row = name, np.asarray(heights, dtype=float), row
 
 
 def rows_of(stages):
-    """The table: for each stage its words, rms height, rms of the change [m] or None, pixels changed, missing pixels, and pull-off force [N]."""
+    """The table: for each stage its words, rms height, rms of the change [m] or None, pixels
+    changed, missing pixels, and pull-off force [N]."""
     table = []
     for before, stage in zip([None] + stages[:-1], stages):
         difference = None if before is None else stage.heights - before.heights
-        table.append({"words": WORDS.get(stage.name, stage.name) if stage.name else "as measured",
-                      "rms": float(np.nanstd(stage.heights)), "missing": int(np.isnan(stage.heights).sum()),
-                      "change": None if difference is None else _rms(difference),
-                      "changed": None if difference is None else _changed(before.heights, stage.heights),
-                      "pull_off": stage.row.get("pull_off_force")})
+        table.append(
+            {
+                "words": WORDS.get(stage.name, stage.name) if stage.name else "as measured",
+                "rms": float(np.nanstd(stage.heights)),
+                "missing": int(np.isnan(stage.heights).sum()),
+                "change": None if difference is None else _rms(difference),
+                "changed": None if difference is None else _changed(before.heights, stage.heights),
+                "pull_off": stage.row.get("pull_off_force"),
+            }
+        )
     return table
 
 
@@ -81,21 +105,43 @@ def _changed(before, after):
 
 
 def cleaning_figure(stages, pitch_x, pitch_y):
-    """A PNG as bytes: above the surface after each step, below what the step changed. pitch_x, pitch_y: of the first stage [m]."""
-    blocks = [stages[first:first + MOST_COLUMNS] for first in range(0, len(stages), MOST_COLUMNS)]
+    """A PNG as bytes: above the surface after each step, below what the step changed. pitch_x,
+    pitch_y: of the first stage [m]."""
+    blocks = [stages[first : first + MOST_COLUMNS] for first in range(0, len(stages), MOST_COLUMNS)]
     columns = min(MOST_COLUMNS, len(stages))
     height, width = stages[0].heights.shape
     extent = (0, width * pitch_x, height * pitch_y, 0)
-    tall = min(max(height * pitch_y / (width * pitch_x), 0.4), 1.6)  # of a map, for one that is 1 wide
+    tall = min(
+        max(height * pitch_y / (width * pitch_x), 0.4), 1.6
+    )  # of a map, for one that is 1 wide
     tops = len(blocks) * 2 * (1.62 * tall + 0.42)  # inches
     figure = plt.figure(figsize=(2.5 * columns, tops), dpi=110)
-    grid = figure.add_gridspec(2 * len(blocks), columns, left=0.01, right=1 - 0.27 / columns, top=1 - 0.3 / tops, bottom=0.08 / tops,
-                               wspace=0.42, hspace=0.42 / (1.62 * tall))
+    grid = figure.add_gridspec(
+        2 * len(blocks),
+        columns,
+        left=0.01,
+        right=1 - 0.27 / columns,
+        top=1 - 0.3 / tops,
+        bottom=0.08 / tops,
+        wspace=0.42,
+        hspace=0.42 / (1.62 * tall),
+    )
     previous = None
     for number, stage in enumerate(stages):
         block, column = divmod(number, MOST_COLUMNS)
-        title = "as measured" if previous is None else "%d %s" % (number, WORDS.get(stage.name, stage.name))
-        _draw_map(figure, figure.add_subplot(grid[2 * block, column]), stage.heights, extent, title, "viridis")
+        title = (
+            "as measured"
+            if previous is None
+            else "%d %s" % (number, WORDS.get(stage.name, stage.name))
+        )
+        _draw_map(
+            figure,
+            figure.add_subplot(grid[2 * block, column]),
+            stage.heights,
+            extent,
+            title,
+            "viridis",
+        )
         axes = figure.add_subplot(grid[2 * block + 1, column])
         if previous is not None:
             if stage.name == "refine":
@@ -104,8 +150,11 @@ def cleaning_figure(stages, pitch_x, pitch_y):
                 _draw_change(figure, axes, previous.heights, stage.heights, extent)
         else:
             scale, unit = length_scale(max(extent[1], extent[2]))
-            _say(axes, "%.3g x %.3g %s\n\nbelow each surface:\nwhat its step changed;\nwhite: not measured" % (
-                extent[1] * scale, extent[2] * scale, unit))
+            _say(
+                axes,
+                "%.3g x %.3g %s\n\nbelow each surface:\nwhat its step changed;\nwhite: not measured"
+                % (extent[1] * scale, extent[2] * scale, unit),
+            )
         previous = stage
     return png_of(figure)
 
@@ -123,7 +172,14 @@ def _draw_map(figure, axes, heights, extent, title, colours, about_zero=False):
     if high - low <= 0:
         low, high = -1e-12, 1e-12
     scale, unit = length_scale(high - low)
-    image = axes.imshow((heights - middle) * scale, extent=extent, cmap=colours, vmin=low * scale, vmax=high * scale, interpolation="nearest")
+    image = axes.imshow(
+        (heights - middle) * scale,
+        extent=extent,
+        cmap=colours,
+        vmin=low * scale,
+        vmax=high * scale,
+        interpolation="nearest",
+    )
     bar = figure.colorbar(image, cax=beside(axes))
     bar.set_label(unit, fontsize=8, labelpad=2)
     bar.ax.tick_params(labelsize=8)
@@ -140,12 +196,28 @@ def _draw_change(figure, axes, before, after, extent):
     if largest == 0.0:  # pixels that were lost, or that were missing
         return _draw_places(axes, before, after, extent)
     if np.ptp(finite) < 1e-9 * largest:
-        return _say(axes, "%s%s\neverywhere" % ("+" if finite[0] > 0 else "", with_unit(float(finite.mean()), "m")))
+        return _say(
+            axes,
+            "%s%s\neverywhere"
+            % ("+" if finite[0] > 0 else "", with_unit(float(finite.mean()), "m")),
+        )
     mean = float(finite.mean())
     if abs(mean) > finite.std():  # a whole surface that was shifted hides what else was done to it
-        title = "%s%s everywhere,\nbeside it rms %s" % ("+" if mean > 0 else "", with_unit(mean, "m"), with_unit(float(finite.std()), "m"))
+        title = "%s%s everywhere,\nbeside it rms %s" % (
+            "+" if mean > 0 else "",
+            with_unit(mean, "m"),
+            with_unit(float(finite.std()), "m"),
+        )
         return _draw_map(figure, axes, difference - mean, extent, title, "RdBu_r", about_zero=True)
-    return _draw_map(figure, axes, difference, extent, "rms %s" % with_unit(_rms(difference), "m"), "RdBu_r", about_zero=True)
+    return _draw_map(
+        figure,
+        axes,
+        difference,
+        extent,
+        "rms %s" % with_unit(_rms(difference), "m"),
+        "RdBu_r",
+        about_zero=True,
+    )
 
 
 def _draw_places(axes, before, after, extent):
@@ -158,15 +230,32 @@ def _draw_places(axes, before, after, extent):
     axes.set_yticks([])
     beside(axes).set_axis_off()
     words = []
-    for places, colour, text in ((np.isfinite(before) & np.isnan(after), "#d1322f", "%d pixels taken out"),
-                                 (np.isnan(before) & np.isfinite(after), "#1b7a3d", "%d pixels filled")):
+    for places, colour, text in (
+        (np.isfinite(before) & np.isnan(after), "#d1322f", "%d pixels taken out"),
+        (np.isnan(before) & np.isfinite(after), "#1b7a3d", "%d pixels filled"),
+    ):
         rows, columns = np.nonzero(places)
         if rows.size:
-            axes.scatter((columns + 0.5) / width * extent[1], (rows + 0.5) / height * extent[2], s=5, color=colour, linewidths=0)
+            axes.scatter(
+                (columns + 0.5) / width * extent[1],
+                (rows + 0.5) / height * extent[2],
+                s=5,
+                color=colour,
+                linewidths=0,
+            )
             words.append(text % rows.size)
     axes.set_title(", ".join(words), fontsize=10)
 
 
 def _say(axes, text):
     axes.set_axis_off()
-    axes.text(0.5, 0.5, text, ha="center", va="center", fontsize=10, color="#555555", transform=axes.transAxes)
+    axes.text(
+        0.5,
+        0.5,
+        text,
+        ha="center",
+        va="center",
+        fontsize=10,
+        color="#555555",
+        transform=axes.transAxes,
+    )

@@ -1,4 +1,5 @@
-"""Cells of CSV files that a spreadsheet takes for text, and that a terminal can show, whoever wrote them."""
+"""Cells of CSV files that a spreadsheet takes for text, and that a terminal can show, whoever wrote
+them."""
 
 import unicodedata
 
@@ -7,12 +8,16 @@ _UNSEEN = ("Cc", "Cf", "Cs")  # controls, marks of direction, halves of letters
 
 
 def _spelled(letter):
-    return "\\x%02x" % ord(letter) if letter != "\t" and unicodedata.category(letter) in _UNSEEN else letter
+    return (
+        "\\x%02x" % ord(letter)
+        if letter != "\t" and unicodedata.category(letter) in _UNSEEN
+        else letter
+    )
 
 
 def csv_cell(value):
-    """The value; of a text, control characters are spelled out, and an apostrophe stands before what a spreadsheet would take for the
-    beginning of a formula."""
+    """The value; of a text, control characters are spelled out, and an apostrophe stands before
+    what a spreadsheet would take for the beginning of a formula."""
     if not isinstance(value, str):
         return value
     value = "".join(map(_spelled, value))

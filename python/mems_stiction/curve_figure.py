@@ -1,4 +1,5 @@
-"""Curves of force over height as a picture: both ways, jumps, the pull-off force. For plot_curve and the report."""
+"""Curves of force over height as a picture: both ways, jumps, the pull-off force. For plot_curve
+and the report."""
 
 import numpy as np
 
@@ -22,18 +23,24 @@ def curve_picture(curves, title):
 
 def origin_of(curves):
     """What all of them have in common; of scans and parts that differ, all names."""
-    return {field: "; ".join(dict.fromkeys(curve.origin[field] for curve in curves if field in curve.origin)) for field in FIELDS}
+    return {
+        field: "; ".join(
+            dict.fromkeys(curve.origin[field] for curve in curves if field in curve.origin)
+        )
+        for field in FIELDS
+    }
 
 
 def _scale(values, unit):
-    """Factor and unit with prefix in which the largest of the values [unit] has one to three digits."""
+    """Factor and unit with prefix in which the largest of the values [unit] has one to three
+    digits."""
     exponent, letter = prefix_for(float(np.max(np.abs(values))) if len(values) else 0.0)
     return 10.0**-exponent, letter.replace("u", "µ") + unit
 
 
 def draw_curves(axes, curves):
-    """Retraction as a line over a broad, pale one for the approach, a dot for each state, jumps dotted, the pull-off force
-    with its value."""
+    """Retraction as a line over a broad, pale one for the approach, a dot for each state, jumps
+    dotted, the pull-off force with its value."""
     ways = [way for curve in curves for way in (curve.approach, curve.retraction) if len(way)]
     heights = np.concatenate([way.heights for way in ways])
     forces = np.concatenate([way.forces for way in ways])
@@ -47,12 +54,28 @@ def draw_curves(axes, curves):
         colour = COLOURS[place % len(COLOURS)]
         broad = {"color": colour if several else "#e07b00", "linewidth": 4.0, "alpha": 0.4}
         _draw_way(axes, curve.approach, x_scale, y_scale, broad, ahead + "approach")
-        _draw_way(axes, curve.retraction, x_scale, y_scale, {"color": colour, "linewidth": 1.5}, ahead + "retraction")
+        _draw_way(
+            axes,
+            curve.retraction,
+            x_scale,
+            y_scale,
+            {"color": colour, "linewidth": 1.5},
+            ahead + "retraction",
+        )
         peak = curve.pull_off()
         if peak:
             kind = "pull-off" if curve.came_apart() else "broken off; pull-off at least"
-            axes.plot(peak[0] * x_scale, peak[1] * y_scale, "v", color=colour, markersize=9, markeredgecolor="white",
-                      zorder=6, label="%s%s %s at %s" % (ahead, kind, with_unit(peak[1], "N"), with_unit(peak[0], "m")))
+            axes.plot(
+                peak[0] * x_scale,
+                peak[1] * y_scale,
+                "v",
+                color=colour,
+                markersize=9,
+                markeredgecolor="white",
+                zorder=6,
+                label="%s%s %s at %s"
+                % (ahead, kind, with_unit(peak[1], "N"), with_unit(peak[0], "m")),
+            )
     if any(way.jumps() for way in ways):
         axes.plot([], [], color="#555555", linewidth=1.3, linestyle=":", label="jump")
     if low > forces.min():
@@ -82,7 +105,21 @@ def _draw_way(axes, way, x_scale, y_scale, style, label):
     x, y = way.heights * x_scale, way.forces * y_scale
     jumps = way.jumps()
     gaps = [place + 1 for place in jumps]
-    axes.plot(np.insert(x, gaps, np.nan), np.insert(y, gaps, np.nan), label=label, zorder=3, solid_capstyle="butt", **style)
+    axes.plot(
+        np.insert(x, gaps, np.nan),
+        np.insert(y, gaps, np.nan),
+        label=label,
+        zorder=3,
+        solid_capstyle="butt",
+        **style,
+    )
     axes.plot(x, y, ".", color=style["color"], markersize=3.2, zorder=4)
     for place in jumps:
-        axes.plot(x[place:place + 2], y[place:place + 2], color=style["color"], linewidth=1.3, linestyle=":", zorder=3)
+        axes.plot(
+            x[place : place + 2],
+            y[place : place + 2],
+            color=style["color"],
+            linewidth=1.3,
+            linestyle=":",
+            zorder=3,
+        )

@@ -8,8 +8,16 @@ STIFFNESS, TRAVEL, AREA = "device/spring_stiffness", "device/travel", "device/co
 OF_THE_SPRING = (STIFFNESS, TRAVEL)
 SCALE, POLISH, ETCH = "roughness/scale", "roughness/polish", "roughness/etch"
 OF_THE_SURFACE = {SCALE: "", POLISH: "m", ETCH: ""}  # with their units
-OF_BOTH_BODIES = {"hardness": ("lower/hardness", "upper/hardness")}  # names that state a setting of each body
-WORDS = {"hardness": "hardness of both bodies", SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves", "device/contacts": "number of contacts"}
+OF_BOTH_BODIES = {
+    "hardness": ("lower/hardness", "upper/hardness")
+}  # names that state a setting of each body
+WORDS = {
+    "hardness": "hardness of both bodies",
+    SCALE: "factor of the heights",
+    POLISH: "polished wavelength",
+    ETCH: "factor of the short waves",
+    "device/contacts": "number of contacts",
+}
 BY_RATIO = 10.0  # ends of a range that lie further apart are filled by ratio
 
 
@@ -19,7 +27,8 @@ def settings_named(name: str) -> Tuple[str, ...]:
 
 
 class Axis(NamedTuple):
-    """One quantity of the design. name: of the setting, or roughness/...; unit: as SI has it; values: ascending."""
+    """One quantity of the design. name: of the setting, or roughness/...; unit: as SI has it;
+    values: ascending."""
 
     name: str
     unit: str

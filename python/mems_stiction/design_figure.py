@@ -1,4 +1,5 @@
-"""A sweep of a design as a picture: the margin over its axes, with the line of margin 1 and its 95 % band.
+"""A sweep of a design as a picture: the margin over its axes, with the line of margin 1 and its 95
+% band.
 
 Takes the record that design_sweep --json prints, as a dictionary.
 """
@@ -33,28 +34,55 @@ def save_design(record, path):
     height = 5.4 + below
     figure = plt.figure(figsize=(9.0, height))
     axes = figure.add_axes([0.13, (below + 0.35) / height, 0.83, 4.2 / height])
-    spans = [(name, np.array(values), record["units"][name]) for name, values in record["axes"].items() if len(values) > 1]
-    spans = spans or [(name, np.array(values), record["units"][name]) for name, values in list(record["axes"].items())[:1]]
-    margins = {name: _grid(record, name, [len(values) for _, values, _ in spans]) for name in ("margin", "margin_lower", "margin_upper")}
+    spans = [
+        (name, np.array(values), record["units"][name])
+        for name, values in record["axes"].items()
+        if len(values) > 1
+    ]
+    spans = spans or [
+        (name, np.array(values), record["units"][name])
+        for name, values in list(record["axes"].items())[:1]
+    ]
+    margins = {
+        name: _grid(record, name, [len(values) for _, values, _ in spans])
+        for name in ("margin", "margin_lower", "margin_upper")
+    }
     if len(spans) == 1:
         _draw_line(axes, spans[0], margins)
     else:
         _draw_map(axes, spans, margins)
-    figure.suptitle("Margin of the device: what pulls it open over what holds it", fontsize=13, y=1.0 - 0.15 / height)
-    figure.text(0.05, (0.3 + HEIGHT * len(lines)) / height, literal("\n".join(lines)), fontsize=9, va="top", color="#333333")
+    figure.suptitle(
+        "Margin of the device: what pulls it open over what holds it",
+        fontsize=13,
+        y=1.0 - 0.15 / height,
+    )
+    figure.text(
+        0.05,
+        (0.3 + HEIGHT * len(lines)) / height,
+        literal("\n".join(lines)),
+        fontsize=9,
+        va="top",
+        color="#333333",
+    )
     sign(figure, {"version": record["version"]})
     save(figure, path)
 
 
 def _lines(statements):
-    lines = [line for text in statements for line in textwrap.wrap(typeset(text[0].upper() + text[1:] + "."), LETTERS)]
+    lines = [
+        line
+        for text in statements
+        for line in textwrap.wrap(typeset(text[0].upper() + text[1:] + "."), LETTERS)
+    ]
     left = len(lines) - MOST_LINES
-    return lines if left <= 0 else lines[:MOST_LINES - 1] + ["... and %d lines more" % (left + 1)]
+    return lines if left <= 0 else lines[: MOST_LINES - 1] + ["... and %d lines more" % (left + 1)]
 
 
 def _grid(record, name, shape):
     """ln margin; what is infinite or not known is NaN."""
-    values = np.array([math.nan if row[name] is None else row[name] for row in record["rows"]], dtype=float).reshape(shape)
+    values = np.array(
+        [math.nan if row[name] is None else row[name] for row in record["rows"]], dtype=float
+    ).reshape(shape)
     return np.log10(np.where(values > 0, values, math.nan))
 
 
@@ -65,24 +93,46 @@ def _label(axis, name, values, unit):
         few = values[-1] < 300 * values[0]
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
         axis.set_minor_formatter(NullFormatter())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: typeset(text_of(float("%.6g" % value), unit))))
+    axis.set_major_formatter(
+        FuncFormatter(lambda value, _: typeset(text_of(float("%.6g" % value), unit)))
+    )
     axis.set_label_text(Axis(name, unit, tuple(values)).word)
 
 
 def _draw_line(axes, span, margins):
     name, values, unit = span
-    margin, lower, upper = (10.0 ** margins[key] for key in ("margin", "margin_lower", "margin_upper"))
+    margin, lower, upper = (
+        10.0 ** margins[key] for key in ("margin", "margin_lower", "margin_upper")
+    )
     if len(values) == 1:
-        axes.errorbar(values, margin, yerr=[margin - lower, upper - margin], fmt="o", color=LINE, capsize=4, label="margin, 95 %")
+        axes.errorbar(
+            values,
+            margin,
+            yerr=[margin - lower, upper - margin],
+            fmt="o",
+            color=LINE,
+            capsize=4,
+            label="margin, 95 %",
+        )
     else:
         axes.fill_between(values, lower, upper, color=BAND, alpha=0.6, linewidth=0, label="95 %")
         axes.plot(values, margin, color=LINE, marker=".", label="margin")
         for limit in crossings(values, lower):
-            axes.axvline(limit.value, color="#444444", linewidth=1.2, linestyle="--",
-                         label="releases surely %s %s" % ("above" if limit.rises else "below", typeset(safe_text(limit, unit))))
+            axes.axvline(
+                limit.value,
+                color="#444444",
+                linewidth=1.2,
+                linestyle="--",
+                label="releases surely %s %s"
+                % ("above" if limit.rises else "below", typeset(safe_text(limit, unit))),
+            )
     axes.axhline(1.0, color=ONE, linewidth=1.4, label="margin 1: above it the device opens")
     axes.set_yscale("log")
-    few = np.nanmax(upper) < 300 * np.nanmin(lower) if np.isfinite(upper).any() and np.isfinite(lower).any() else True
+    few = (
+        np.nanmax(upper) < 300 * np.nanmin(lower)
+        if np.isfinite(upper).any() and np.isfinite(lower).any()
+        else True
+    )
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: ratio(value)))
     axes.yaxis.set_minor_formatter(NullFormatter())
@@ -107,33 +157,78 @@ def _between(grid, values, fine):
     """Along one axis after the other."""
     for place in range(2):
         at, known = _along(fine[place]), _along(values[place])
-        grid = np.apply_along_axis(lambda line, at=at, known=known: np.interp(at, known, line), place, grid)
+        grid = np.apply_along_axis(
+            lambda line, at=at, known=known: np.interp(at, known, line), place, grid
+        )
     return grid
 
 
 def _draw_map(axes, spans, margins):
     (x_name, x_values, x_unit), (y_name, y_values, y_unit) = spans
     x, y = _fine(x_values), _fine(y_values)
-    margin, lower, upper = (_between(margins[key], (x_values, y_values), (x, y)).T for key in ("margin", "margin_lower", "margin_upper"))
+    margin, lower, upper = (
+        _between(margins[key], (x_values, y_values), (x, y)).T
+        for key in ("margin", "margin_lower", "margin_upper")
+    )
     known = margin[np.isfinite(margin)]
     reach = max(min(float(np.abs(known).max(initial=0.0)), MOST_DECADES), 0.3)
-    axes.pcolormesh(x, y, np.ma.masked_invalid(margin), cmap="RdBu", norm=TwoSlopeNorm(0.0, -reach, reach), shading="nearest", rasterized=True,
-                    zorder=0)
+    axes.pcolormesh(
+        x,
+        y,
+        np.ma.masked_invalid(margin),
+        cmap="RdBu",
+        norm=TwoSlopeNorm(0.0, -reach, reach),
+        shading="nearest",
+        rasterized=True,
+        zorder=0,
+    )
     image = axes.collections[0]
     _label(axes.xaxis, x_name, x_values, x_unit)
     _label(axes.yaxis, y_name, y_values, y_unit)
-    open_to = np.where(np.isfinite(lower) & np.isfinite(upper), np.minimum(-lower, upper), math.nan)  # > 0 where 1 lies within
+    open_to = np.where(
+        np.isfinite(lower) & np.isfinite(upper), np.minimum(-lower, upper), math.nan
+    )  # > 0 where 1 lies within
     if np.nanmax(open_to, initial=-1.0) > 0:
         with plt.rc_context({"hatch.linewidth": 0.5, "hatch.color": "#555555"}):
-            axes.contourf(x, y, open_to, levels=[0.0, 1e3], colors="none", hatches=["////"], zorder=1)
-    handles = [Patch(facecolor="none", edgecolor="#555555", hatch="////", linewidth=0.5, label="1 lies within the 95 % band")]
-    for grid, style, label in ((margin, "-", "margin 1"), (lower, "--", "lower end 1: beyond it releases surely"), (upper, ":", "upper end 1: beyond it sticks surely")):
+            axes.contourf(
+                x, y, open_to, levels=[0.0, 1e3], colors="none", hatches=["////"], zorder=1
+            )
+    handles = [
+        Patch(
+            facecolor="none",
+            edgecolor="#555555",
+            hatch="////",
+            linewidth=0.5,
+            label="1 lies within the 95 % band",
+        )
+    ]
+    for grid, style, label in (
+        (margin, "-", "margin 1"),
+        (lower, "--", "lower end 1: beyond it releases surely"),
+        (upper, ":", "upper end 1: beyond it sticks surely"),
+    ):
         finite = grid[np.isfinite(grid)]
         if finite.size and finite.min() < 0 < finite.max():
-            axes.contour(x, y, grid, levels=[0.0], colors="black", linestyles=style, linewidths=1.8 if style == "-" else 1.3, zorder=2)
+            axes.contour(
+                x,
+                y,
+                grid,
+                levels=[0.0],
+                colors="black",
+                linestyles=style,
+                linewidths=1.8 if style == "-" else 1.3,
+                zorder=2,
+            )
             handles.append(Line2D([], [], color="black", linestyle=style, label=label))
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
-    axes.legend(handles=handles, fontsize=9, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=2, frameon=False)
+    axes.legend(
+        handles=handles,
+        fontsize=9,
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncol=2,
+        frameon=False,
+    )
     bar = axes.figure.colorbar(image, ax=axes, pad=0.02, label="margin")
-    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: ratio(10.0 ** value, 2)))
+    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: ratio(10.0**value, 2)))

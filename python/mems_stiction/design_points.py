@@ -1,7 +1,8 @@
-"""What a sweep of a design is made of: its axes, checked, and the force that holds the device at one of its points.
+"""What a sweep of a design is made of: its axes, checked, and the force that holds the device at
+one of its points.
 
-Stiffness and travel of the spring change what pulls, not what holds: they are left out of a point, and its margins go with
-their product.
+Stiffness and travel of the spring change what pulls, not what holds: they are left out of a point,
+and its margins go with their product.
 """
 
 from __future__ import annotations
@@ -19,14 +20,32 @@ from mems_stiction import _core
 from mems_stiction._arrays import Surface
 from mems_stiction._settings import OptionsError, Settings, values_of
 from mems_stiction._warnings import SettingsWarning
-from mems_stiction.design_axes import AREA, BY_RATIO, ETCH, OF_BOTH_BODIES, OF_THE_SPRING, OF_THE_SURFACE, POLISH, SCALE, STIFFNESS, TRAVEL, Axis, settings_named
+from mems_stiction.design_axes import (
+    AREA,
+    BY_RATIO,
+    ETCH,
+    OF_BOTH_BODIES,
+    OF_THE_SPRING,
+    OF_THE_SURFACE,
+    POLISH,
+    SCALE,
+    STIFFNESS,
+    TRAVEL,
+    Axis,
+    settings_named,
+)
 
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"
 MOST_AXES = 2
 MOST_VALUES = 10000  # of an axis
 MOST_WHOLE = 1e9  # that a setting counts
-# A spring that opens whatever holds: the verdict on it tells whether anything but the margin stands against a "no".
-SURE_SPRING = {STIFFNESS: 1e6, TRAVEL: 1e-2, "device/beam_type": "none"}  # the strongest that is taken: 10 kN
+# A spring that opens whatever holds: the verdict on it tells whether anything but the margin stands
+# against a "no".
+SURE_SPRING = {
+    STIFFNESS: 1e6,
+    TRAVEL: 1e-2,
+    "device/beam_type": "none",
+}  # the strongest that is taken: 10 kN
 
 
 class Hold(NamedTuple):
@@ -35,12 +54,15 @@ class Hold(NamedTuple):
     force: float  # [N]
     force_lower: float
     force_upper: float
-    shares: Tuple[float, float, float]  # margin_lower, margin_upper, margin_transition over the margin [-]
+    shares: Tuple[
+        float, float, float
+    ]  # margin_lower, margin_upper, margin_transition over the margin [-]
     doubt: str  # why the verdict is unknown whatever the spring; else empty
     is_bound: bool  # the surfaces bond, and hold at least so much
 
     def margins(self, restoring_force: float) -> Tuple[float, float, float, float]:
-        """The margin, its 95 % interval, and what it is with the prefactors of the JKR-DMT transition [-]."""
+        """The margin, its 95 % interval, and what it is with the prefactors of the JKR-DMT
+        transition [-]."""
         if self.force == 0.0:
             return (math.inf,) * 4
         margin = restoring_force / self.force
@@ -64,20 +86,29 @@ Found = Tuple[Hold, Tuple[str, ...]]  # with warnings
 def axes_of(given: Any, settings: Settings) -> List[Axis]:
     """One or two axes, the ends of each checked by themselves. Raises OptionsError."""
     if not isinstance(given, Mapping) or not 1 <= len(given) <= MOST_AXES:
-        raise OptionsError("axes: %s is not allowed, must be a dictionary with one or two names of settings, each with its values" % (
-            "a dictionary of %d" % len(given) if isinstance(given, Mapping) else repr(given)))
+        raise OptionsError(
+            "axes: %s is not allowed, must be a dictionary with one or two names of settings, each "
+            "with its values"
+            % ("a dictionary of %d" % len(given) if isinstance(given, Mapping) else repr(given))
+        )
     known = values_of(settings)
     comments = _comments_of(settings)
     axes = []
     for name, values in given.items():
         setting = settings_named(name)[0] if isinstance(name, str) else name
         if name not in OF_THE_SURFACE and setting not in known:
-            raise OptionsError("axes: there is no setting '%s'; must be one of doc/parameters.md, or %s" % (
-                name, ", ".join([*OF_BOTH_BODIES, *OF_THE_SURFACE])))
-        if setting in known and (isinstance(known[setting], bool) or not isinstance(known[setting], (int, float))):
+            raise OptionsError(
+                "axes: there is no setting '%s'; must be one of doc/parameters.md, or %s"
+                % (name, ", ".join([*OF_BOTH_BODIES, *OF_THE_SURFACE]))
+            )
+        if setting in known and (
+            isinstance(known[setting], bool) or not isinstance(known[setting], (int, float))
+        ):
             raise OptionsError("axes: %s is no number, and cannot be swept" % name)
         comment = comments.get(setting, "")
-        unit = OF_THE_SURFACE.get(name, comment[1:].partition("]")[0] if comment.startswith("[") else "")
+        unit = OF_THE_SURFACE.get(
+            name, comment[1:].partition("]")[0] if comment.startswith("[") else ""
+        )
         axis = Axis(str(name), unit, _values(name, values, "an integer" in comment))
         _check(axis, known, settings)
         axes.append(axis)
@@ -85,7 +116,10 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
 
 
 def _values(name: str, given: Any, whole: bool) -> Tuple[float, ...]:
-    wrong = "axes: %s: %r is not allowed, must be numbers: a list of them, or (from, to, count)" % (name, given)
+    wrong = "axes: %s: %r is not allowed, must be numbers: a list of them, or (from, to, count)" % (
+        name,
+        given,
+    )
     if isinstance(given, (str, bytes)):
         raise OptionsError(wrong)
     try:
@@ -97,26 +131,40 @@ def _values(name: str, given: Any, whole: bool) -> Tuple[float, ...]:
     if isinstance(given, tuple) and len(given) == 3:
         first, last, count = numbers[0], numbers[1], int(numbers[2])
         if not first < last or count != numbers[2] or not 2 <= count <= MOST_VALUES:
-            raise OptionsError("axes: %s: %r is not allowed, must be (from, to, count) with from < to and a count of 2 to %d; a list holds the values themselves" % (
-                name, given, MOST_VALUES))
+            raise OptionsError(
+                "axes: %s: %r is not allowed, must be (from, to, count) with from < to and a count "
+                "of 2 to %d; a list holds the values themselves" % (name, given, MOST_VALUES)
+            )
         is_by_ratio = first > 0 and last >= BY_RATIO * first
-        filled = np.geomspace(first, last, count) if is_by_ratio else np.linspace(first, last, count)
+        filled = (
+            np.geomspace(first, last, count) if is_by_ratio else np.linspace(first, last, count)
+        )
         numbers = [first, *(float("%.12g" % value) for value in filled[1:-1]), last]
     elif whole:
         for number in numbers:
             if number != round(number):
-                raise OptionsError("axes: %s: %g is not allowed, must be whole numbers" % (name, number))
+                raise OptionsError(
+                    "axes: %s: %g is not allowed, must be whole numbers" % (name, number)
+                )
     if len(numbers) > MOST_VALUES:
-        raise OptionsError("axes: %s: %d values are not allowed, at most %d" % (name, len(numbers), MOST_VALUES))
+        raise OptionsError(
+            "axes: %s: %d values are not allowed, at most %d" % (name, len(numbers), MOST_VALUES)
+        )
     return tuple(sorted({float(round(number)) if whole else number for number in numbers}))
 
 
 def _check(axis: Axis, known: Dict[str, Any], settings: Settings) -> None:
     if axis.name in OF_THE_SURFACE:
         if axis.values[0] < 0 or axis.values[0] == 0 and axis.name != POLISH:
-            raise OptionsError("axes: %s: %g is not allowed, must be %s 0" % (axis.name, axis.values[0], ">=" if axis.name == POLISH else ">"))
+            raise OptionsError(
+                "axes: %s: %g is not allowed, must be %s 0"
+                % (axis.name, axis.values[0], ">=" if axis.name == POLISH else ">")
+            )
         if axis.name != POLISH and known[TIP] > 0:
-            raise OptionsError("axes: %s is not allowed with %s, which is not the tip's on changed heights; clean() the scans first" % (axis.name, TIP))
+            raise OptionsError(
+                "axes: %s is not allowed with %s, which is not the tip's on changed heights; "
+                "clean() the scans first" % (axis.name, TIP)
+            )
         return
     if axis.name in OF_THE_SPRING + (AREA,) and axis.values[0] <= 0:
         raise OptionsError("axes: %s: %g is not allowed, must be > 0" % (axis.name, axis.values[0]))
@@ -142,9 +190,16 @@ def _comments_of(settings: Settings) -> Dict[str, str]:
 
 
 class Holding:
-    """A device by its scans and settings: what holds it at point after point. Goes to other processes."""
+    """A device by its scans and settings: what holds it at point after point. Goes to other
+    processes."""
 
-    def __init__(self, scans: List[Surface], upper: List[Surface], settings: Settings, etch_wavelength: Optional[float]) -> None:
+    def __init__(
+        self,
+        scans: List[Surface],
+        upper: List[Surface],
+        settings: Settings,
+        etch_wavelength: Optional[float],
+    ) -> None:
         self.scans = [mems_stiction.Scan(surface) for surface in scans]
         self.upper = [mems_stiction.Scan(surface) for surface in upper]
         self.settings, self.etch_wavelength = settings, etch_wavelength
@@ -153,7 +208,9 @@ class Holding:
         """Of scans, settings and axes: sweeps with the same one have the same rows."""
         from mems_stiction.version import version
 
-        digest = hashlib.sha256(repr((version(), axes, self.etch_wavelength)).encode() + self.settings.yaml().encode())
+        digest = hashlib.sha256(
+            repr((version(), axes, self.etch_wavelength)).encode() + self.settings.yaml().encode()
+        )
         for scan in self.scans + [None] + self.upper:  # type: ignore[list-item,operator]
             if scan is None:
                 digest.update(b"upper")
@@ -167,19 +224,34 @@ class Holding:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             warnings.simplefilter("ignore", SettingsWarning)  # said of the axes
-            stated = {name: setting_value(value) for axis, value in point.items() if axis not in OF_THE_SURFACE for name in settings_named(axis)}
+            stated = {
+                name: setting_value(value)
+                for axis, value in point.items()
+                if axis not in OF_THE_SURFACE
+                for name in settings_named(axis)
+            }
             if point.get(POLISH):
                 stated[LOW_PASS] = max(point[POLISH], float(values_of(self.settings)[LOW_PASS]))
             settings = Settings(self.settings, **stated)
             scans = [self._changed(scan, point) for scan in self.scans]
-            found = mems_stiction.predict_device(scans, config=settings, upper=self.upper or None, **SURE_SPRING)  # type: ignore[arg-type]
+            found = mems_stiction.predict_device(
+                scans, config=settings, upper=self.upper or None, **SURE_SPRING
+            )  # type: ignore[arg-type]
         verdict = found.verdict
         assert verdict is not None
-        shares = tuple(value / verdict.margin for value in (verdict.margin_lower, verdict.margin_upper, verdict.margin_transition))
+        shares = tuple(
+            value / verdict.margin
+            for value in (verdict.margin_lower, verdict.margin_upper, verdict.margin_transition)
+        )
         is_unknown = verdict.sticks != "no"
-        hold = Hold(verdict.device_pull_off_force, found.pull_off_force_lower, found.pull_off_force_upper, shares,  # type: ignore[arg-type]
-                    verdict.reason.partition("; but ")[2] or verdict.reason if is_unknown else "",
-                    is_unknown and not verdict.reason.startswith("margin "))
+        hold = Hold(
+            verdict.device_pull_off_force,
+            found.pull_off_force_lower,
+            found.pull_off_force_upper,
+            shares,  # type: ignore[arg-type]
+            verdict.reason.partition("; but ")[2] or verdict.reason if is_unknown else "",
+            is_unknown and not verdict.reason.startswith("margin "),
+        )
         return hold, tuple(str(warning.message) for warning in told)
 
     def _changed(self, scan: Any, point: Dict[str, float]) -> Any:
@@ -191,4 +263,8 @@ class Holding:
             smooth = mems_stiction.clean(scan, None, {LOW_PASS: self.etch_wavelength}).heights
             heights = heights + (etch - 1.0) * (heights - smooth)
         pixels = np.array(scale * heights, dtype=np.float64, order="C")
-        return mems_stiction.Scan(scan._surface._replace(core=_core.height_map(pixels, scan.pitch[0], scan.pitch[1], _core.Configuration())))
+        return mems_stiction.Scan(
+            scan._surface._replace(
+                core=_core.height_map(pixels, scan.pitch[0], scan.pitch[1], _core.Configuration())
+            )
+        )

@@ -14,8 +14,16 @@ from mems_stiction.design_axes import OF_THE_SPRING, Axis
 from mems_stiction.design_points import Hold
 from mems_stiction.whole_file import CannotWrite, refuse_pipe, whole
 
-FIGURES = ("restoring_force", "pull_off_force", "pull_off_force_lower", "pull_off_force_upper", "margin", "margin_lower", "margin_upper",
-           "margin_transition")
+FIGURES = (
+    "restoring_force",
+    "pull_off_force",
+    "pull_off_force_lower",
+    "pull_off_force_upper",
+    "margin",
+    "margin_lower",
+    "margin_upper",
+    "margin_transition",
+)
 WORDS = ("sticks", "doubt", "version", "sweep")
 ENDINGS = (".csv",)
 
@@ -28,7 +36,9 @@ class Rows:
     Raises OptionsError for a file that holds anything but rows of the same sweep, OSError.
     """
 
-    def __init__(self, axes: List[Axis], fixed: Dict[str, float], fingerprint: str, path: Any) -> None:
+    def __init__(
+        self, axes: List[Axis], fixed: Dict[str, float], fingerprint: str, path: Any
+    ) -> None:
         from mems_stiction.version import version
 
         self.axes, self.fixed, self.fingerprint, self.version = axes, fixed, fingerprint, version()
@@ -78,8 +88,18 @@ class Rows:
             force = 1.0
             for name in OF_THE_SPRING:
                 force *= row.get(name, self.fixed.get(name, 0.0))
-            row.update(zip(FIGURES, (force, hold.force, hold.force_lower, hold.force_upper) + hold.margins(force)))
-            row.update(sticks=hold.word(force), doubt=hold.doubt, version=self.version, sweep=self.fingerprint)
+            row.update(
+                zip(
+                    FIGURES,
+                    (force, hold.force, hold.force_lower, hold.force_upper) + hold.margins(force),
+                )
+            )
+            row.update(
+                sticks=hold.word(force),
+                doubt=hold.doubt,
+                version=self.version,
+                sweep=self.fingerprint,
+            )
         return rows
 
     def _places_of(self, key: Key) -> List[Dict[str, Any]]:
@@ -92,7 +112,10 @@ class Rows:
         return places
 
     def _cells(self, row: Dict[str, Any]) -> List[Any]:
-        return [repr(row[name]) if isinstance(row[name], float) else csv_cell(row[name]) for name in self.names]
+        return [
+            repr(row[name]) if isinstance(row[name], float) else csv_cell(row[name])
+            for name in self.names
+        ]
 
     def _read(self) -> None:
         """Forces that an earlier run has found. A last line that was torn off is found again."""
@@ -129,8 +152,14 @@ class Rows:
                 self.rows[key] = rows
 
     def _foreign(self) -> OptionsError:
-        return OptionsError("%s: holds no rows of a sweep, and is not written over; remove it, or name another file" % self.path)
+        return OptionsError(
+            "%s: holds no rows of a sweep, and is not written over; remove it, or name another file"
+            % self.path
+        )
 
     def _other(self) -> OptionsError:
-        return OptionsError("%s: holds rows of another sweep (other scans, settings, axes or version), which this one cannot continue; "
-                            "remove it, or name another file" % self.path)
+        return OptionsError(
+            "%s: holds rows of another sweep (other scans, settings, axes or version), which this "
+            "one cannot continue; "
+            "remove it, or name another file" % self.path
+        )

@@ -29,16 +29,27 @@ def text_of(value: float, unit: str) -> str:
 
 
 def crossings(values: Sequence[float], margins: Sequence[float]) -> List[Crossing]:
-    """ln margin is a straight line between values of the axis: over their logarithms, where all are > 0."""
+    """ln margin is a straight line between values of the axis: over their logarithms, where all are
+    > 0."""
     is_by_ratio = values[0] > 0
     x = [math.log(value) if is_by_ratio else value for value in values]
-    y = [math.log(min(max(margin, 1.0 / LARGEST), LARGEST)) if not math.isnan(margin) else math.nan for margin in margins]
+    y = [
+        math.log(min(max(margin, 1.0 / LARGEST), LARGEST)) if not math.isnan(margin) else math.nan
+        for margin in margins
+    ]
     found = []
     for place in range(len(x) - 1):
         if math.isnan(y[place]) or math.isnan(y[place + 1]) or (y[place] > 0) == (y[place + 1] > 0):
             continue
         at = x[place] + (x[place + 1] - x[place]) * y[place] / (y[place] - y[place + 1])
-        found.append(Crossing(math.exp(at) if is_by_ratio else at, y[place + 1] > 0, values[place], values[place + 1]))
+        found.append(
+            Crossing(
+                math.exp(at) if is_by_ratio else at,
+                y[place + 1] > 0,
+                values[place],
+                values[place + 1],
+            )
+        )
     return found
 
 
@@ -47,7 +58,10 @@ def told_once(texts: Sequence[str]) -> List[str]:
     alike: Dict[str, List[str]] = {}
     for text in texts:
         alike.setdefault(re.sub(r"\d+(\.\d+)?(e[+-]?\d+)?", "#", text), []).append(text)
-    return [found[0] + ("" if len(set(found)) == 1 else " (the figures of other points differ)") for found in alike.values()]
+    return [
+        found[0] + ("" if len(set(found)) == 1 else " (the figures of other points differ)")
+        for found in alike.values()
+    ]
 
 
 def sought_first(axes: List[Axis]) -> List[Axis]:
@@ -62,14 +76,25 @@ def statements_of(axes: List[Axis], rows: List[Dict[str, Any]]) -> Tuple[str, ..
     if len(ordered) == 1:
         return (_sentence(sought, rows),)
     other = ordered[1]
-    return tuple("at %s %s: %s" % (other.word, text_of(value, other.unit), _sentence(sought, [row for row in rows if row[other.name] == value]))
-                 for value in other.values)
+    return tuple(
+        "at %s %s: %s"
+        % (
+            other.word,
+            text_of(value, other.unit),
+            _sentence(sought, [row for row in rows if row[other.name] == value]),
+        )
+        for value in other.values
+    )
 
 
 def _surely(row: Dict[str, Any]) -> float:
     """The least margin that the interval allows."""
     lowest = min(row["margin_lower"], row["margin_transition"])
-    return math.nan if math.isnan(row["margin_lower"]) or math.isnan(row["margin_transition"]) else lowest
+    return (
+        math.nan
+        if math.isnan(row["margin_lower"]) or math.isnan(row["margin_transition"])
+        else lowest
+    )
 
 
 def _sentence(axis: Axis, rows: List[Dict[str, Any]]) -> str:
@@ -92,20 +117,31 @@ def _limit(axis: Axis, rows: List[Dict[str, Any]], lowest: List[float]) -> str:
     if len(sure) > 1:
         return "%s releases surely %s" % (axis.word, " and ".join(_stretches(axis, lowest, sure)))
     limit = sure[0]
-    text = "%s %s that releases surely: %s" % ("smallest" if limit.rises else "largest", axis.word, safe_text(limit, axis.unit))
+    text = "%s %s that releases surely: %s" % (
+        "smallest" if limit.rises else "largest",
+        axis.word,
+        safe_text(limit, axis.unit),
+    )
     notes = []
     even = crossings(axis.values, [row["margin"] for row in rows])
     if len(even) == 1:
         notes.append("the margin is 1 at %s" % text_of(even[0].value, axis.unit))
     if axis.name not in OF_THE_SPRING:
-        notes.append("interpolated between %s and %s" % (text_of(limit.below, axis.unit), text_of(limit.above, axis.unit)))
+        notes.append(
+            "interpolated between %s and %s"
+            % (text_of(limit.below, axis.unit), text_of(limit.above, axis.unit))
+        )
     return text + (" (%s)" % "; ".join(notes) if notes else "")
 
 
 def _none(axis: Axis, ends: str, lowest: List[float]) -> str:
     place = max(range(len(lowest)), key=lambda index: lowest[index])
     text = "no %s of %s releases surely: the lower end of the margin is at most %s, at %s" % (
-        axis.word, ends, ratio(lowest[place]), text_of(axis.values[place], axis.unit))
+        axis.word,
+        ends,
+        ratio(lowest[place]),
+        text_of(axis.values[place], axis.unit),
+    )
     if axis.name in OF_THE_SPRING and lowest[-1] > 0:
         wanted = Crossing(axis.values[-1] / lowest[-1], True, 0.0, math.inf)
         text += "; the margin goes in proportion, so %s would" % safe_text(wanted, axis.unit)
@@ -114,7 +150,11 @@ def _none(axis: Axis, ends: str, lowest: List[float]) -> str:
 
 def safe_text(crossing: Crossing, unit: str) -> str:
     """Rounded to where the margin is larger."""
-    step = 10.0 ** (math.floor(math.log10(abs(crossing.value))) - DIGITS + 1) if crossing.value else 1.0
+    step = (
+        10.0 ** (math.floor(math.log10(abs(crossing.value))) - DIGITS + 1)
+        if crossing.value
+        else 1.0
+    )
     steps = crossing.value / step
     if abs(steps - round(steps)) > 1e-9 * abs(steps):
         steps = math.ceil(steps) if crossing.rises else math.floor(steps)
@@ -133,8 +173,14 @@ def _stretches(axis: Axis, lowest: List[float], sure: List[Crossing]) -> List[st
 
 
 def _doubt(axis: Axis, rows: List[Dict[str, Any]]) -> str:
-    """What stands against a verdict where the margin alone would say "no"; what to do about it is in the rows."""
-    doubted: Optional[Dict[str, Any]] = next((row for row in rows if row["doubt"] and _surely(row) > 1.0), None)
+    """What stands against a verdict where the margin alone would say "no"; what to do about it is
+    in the rows."""
+    doubted: Optional[Dict[str, Any]] = next(
+        (row for row in rows if row["doubt"] and _surely(row) > 1.0), None
+    )
     if doubted is None:
         return ""
-    return "; but at %s the verdict stays unknown: %s" % (text_of(doubted[axis.name], axis.unit), doubted["doubt"].partition(": ")[0])
+    return "; but at %s the verdict stays unknown: %s" % (
+        text_of(doubted[axis.name], axis.unit),
+        doubted["doubt"].partition(": ")[0],
+    )

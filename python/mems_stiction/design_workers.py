@@ -1,7 +1,7 @@
 """Points of a sweep in processes of this machine: each gets one when it has answered.
 
-No pool of the standard library: those have threads of their own, and an interruption that falls between two steps of a lock leaves it locked, so that
-the pool waits for its thread for ever.
+No pool of the standard library: those have threads of their own, and an interruption that falls
+between two steps of a lock leaves it locked, so that the pool waits for its thread for ever.
 """
 
 from __future__ import annotations
@@ -22,8 +22,11 @@ Answers = Generator[Tuple[Dict[str, float], Found], None, None]
 
 
 def answers_of_processes(holding: Holding, points: List[Dict[str, float]], count: int) -> Answers:
-    """Each point with what holds there, in the order in which they end. The processes end with the generator. Raises Error where one has ended."""
-    context = multiprocessing.get_context("spawn")  # not forked: the core's threads and locks would be copied as they stand
+    """Each point with what holds there, in the order in which they end. The processes end with the
+    generator. Raises Error where one has ended."""
+    context = multiprocessing.get_context(
+        "spawn"
+    )  # not forked: the core's threads and locks would be copied as they stand
     processes: List[Any] = []
     under_way: Dict[Any, Dict[str, float]] = {}
     waiting = iter(points)
@@ -63,8 +66,11 @@ def _named_end() -> Iterator[None]:
     try:
         yield
     except (EOFError, OSError):
-        raise Error("a worker process has ended: memory may be short, or a program that calls design_sweep() lacks "
-                    "`if __name__ == \"__main__\":`; workers=1 does without other processes") from None
+        raise Error(
+            "a worker process has ended: memory may be short, or a program that calls "
+            "design_sweep() lacks "
+            '`if __name__ == "__main__":`; workers=1 does without other processes'
+        ) from None
 
 
 def _work(asked: Any, holding: Holding) -> None:

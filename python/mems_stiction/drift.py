@@ -1,14 +1,19 @@
-"""Whether a series drifts: an average of the newest values, and rules on runs, beside the control limits. No ROS here.
+"""Whether a series drifts: an average of the newest values, and rules on runs, beside the control
+limits. No ROS here.
 
-The first values are the baseline: their centre and scatter (control_chart) judge those that follow, so that a drift does not widen its own limits.
+The first values are the baseline: their centre and scatter (control_chart) judge those that follow,
+so that a drift does not widen its own limits.
 
-The average is the EWMA (Roberts 1959; Montgomery, Introduction to Statistical Quality Control, section 9.2) z = 0.2 x + 0.8 z, which finds slow
-changes that no single value shows. Its limits, 2.86 sigma of z, would be crossed by chance once in 370 values if centre and sigma were known; so would
-those of single values, at 3 sigma. They are from the baseline: so the centre's own variance is added, and 2.86 and 3 become quantiles of Student's t
-with the degrees of freedom of a mean moving range.
+The average is the EWMA (Roberts 1959; Montgomery, Introduction to Statistical Quality Control,
+section 9.2) z = 0.2 x + 0.8 z, which finds slow changes that no single value shows. Its limits,
+2.86 sigma of z, would be crossed by chance once in 370 values if centre and sigma were known; so
+would those of single values, at 3 sigma. They are from the baseline: so the centre's own variance
+is added, and 2.86 and 3 become quantiles of Student's t with the degrees of freedom of a mean
+moving range.
 
-The rules on runs are those of Western Electric (1956) and Nelson (J. Quality Technology 16 (1984) 237). All of them together call most series of a
-hundred values that do not change; so they are signs, and only the average and the single value raise an alarm unless told otherwise.
+The rules on runs are those of Western Electric (1956) and Nelson (J. Quality Technology 16 (1984)
+237). All of them together call most series of a hundred values that do not change; so they are
+signs, and only the average and the single value raise an alarm unless told otherwise.
 """
 
 import math
@@ -37,12 +42,15 @@ ALARMS = ("average", "outside")
 class DriftState:
     """What the newest value says. Limits are NaN while the baseline grows.
 
-    count: values so far; broken: names of rules, those of RULES; is_alarm: one of those that raise it is among them; rises: on which side.
+    count: values so far; broken: names of rules, those of RULES; is_alarm: one of those that raise
+    it is among them; rises: on which side.
     """
 
     def __init__(self, value, count, baseline):
         self.value, self.count, self.baseline = value, count, baseline
-        self.centre = self.lower = self.upper = self.average = self.average_lower = self.average_upper = math.nan
+        self.centre = self.lower = self.upper = self.average = self.average_lower = (
+            self.average_upper
+        ) = math.nan
         self.broken = ()
         self.is_alarm = self.rises = False
 
@@ -52,7 +60,11 @@ class DriftState:
             return "baseline of %s: %d of %d scans" % (what, self.count, self.baseline)
         signs = "; ".join(RULES[name] for name in self.broken)
         if not self.is_alarm:
-            return "no drift of %s in %d scans%s" % (what, self.count, ", but a sign: " + signs if signs else "")
+            return "no drift of %s in %d scans%s" % (
+                what,
+                self.count,
+                ", but a sign: " + signs if signs else "",
+            )
         return "%s is %s: %s" % (what, "high" if self.rises else "low", signs)
 
 
@@ -73,7 +85,8 @@ class DriftChart:
         return DriftState(math.nan, 0, self._size)
 
     def add(self, value):
-        """The state after this value, which is > 0 and finite; None for another, which is passed over."""
+        """The state after this value, which is > 0 and finite; None for another, which is passed
+        over."""
         if not 0.0 < value < math.inf:
             return None
         self._count += 1
@@ -92,20 +105,34 @@ class DriftChart:
         self._limits = control_limits(self._baseline)
         self._average = math.log(self._limits.centre)
         self._sigma = max(math.log(self._limits.upper / self._limits.centre) / 3.0, LEAST_SIGMA)
-        self._reach, self._reach_of_one = (float(t.isf(norm.sf(reach), FREEDOM * (self._size - 1))) for reach in (REACH, SINGLE))
+        self._reach, self._reach_of_one = (
+            float(t.isf(norm.sf(reach), FREEDOM * (self._size - 1))) for reach in (REACH, SINGLE)
+        )
 
     def _judge(self, value, state):
         centre = math.log(self._limits.centre)
         self._watched += 1
         self._average += WEIGHT * (value - self._average)
         memory = (1.0 - WEIGHT) ** self._watched
-        share = WEIGHT / (2.0 - WEIGHT) * (1.0 - memory ** 2) + (1.0 - memory) ** 2 / self._size
+        share = WEIGHT / (2.0 - WEIGHT) * (1.0 - memory**2) + (1.0 - memory) ** 2 / self._size
         reach = self._reach * self._sigma * math.sqrt(share)
         single = self._reach_of_one * self._sigma * math.sqrt(1.0 + 1.0 / self._size)
         self._newest = (self._newest + [(value - centre) / self._sigma])[-LONGEST:]
-        state.centre, state.lower, state.upper = self._limits.centre, math.exp(centre - single), math.exp(centre + single)
-        state.average, state.average_lower, state.average_upper = (math.exp(end) for end in (self._average, centre - reach, centre + reach))
-        sides = {name: side for name, side in self._sides(self._average - centre, reach, single / self._sigma).items() if side}
+        state.centre, state.lower, state.upper = (
+            self._limits.centre,
+            math.exp(centre - single),
+            math.exp(centre + single),
+        )
+        state.average, state.average_lower, state.average_upper = (
+            math.exp(end) for end in (self._average, centre - reach, centre + reach)
+        )
+        sides = {
+            name: side
+            for name, side in self._sides(
+                self._average - centre, reach, single / self._sigma
+            ).items()
+            if side
+        }
         state.broken = tuple(name for name in RULES if name in sides)
         raised = [name for name in state.broken if name in self._alarms]
         state.is_alarm = bool(raised)
@@ -128,5 +155,8 @@ class DriftChart:
 
 def _side(values, beyond, count):
     """On which side so many are, the newest among them."""
-    above, below = (sum(sign * value > beyond for value in values) >= count and sign * values[-1] > beyond for sign in (1.0, -1.0))
+    above, below = (
+        sum(sign * value > beyond for value in values) >= count and sign * values[-1] > beyond
+        for sign in (1.0, -1.0)
+    )
     return above - below

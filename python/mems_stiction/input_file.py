@@ -1,11 +1,16 @@
-"""Files that a script reads, asked before they are opened: a pipe would wait for its writer, a device has no end."""
+"""Files that a script reads, asked before they are opened: a pipe would wait for its writer, a
+device has no end."""
 
 import os
 import pathlib
 import stat
 from typing import Optional, Union
 
-OPEN_STREAMS = ("/dev/std", "/dev/fd/", "/proc/self/fd/")  # what the shell has opened, perhaps a pipe
+OPEN_STREAMS = (
+    "/dev/std",
+    "/dev/fd/",
+    "/proc/self/fd/",
+)  # what the shell has opened, perhaps a pipe
 
 
 class UnfitFile(Exception):
@@ -13,7 +18,8 @@ class UnfitFile(Exception):
 
 
 def require_file(path: Union[str, pathlib.Path], what: str, most: Optional[int] = None) -> None:
-    """Raises UnfitFile for what is no file or has more than so many bytes, OSError where there is none.
+    """Raises UnfitFile for what is no file or has more than so many bytes, OSError where there is
+    none.
 
     what: as what it is read, with its article, as in "a bag".
     """

@@ -1,14 +1,18 @@
-"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program that this signal ends. TERM and HUP
-(a closed terminal) end it in the same way: a process that they killed would leave its name at the ROS master, and the load that it set.
-Then the program exits with the status 130 itself, whoever started it: "killed by SIGINT" would be false, since nobody sent that signal.
+"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program
+that this signal ends. TERM and HUP (a closed terminal) end it in the same way: a process that they
+killed would leave its name at the ROS master, and the load that it set.
+Then the program exits with the status 130 itself, whoever started it: "killed by SIGINT" would be
+false, since nobody sent that signal.
 
-A program imports this before all that is slow to import. While it loads, Ctrl-C ends it at once: a KeyboardInterrupt would be
-printed as a traceback by whoever is being loaded. When main() begins, it calls raise_from_here_on().
+A program imports this before all that is slow to import. While it loads, Ctrl-C ends it at once: a
+KeyboardInterrupt would be printed as a traceback by whoever is being loaded. When main() begins, it
+calls raise_from_here_on().
 
-Python drops a KeyboardInterrupt that falls into a finalizer or a callback of a weak reference, and prints its traceback. Here it comes once
-more a moment later. A library that turns it into an error of its own (an import that failed) is told apart by the error's context; for one
-that excepts everything and says nothing there is raise_if_swallowed(). In the last moments of a process, when Python takes its modules apart
-and neither hook of this one is left, Ctrl-C ends it without a word.
+Python drops a KeyboardInterrupt that falls into a finalizer or a callback of a weak reference, and
+prints its traceback. Here it comes once more a moment later. A library that turns it into an error
+of its own (an import that failed) is told apart by the error's context; for one that excepts
+everything and says nothing there is raise_if_swallowed(). In the last moments of a process, when
+Python takes its modules apart and neither hook of this one is left, Ctrl-C ends it without a word.
 """
 
 import atexit
@@ -45,7 +49,8 @@ def _end_now(*_):
 
 
 def raise_if_swallowed():
-    """For a program between two steps of its own, since rospy, which closes a connection, excepts whatever falls into that, and goes on."""
+    """For a program between two steps of its own, since rospy, which closes a connection, excepts
+    whatever falls into that, and goes on."""
     if _has_come:
         raise KeyboardInterrupt
 
@@ -91,13 +96,15 @@ def raise_from_here_on():
 
 
 def ignore_from_here_on():
-    """For the end of a program: a second Ctrl-C does not tear what others still put away, as rospy does."""
+    """For the end of a program: a second Ctrl-C does not tear what others still put away, as rospy
+    does."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
 
 
 class Waiting:
-    """Interruptions wait from here on, to end(). A mask of the process would not do: Python notes signals that other threads get."""
+    """Interruptions wait from here on, to end(). A mask of the process would not do: Python notes
+    signals that other threads get."""
 
     def __init__(self):
         self._has_come = None  # the number of the signal
@@ -118,7 +125,8 @@ class Waiting:
 
 @contextlib.contextmanager
 def temporary_folder(prefix):
-    """A folder that goes afterwards, wherever an interruption falls: one that comes while it is made or removed waits."""
+    """A folder that goes afterwards, wherever an interruption falls: one that comes while it is
+    made or removed waits."""
     waiting = Waiting()
     try:
         folder = pathlib.Path(tempfile.mkdtemp(prefix=prefix))
@@ -137,18 +145,23 @@ def temporary_folder(prefix):
 
 
 def _end_at_once_from_here_on():
-    """The last of what Python calls before it takes itself apart. What an interruption that was dropped is to raise again ends the process."""
+    """The last of what Python calls before it takes itself apart. What an interruption that was
+    dropped is to raise again ends the process."""
     signal.setitimer(signal.ITIMER_REAL, 0.0)
     ours = [number for number in ENDINGS if signal.getsignal(number) == _raise]
     for number in ours:
-        signal.signal(number, signal.SIG_IGN if number in OTHERS else signal.SIG_DFL)  # what is done has its own status
+        signal.signal(
+            number, signal.SIG_IGN if number in OTHERS else signal.SIG_DFL
+        )  # what is done has its own status
     if signal.SIGALRM in ours:
         if _is_of_others:
             os._exit(STATUS)
         os.kill(os.getpid(), signal.SIGINT)
 
 
-atexit.register(_end_at_once_from_here_on)  # the first that is registered is the last that is called
+atexit.register(
+    _end_at_once_from_here_on
+)  # the first that is registered is the last that is called
 sys.excepthook = _say
 sys.unraisablehook = _raise_again
 if signal.getsignal(signal.SIGINT) == signal.default_int_handler:

@@ -1,4 +1,5 @@
-"""Runs one of the node's long actions for a person at a terminal: progress, and Ctrl-C that cancels and keeps what is done."""
+"""Runs one of the node's long actions for a person at a terminal: progress, and Ctrl-C that cancels
+and keeps what is done."""
 
 import argparse
 import math
@@ -31,12 +32,17 @@ def run(action, kind, goal, timeout):
     client = actionlib.ActionClient(action, kind)
     if not client.wait_for_server(rospy.Duration(timeout)):
         raise CannotRun(no_node("action", action, timeout))
-    with tqdm(desc=action.split("/")[-1], unit="", leave=False, disable=None, file=sys.stderr) as bar:
+    with tqdm(
+        desc=action.split("/")[-1], unit="", leave=False, disable=None, file=sys.stderr
+    ) as bar:
+
         def show(_, feedback):
             bar.total = feedback.total
             bar.update(feedback.done - bar.n)
 
-        waiting = Waiting()  # the node may be at work before send_goal() has said which goal is to be cancelled
+        waiting = (
+            Waiting()
+        )  # the node may be at work before send_goal() has said which goal is to be cancelled
         try:
             handle = client.send_goal(goal, feedback_cb=show)
         except Exception:
@@ -73,23 +79,30 @@ def spread(items, most):
 
 
 def numbers(text):
-    """"0,5,10" or FIRST:LAST:STEP, as in "0:30:2.5", the last one included."""
+    """ "0,5,10" or FIRST:LAST:STEP, as in "0:30:2.5", the last one included."""
     parts = text.split(":" if ":" in text else ",")
     if any(re.match(r"[+-]?0\d", part.strip()) for part in parts):
-        raise NoNumbers("'%s' is not allowed: commas stand between numbers, the decimal sign is a point" % text)
+        raise NoNumbers(
+            "'%s' is not allowed: commas stand between numbers, the decimal sign is a point" % text
+        )
     try:
         values = [float(part) for part in parts]
     except ValueError:
         values = []
     if not values or not all(map(math.isfinite, values)) or (":" in text and len(values) != 3):
-        raise NoNumbers("'%s' is not allowed, must be numbers with commas between, or FIRST:LAST:STEP" % text)
+        raise NoNumbers(
+            "'%s' is not allowed, must be numbers with commas between, or FIRST:LAST:STEP" % text
+        )
     if ":" not in text:
         return values
     first, last, step = values
     if not step > 0:
         raise NoNumbers("'%s' is not allowed, the step must be > 0" % text)
     if first > last:
-        raise NoNumbers("'%s' is not allowed: nothing lies from %g up to %g; the way down follows by itself" % (text, first, last))
+        raise NoNumbers(
+            "'%s' is not allowed: nothing lies from %g up to %g; the way down follows by itself"
+            % (text, first, last)
+        )
     if (last - first) / step > MOST_NUMBERS:
         raise NoNumbers("'%s' is not allowed: more than %d numbers" % (text, MOST_NUMBERS))
     count = int((last - first) / step * (1 + 1e-12) + 1e-9) + 1
@@ -97,11 +110,17 @@ def numbers(text):
 
 
 def write_points(messages, path, result):
-    """A CSV, or Parquet, with one line for each message, its field names, and what the result says of where it comes from."""
+    """A CSV, or Parquet, with one line for each message, its field names, and what the result says
+    of where it comes from."""
     names = messages[0].__slots__ if messages else []
     known = {name: getattr(result, name) for name in PROVENANCE}
-    origin = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in known.items()}
-    rows = [dict({name: getattr(message, name) for name in names}, **origin) for message in messages]
+    origin = {
+        name: None if isinstance(value, float) and math.isnan(value) else value
+        for name, value in known.items()
+    }
+    rows = [
+        dict({name: getattr(message, name) for name in names}, **origin) for message in messages
+    ]
     units = dict(units_of(type(messages[0])) if messages else {}, site_x="m", site_y="m")
     write_rows(path, list(names) + list(PROVENANCE), rows, units, origin)
 

@@ -1,4 +1,5 @@
-"""Rows of stiction_batch as places of parts, wafers and lots: what is compared, and under which condition each was predicted."""
+"""Rows of stiction_batch as places of parts, wafers and lots: what is compared, and under which
+condition each was predicted."""
 
 from __future__ import annotations
 
@@ -9,7 +10,19 @@ import math
 import os
 import pathlib
 import sys
-from typing import IO, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Set, Tuple
+from typing import (
+    IO,
+    Any,
+    Dict,
+    Iterable,
+    Iterator,
+    List,
+    Mapping,
+    NamedTuple,
+    Optional,
+    Set,
+    Tuple,
+)
 
 import numpy as np
 
@@ -21,15 +34,46 @@ RELEASING = ("margin", "peel_number")  # the device sticks below 1
 FORCES = ("device_pull_off_force", "pull_off_force")
 FIGURES = RELEASING + FORCES  # in the order in which they are looked for
 VOLTAGES = ("voltage", "load/voltage")  # as rows of stiction_batch and of design_sweep name it
-WORDS = {"margin": "margin", "peel_number": "peel number", "device_pull_off_force": "pull-off force of the device", "pull_off_force": "pull-off force",
-         "rms_height": "rms height", "voltage": "voltage", "load/voltage": "voltage"}
-UNITS = {"margin": "", "peel_number": "", "device_pull_off_force": "N", "pull_off_force": "N", "rms_height": "m", "voltage": "V", "load/voltage": "V"}
+WORDS = {
+    "margin": "margin",
+    "peel_number": "peel number",
+    "device_pull_off_force": "pull-off force of the device",
+    "pull_off_force": "pull-off force",
+    "rms_height": "rms height",
+    "voltage": "voltage",
+    "load/voltage": "voltage",
+}
+UNITS = {
+    "margin": "",
+    "peel_number": "",
+    "device_pull_off_force": "N",
+    "pull_off_force": "N",
+    "rms_height": "m",
+    "voltage": "V",
+    "load/voltage": "V",
+}
 MOST_BYTES = 4 << 30
 ENDINGS = (".csv", ".jsonl", ".ndjson", PARQUET)
 RMS_HEIGHT = "rms_height"
 SITES = ("site_x", "site_y")
-TEXTS = ("lot_id", "wafer_id", "part_id", "serial_id", "settings_hash", "scan_name", "name", "file", "governed_by")
-NUMBERS = FIGURES + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper")) + VOLTAGES + SITES + (RMS_HEIGHT,)
+TEXTS = (
+    "lot_id",
+    "wafer_id",
+    "part_id",
+    "serial_id",
+    "settings_hash",
+    "scan_name",
+    "name",
+    "file",
+    "governed_by",
+)
+NUMBERS = (
+    FIGURES
+    + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper"))
+    + VOLTAGES
+    + SITES
+    + (RMS_HEIGHT,)
+)
 
 
 class Place(NamedTuple):
@@ -63,7 +107,9 @@ class Lots(NamedTuple):
     force: str  # the column of the forces
     against: str  # a column; empty where no condition varies
     places: Tuple[Place, ...]  # in the order of the rows
-    chosen: Tuple[Place, ...]  # under one condition: those that lots, wafers and parts are compared by
+    chosen: Tuple[
+        Place, ...
+    ]  # under one condition: those that lots, wafers and parts are compared by
     at: float  # that condition
 
     def conditions(self) -> List[float]:
@@ -74,14 +120,17 @@ class Lots(NamedTuple):
 
 
 class _Table:
-    """What is needed of all rows, by columns: a row of stiction_batch has some hundred cells, and there may be millions of rows."""
+    """What is needed of all rows, by columns: a row of stiction_batch has some hundred cells, and
+    there may be millions of rows."""
 
     def __init__(self, against: Optional[str]) -> None:
         self.count = 0
         self.has_against = False
         self._against = against
         self._texts: Dict[str, List[str]] = {name: [] for name in TEXTS}
-        self._numbers = {name: array.array("d") for name in NUMBERS + ((against,) if against else ())}
+        self._numbers = {
+            name: array.array("d") for name in NUMBERS + ((against,) if against else ())
+        }
         self.columns = {*self._texts, *self._numbers}
 
     def add(self, row: Mapping[str, Any]) -> None:
@@ -90,7 +139,11 @@ class _Table:
         for name, texts in self._texts.items():
             texts.append(sys.intern(_text(row.get(name, ""))))
         for name, numbers in self._numbers.items():
-            numbers.append(_site(row.get(name), name, self.count) if name in SITES else _number(row.get(name, math.nan)))
+            numbers.append(
+                _site(row.get(name), name, self.count)
+                if name in SITES
+                else _number(row.get(name, math.nan))
+            )
 
     def texts(self, name: str) -> List[str]:
         return self._texts[name]
@@ -104,18 +157,23 @@ class _Table:
 
 
 def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
-    """Dictionaries from a path, several, a table of pandas, records of NumPy, or dictionaries; of files and tables with these columns alone. Raises
+    """Dictionaries from a path, several, a table of pandas, records of NumPy, or dictionaries; of
+    files and tables with these columns alone. Raises
     OptionsError, FileError."""
     if isinstance(rows, (str, os.PathLike)):
         yield from _read(pathlib.Path(os.fspath(rows)), columns)
     elif callable(getattr(rows, "to_dict", None)) and hasattr(rows, "columns"):
         names = [name for name in rows.columns if name in columns]
-        yield from (dict(zip(names, cells)) for cells in zip(*(rows[name].tolist() for name in names)))
+        yield from (
+            dict(zip(names, cells)) for cells in zip(*(rows[name].tolist() for name in names))
+        )
     elif isinstance(rows, np.ndarray) and rows.dtype.names:
         yield from (dict(zip(rows.dtype.names, row)) for row in rows.tolist())
     elif isinstance(rows, Mapping) or not isinstance(rows, Iterable):
-        raise OptionsError("rows: %s is not allowed, must be the path of rows of stiction_batch, a list of dictionaries, or a table of pandas" % (
-            type(rows).__name__,))
+        raise OptionsError(
+            "rows: %s is not allowed, must be the path of rows of stiction_batch, a list of "
+            "dictionaries, or a table of pandas" % (type(rows).__name__,)
+        )
     else:
         for row in rows:
             if isinstance(row, Mapping):
@@ -123,12 +181,17 @@ def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
             elif isinstance(row, (str, os.PathLike)):
                 yield from _read(pathlib.Path(os.fspath(row)), columns)
             else:
-                raise OptionsError("rows: an item is %r, must be a dictionary or the path of a file" % (row,))
+                raise OptionsError(
+                    "rows: an item is %r, must be a dictionary or the path of a file" % (row,)
+                )
 
 
 def _read(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
     if path.suffix not in ENDINGS:
-        raise OptionsError("rows: '%s' is not allowed, must end in %s or %s" % (path, ", ".join(ENDINGS[:-1]), ENDINGS[-1]))
+        raise OptionsError(
+            "rows: '%s' is not allowed, must end in %s or %s"
+            % (path, ", ".join(ENDINGS[:-1]), ENDINGS[-1])
+        )
     try:
         require_file(path, "rows of stiction_batch", MOST_BYTES)
         if path.suffix == PARQUET:
@@ -163,45 +226,70 @@ def _parquet_rows(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str
     try:
         import pyarrow.parquet
     except ImportError:
-        raise OptionsError("rows: '%s' needs the Python package pyarrow (pip install pyarrow)" % path) from None
+        raise OptionsError(
+            "rows: '%s' needs the Python package pyarrow (pip install pyarrow)" % path
+        ) from None
     with open(str(path), "rb") as stream:
         file = pyarrow.parquet.ParquetFile(stream)
-        for batch in file.iter_batches(columns=[name for name in file.schema_arrow.names if name in columns]):
+        for batch in file.iter_batches(
+            columns=[name for name in file.schema_arrow.names if name in columns]
+        ):
             yield from batch.to_pylist()
 
 
 def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = None) -> Lots:
     """Raises OptionsError where nothing can be compared, FileError."""
     if figure is not None and figure not in FIGURES:
-        raise OptionsError("figure: %r is not allowed, must be one of: %s" % (figure, ", ".join(FIGURES)))
+        raise OptionsError(
+            "figure: %r is not allowed, must be one of: %s" % (figure, ", ".join(FIGURES))
+        )
     table = _Table(against)
     for row in _rows_of(rows, table.columns):
         table.add(row)
-    is_peeled = "peeling" in table.texts("governed_by") and "force" not in table.texts("governed_by")
+    is_peeled = "peeling" in table.texts("governed_by") and "force" not in table.texts(
+        "governed_by"
+    )
     looked_for = (figure,) if figure else FIGURES[1::-1] + FIGURES[2:] if is_peeled else FIGURES
     chosen = next((name for name in looked_for if table.has(name)), None)
     if not table.count:
         raise OptionsError("rows: there is none, must hold one row at least")
     if chosen is None:
-        raise OptionsError("rows: none of %d has a %s > 0" % (table.count, " or a ".join((figure,) if figure else FIGURES)))
+        raise OptionsError(
+            "rows: none of %d has a %s > 0"
+            % (table.count, " or a ".join((figure,) if figure else FIGURES))
+        )
     column = _against(against, table)
-    force = chosen if chosen in FORCES else next((name for name in FORCES if table.has(name)), FORCES[-1])
+    force = (
+        chosen
+        if chosen in FORCES
+        else next((name for name in FORCES if table.has(name)), FORCES[-1])
+    )
     places = _places(table, chosen, force, column)
     if column:
         if any(place.is_known() and math.isnan(place.at) for place in places):
             raise OptionsError("%s: some of the rows have no number there; leave them out" % column)
-        places = tuple(place for place in places if not math.isnan(place.at))  # a scan that was not predicted states no condition
-    counts = {at: sum(place.is_known() for place in places if place.at == at) for at in sorted({place.at for place in places})}
+        places = tuple(
+            place for place in places if not math.isnan(place.at)
+        )  # a scan that was not predicted states no condition
+    counts = {
+        at: sum(place.is_known() for place in places if place.at == at)
+        for at in sorted({place.at for place in places})
+    }
     at = max(counts, key=lambda condition: (counts[condition], -condition))
-    return Lots(chosen, force, column, places, tuple(place for place in places if place.at == at), at)
+    return Lots(
+        chosen, force, column, places, tuple(place for place in places if place.at == at), at
+    )
 
 
 def _against(asked: Optional[str], table: _Table) -> str:
     """The column of the condition."""
     if asked is not None:
         if not table.has_against:
-            raise OptionsError("against: the rows have no column '%s'; the model knows no ageing, so what depends on time must be measured and its "
-                               "column added" % asked)
+            raise OptionsError(
+                "against: the rows have no column '%s'; the model knows no ageing, so what depends "
+                "on time must be measured and its "
+                "column added" % asked
+            )
         return asked
     return next((name for name in VOLTAGES if np.unique(_finite(table.numbers(name))).size > 1), "")
 
@@ -214,7 +302,10 @@ def _site(value: Any, name: str, row: int) -> float:
     """[m]; NaN where the row does not say."""
     number = _number(value)
     if math.isnan(number) and isinstance(value, str) and value.strip().lower() not in ("", "nan"):
-        raise OptionsError("%s: %r in row %d is not allowed, must be a number in metres, or empty" % (name, value, row))
+        raise OptionsError(
+            "%s: %r in row %d is not allowed, must be a number in metres, or empty"
+            % (name, value, row)
+        )
     return number
 
 
@@ -226,34 +317,68 @@ def _number(value: Any) -> float:
 
 
 def _text(value: Any) -> str:
-    """An identifier as people write it, whatever a table has made of it: 7.0 is 7, a missing one is empty."""
+    """An identifier as people write it, whatever a table has made of it: 7.0 is 7, a missing one is
+    empty."""
     value = value.item() if hasattr(value, "item") else value
     if value is None or isinstance(value, float) and math.isnan(value):
         return ""
     if isinstance(value, float) and value.is_integer():
         return "%d" % value
     text = str(value).strip()
-    return text[1:] if text.startswith("'") and text[1:2] in ("=", "+", "-", "@", "\t") else text  # as csv_text writes it
+    return (
+        text[1:] if text.startswith("'") and text[1:2] in ("=", "+", "-", "@", "\t") else text
+    )  # as csv_text writes it
 
 
 def _places(table: _Table, figure: str, force: str, against: str) -> Tuple[Place, ...]:
     values, lower, upper = (table.numbers(figure + end) for end in ("", "_lower", "_upper"))
     ends = [np.where(values == math.inf, math.inf, end) for end in (lower, upper)]
     is_interval = (ends[0] > 0.0) & (ends[0] <= values) & (values <= ends[1])
-    parts = ["%s no. %s" % (part, serial) if part and serial else part or serial for part, serial in zip(table.texts("part_id"), table.texts("serial_id"))]
-    names = [name or other or file for name, other, file in zip(*map(table.texts, ("scan_name", "name", "file")))]
-    numbers = [column.tolist() for column in (
-        table.numbers("site_x"), table.numbers("site_y"), np.where(values > 0.0, values, math.nan), np.where(is_interval, ends[0], math.nan),
-        np.where(is_interval, ends[1], math.nan), table.numbers(force), table.numbers(RMS_HEIGHT),
-        table.numbers(against) if against else np.zeros(table.count))]
-    return tuple(Place._make((lot, wafer, part) + of_row + (settings, name)) for lot, wafer, part, of_row, settings, name in zip(
-        table.texts("lot_id"), table.texts("wafer_id"), parts, zip(*numbers), table.texts("settings_hash"), names))
+    parts = [
+        "%s no. %s" % (part, serial) if part and serial else part or serial
+        for part, serial in zip(table.texts("part_id"), table.texts("serial_id"))
+    ]
+    names = [
+        name or other or file
+        for name, other, file in zip(*map(table.texts, ("scan_name", "name", "file")))
+    ]
+    numbers = [
+        column.tolist()
+        for column in (
+            table.numbers("site_x"),
+            table.numbers("site_y"),
+            np.where(values > 0.0, values, math.nan),
+            np.where(is_interval, ends[0], math.nan),
+            np.where(is_interval, ends[1], math.nan),
+            table.numbers(force),
+            table.numbers(RMS_HEIGHT),
+            table.numbers(against) if against else np.zeros(table.count),
+        )
+    ]
+    return tuple(
+        Place._make((lot, wafer, part) + of_row + (settings, name))
+        for lot, wafer, part, of_row, settings, name in zip(
+            table.texts("lot_id"),
+            table.texts("wafer_id"),
+            parts,
+            zip(*numbers),
+            table.texts("settings_hash"),
+            names,
+        )
+    )
 
 
 def word_of(place: Place) -> str:
     """Which place, in words."""
-    where = "at (%s, %s) mm" % tuple("%.4g" % (1e3 * value + 0.0) for value in (place.x, place.y)) if place.has_site() else place.name
-    return " ".join(text for text in (wafer_word(place.lot, place.wafer), where) if text) or "a place without a name"
+    where = (
+        "at (%s, %s) mm" % tuple("%.4g" % (1e3 * value + 0.0) for value in (place.x, place.y))
+        if place.has_site()
+        else place.name
+    )
+    return (
+        " ".join(text for text in (wafer_word(place.lot, place.wafer), where) if text)
+        or "a place without a name"
+    )
 
 
 def wafer_word(lot: str, wafer: str) -> str:

@@ -1,9 +1,13 @@
-"""How far lots, wafers, parts and places differ: components of variance of logarithms, for any numbers of each.
+"""How far lots, wafers, parts and places differ: components of variance of logarithms, for any
+numbers of each.
 
-Estimates are those of restricted likelihood (statsmodels' MixedLM). Intervals are generalised confidence intervals (Weerahandi 1993; for nested levels
-Burdick, Borror and Montgomery, Design and Analysis of Gauge R&R Studies, 2005): each mean square is its expectation times chi^2 over its degrees of
-freedom, and the components follow from the mean squares. Mean squares of unweighted means have exact expectations for unequal numbers, too; their
-distribution is exact for equal ones. Two wafers have one degree of freedom, and an interval that says so.
+Estimates are those of restricted likelihood (statsmodels' MixedLM). Intervals are generalised
+confidence intervals (Weerahandi 1993; for nested levels
+Burdick, Borror and Montgomery, Design and Analysis of Gauge R&R Studies, 2005): each mean square is
+its expectation times chi^2 over its degrees of freedom, and the components follow from the mean
+squares. Mean squares of unweighted means have exact expectations for unequal numbers, too; their
+distribution is exact for equal ones. Two wafers have one degree of freedom, and an interval that
+says so.
 """
 
 from __future__ import annotations
@@ -35,7 +39,8 @@ class Level(NamedTuple):
 
 
 class Hierarchy(NamedTuple):
-    """Levels that can be told apart, the coarsest first; what is left is within the units of the last."""
+    """Levels that can be told apart, the coarsest first; what is left is within the units of the
+    last."""
 
     levels: Tuple[Level, ...]
     rest: str  # what differs within them
@@ -62,7 +67,8 @@ class Components(NamedTuple):
     mean_draws: np.ndarray
     total_draws: np.ndarray
     mean_squares: Tuple[MeanSquare, ...]
-    why_squares: str  # why estimates are those of mean squares; empty where they are of restricted likelihood
+    # why estimates are those of mean squares; empty where they are of restricted likelihood
+    why_squares: str
 
     def total(self) -> float:
         return float(self.variances.sum())
@@ -70,7 +76,10 @@ class Components(NamedTuple):
 
 def hierarchy_of(places: Sequence[Place]) -> Hierarchy:
     """Lots have wafers, wafers have parts, parts have places."""
-    names: List[Tuple[Any, ...]] = [(place.lot, place.wafer, place.part, (place.x, place.y) if place.has_site() else "") for place in places]
+    names: List[Tuple[Any, ...]] = [
+        (place.lot, place.wafer, place.part, (place.x, place.y) if place.has_site() else "")
+        for place in places
+    ]
     levels: List[Level] = []
     merged: List[str] = []
     single: List[str] = []
@@ -79,25 +88,34 @@ def hierarchy_of(places: Sequence[Place]) -> Hierarchy:
         if not any(name[depth] for name in names):
             continue
         known: dict[Any, int] = {}
-        units = np.array([known.setdefault(name[:depth + 1], len(known)) for name in names])
+        units = np.array([known.setdefault(name[: depth + 1], len(known)) for name in names])
         if len(known) == above:
             if above == 1:
                 single.append(word)
             else:
-                merged.append("each of the %s has one of the %s: they cannot be told apart" % (levels[-1].word, word))
+                merged.append(
+                    "each of the %s has one of the %s: they cannot be told apart"
+                    % (levels[-1].word, word)
+                )
                 levels[-1] = Level("%s and their %s" % (levels[-1].word, word), levels[-1].units)
             continue
         if len(known) == len(names):
             if depth < 2:
-                merged.append("each of the %s has one row: what differs within them is in their difference" % word)
+                merged.append(
+                    "each of the %s has one row: what differs within them is in their difference"
+                    % word
+                )
             return Hierarchy(tuple(levels), word, tuple(merged), tuple(single))
         levels.append(Level(word, units))
         above = len(known)
     return Hierarchy(tuple(levels), "scans", tuple(merged), tuple(single))
 
 
-def mean_squares(values: np.ndarray, levels: Sequence[np.ndarray]) -> Tuple[List[MeanSquare], float, np.ndarray]:
-    """Of unweighted means, from the coarsest level to the rest; the mean, and the coefficients of the components in its variance."""
+def mean_squares(
+    values: np.ndarray, levels: Sequence[np.ndarray]
+) -> Tuple[List[MeanSquare], float, np.ndarray]:
+    """Of unweighted means, from the coarsest level to the rest; the mean, and the coefficients of
+    the components in its variance."""
     count = len(levels) + 1
     means, below = values, np.zeros((len(values), count))
     below[:, -1] = 1.0
@@ -113,7 +131,10 @@ def mean_squares(values: np.ndarray, levels: Sequence[np.ndarray]) -> Tuple[List
         freedom = len(means) - len(sizes)
         weights = 1.0 - 1.0 / sizes[inverse]
         square = float(((means - centres[inverse]) ** 2).sum())
-        found.insert(0, MeanSquare(square / freedom, freedom, (weights[:, None] * below).sum(axis=0) / freedom))
+        found.insert(
+            0,
+            MeanSquare(square / freedom, freedom, (weights[:, None] * below).sum(axis=0) / freedom),
+        )
         above = np.zeros((len(sizes), count))
         np.add.at(above, inverse, below / sizes[inverse][:, None] ** 2)
         if depth > 0:
@@ -122,8 +143,11 @@ def mean_squares(values: np.ndarray, levels: Sequence[np.ndarray]) -> Tuple[List
     return found, float(means[0]), below[0]
 
 
-def components_of(values: np.ndarray, hierarchy: Hierarchy, by_likelihood: bool = True) -> Components:
-    """Needs two values. by_likelihood: else estimates, too, are those of mean squares, in no time."""
+def components_of(
+    values: np.ndarray, hierarchy: Hierarchy, by_likelihood: bool = True
+) -> Components:
+    """Needs two values. by_likelihood: else estimates, too, are those of mean squares, in no
+    time."""
     levels = [_numbered(level.units) for level in hierarchy.levels]
     squares, mean, spread_of_mean = mean_squares(values, levels)
     count = len(squares)
@@ -133,18 +157,33 @@ def components_of(values: np.ndarray, hierarchy: Hierarchy, by_likelihood: bool 
     for place in range(count - 1, -1, -1):
         square = squares[place]
         drawn = square.value * square.freedom / random.chisquare(square.freedom, DRAWS)
-        draws[place] = (drawn - square.coefficients[place + 1:] @ draws[place + 1:]) / square.coefficients[place]
-        by_squares[place] = (square.value - square.coefficients[place + 1:] @ by_squares[place + 1:]) / square.coefficients[place]
-    mean_draws = mean + random.standard_normal(DRAWS) * np.sqrt(np.maximum(spread_of_mean @ draws, 0.0))
+        draws[place] = (
+            drawn - square.coefficients[place + 1 :] @ draws[place + 1 :]
+        ) / square.coefficients[place]
+        by_squares[place] = (
+            square.value - square.coefficients[place + 1 :] @ by_squares[place + 1 :]
+        ) / square.coefficients[place]
+    mean_draws = mean + random.standard_normal(DRAWS) * np.sqrt(
+        np.maximum(spread_of_mean @ draws, 0.0)
+    )
     clipped = np.maximum(draws, 0.0)
     found, why = _of_likelihood(values, levels) if by_likelihood and levels else (by_squares, "")
     variances = np.maximum(by_squares if why else found, 0.0)
     variances[variances < LEAST_SHARE * variances.sum()] = 0.0  # the optimiser ends near it
     ends = np.percentile(clipped, (2.5, 97.5), axis=1)
-    return Components(tuple(level.word for level in hierarchy.levels) + (hierarchy.rest,),
-                      tuple(int(level.max()) + 1 for level in levels) + (len(values),), tuple(square.freedom for square in squares), variances,
-                      np.minimum(ends[0], variances), np.maximum(ends[1], variances), mean, mean_draws, clipped.sum(axis=0), tuple(squares),
-                      why)
+    return Components(
+        tuple(level.word for level in hierarchy.levels) + (hierarchy.rest,),
+        tuple(int(level.max()) + 1 for level in levels) + (len(values),),
+        tuple(square.freedom for square in squares),
+        variances,
+        np.minimum(ends[0], variances),
+        np.maximum(ends[1], variances),
+        mean,
+        mean_draws,
+        clipped.sum(axis=0),
+        tuple(squares),
+        why,
+    )
 
 
 def _numbered(units: np.ndarray) -> np.ndarray:
@@ -181,13 +220,18 @@ def _of_likelihood(values: np.ndarray, levels: Sequence[np.ndarray]) -> Tuple[np
     sorted_groups = groups[order]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of components that are 0, at the end of their range
-        model = MixedLM((values[order] - values.mean()) / scale, np.ones((len(values), 1)), sorted_groups, exog_re=np.ones((len(values), 1)),
-                        exog_vc=VCSpec(names, columns, matrices) if names else None)
+        model = MixedLM(
+            (values[order] - values.mean()) / scale,
+            np.ones((len(values), 1)),
+            sorted_groups,
+            exog_re=np.ones((len(values), 1)),
+            exog_vc=VCSpec(names, columns, matrices) if names else None,
+        )
         fits = [fit for fit in (_fit(model, method) for method in METHODS) if fit is not None]
     if not fits:
         return np.empty(0), NO_END
     best = max(fits, key=lambda fit: fit.llf)
-    return np.concatenate([np.ravel(best.cov_re), best.vcomp, [best.scale]]) * scale ** 2, ""
+    return np.concatenate([np.ravel(best.cov_re), best.vcomp, [best.scale]]) * scale**2, ""
 
 
 def _fit(model: Any, method: str) -> Any:

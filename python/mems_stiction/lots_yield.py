@@ -1,11 +1,13 @@
 """Which share of all places sticks: from the margins of some.
 
-Two things make a share uncertain: few places, wafers and lots were measured; and each margin has an interval of its own, by constants and model. The
-latter is one and the same error of all rows: all margins may be too large together. So both ends of the interval take it with them.
+Two things make a share uncertain: few places, wafers and lots were measured; and each margin has an
+interval of its own, by constants and model. The latter is one and the same error of all rows: all
+margins may be too large together. So both ends of the interval take it with them.
 
-Where the logarithms of the margins are as a normal distribution has them, the share is its tail below 1. Where they are not, places are counted, and
-the interval is that of Clopper and Pearson (1934), of as many independent places as the rows are worth (Korn and Graubard 1998): places of one wafer are
-alike. Where none sticks, or all do, there is a bound.
+Where the logarithms of the margins are as a normal distribution has them, the share is its tail
+below 1. Where they are not, places are counted, and the interval is that of Clopper and Pearson
+(1934), of as many independent places as the rows are worth (Korn and Graubard 1998): places of one
+wafer are alike. Where none sticks, or all do, there is a bound.
 """
 
 from __future__ import annotations
@@ -48,21 +50,38 @@ def share_of(places: Sequence[Place], hierarchy: Hierarchy, at: float) -> Share:
     values = np.log([place.value for place in known])
     ends = np.log([[place.lower, place.upper] for place in known])
     lacking = np.isnan(ends).any(axis=1)
-    ends[lacking] = values[lacking, None] + (_usual_reach(values[~lacking], ends[~lacking]) if not lacking.all() else 0.0)
+    ends[lacking] = values[lacking, None] + (
+        _usual_reach(values[~lacking], ends[~lacking]) if not lacking.all() else 0.0
+    )
     is_finite = bool(np.isfinite(values).all())
     components = components_of(values, hierarchy, False) if is_finite and len(known) > 1 else None
     sticking = int((values < 0.0).sum())
     worth = _worth(len(known), hierarchy, components)
-    bounds = _counted(int((ends[:, 1] < 0.0).sum()), sticking, int((ends[:, 0] < 0.0).sum()), len(known), worth)
-    counted = Share(at, len(known), sticking, sticking / len(known), bounds[0], bounds[1], BOUND if sticking in (0, len(known)) else COUNTED, math.nan,
-                    worth, len(places) - len(known), int(lacking.sum()))
+    bounds = _counted(
+        int((ends[:, 1] < 0.0).sum()), sticking, int((ends[:, 0] < 0.0).sum()), len(known), worth
+    )
+    counted = Share(
+        at,
+        len(known),
+        sticking,
+        sticking / len(known),
+        bounds[0],
+        bounds[1],
+        BOUND if sticking in (0, len(known)) else COUNTED,
+        math.nan,
+        worth,
+        len(places) - len(known),
+        int(lacking.sum()),
+    )
     if components is None or not _is_normal(values, hierarchy):
         return counted
     tail = _tail(components.mean, components.total())
     if sticking in (0, len(known)) and min(tail, 1.0 - tail) < 1.0 / worth:
         return counted._replace(tail=tail)
     lower, upper = _normal_interval(components, values, ends)
-    return counted._replace(share=tail, lower=min(lower, tail), upper=max(upper, tail), method=NORMAL, tail=tail)
+    return counted._replace(
+        share=tail, lower=min(lower, tail), upper=max(upper, tail), method=NORMAL, tail=tail
+    )
 
 
 def _usual_reach(values: np.ndarray, ends: np.ndarray) -> np.ndarray:
@@ -77,12 +96,17 @@ def _tail(mean: float, variance: float) -> float:
     return float(norm.cdf(-mean / math.sqrt(variance))) if variance > 0.0 else float(mean < 0.0)
 
 
-def _normal_interval(components: Components, values: np.ndarray, ends: np.ndarray) -> Tuple[float, float]:
+def _normal_interval(
+    components: Components, values: np.ndarray, ends: np.ndarray
+) -> Tuple[float, float]:
     """Draws of mean and spread, with an error that all margins share."""
     from scipy.stats import norm
 
     random = np.random.RandomState(SEED + 1)
-    below, above = np.median(values - ends[:, 0]) / NORMAL_95, np.median(ends[:, 1] - values) / NORMAL_95
+    below, above = (
+        np.median(values - ends[:, 0]) / NORMAL_95,
+        np.median(ends[:, 1] - values) / NORMAL_95,
+    )
     shared = random.standard_normal(DRAWS)
     means = components.mean_draws + shared * np.where(shared > 0.0, above, below)
     drawn = norm.cdf(-means / np.sqrt(np.maximum(components.total_draws, 1e-300)))
@@ -91,13 +115,19 @@ def _normal_interval(components: Components, values: np.ndarray, ends: np.ndarra
 
 
 def _counted(least: int, best: int, most: int, count: int, worth: float) -> Tuple[float, float]:
-    """least, most: that stick where all margins are at the ends of their intervals. One-sided 95 % where none sticks, or all do."""
+    """least, most: that stick where all margins are at the ends of their intervals. One-sided 95 %
+    where none sticks, or all do."""
+
     def end(sticking: int, is_upper: bool, chance: float) -> float:
         from scipy.stats import beta
 
         hits = sticking / count * worth
         if is_upper:
-            return 1.0 if sticking == count else float(beta.ppf(1.0 - chance, hits + 1.0, worth - hits))
+            return (
+                1.0
+                if sticking == count
+                else float(beta.ppf(1.0 - chance, hits + 1.0, worth - hits))
+            )
         return 0.0 if sticking == 0 else float(beta.ppf(chance, hits, worth - hits + 1.0))
 
     chance = 0.05 if best in (0, count) else 0.025
@@ -105,7 +135,8 @@ def _counted(least: int, best: int, most: int, count: int, worth: float) -> Tupl
 
 
 def _worth(count: int, hierarchy: Hierarchy, components: "Components | None") -> float:
-    """How many independent places tell as much: places of one unit share what makes units differ."""
+    """How many independent places tell as much: places of one unit share what makes units
+    differ."""
     if components is None or not hierarchy.levels or components.total() <= 0.0:
         return float(count)
     inflation = 1.0
@@ -128,4 +159,4 @@ def _is_normal(values: np.ndarray, hierarchy: Hierarchy) -> bool:
     scaled = (centred / np.sqrt(np.maximum(1.0 - 1.0 / sizes[inverse], 1e-9)))[sizes[inverse] > 1]
     if len(scaled) < FEWEST_FOR_SHAPE or scaled.std() <= 0.0:
         return False
-    return bool(shapiro(scaled[::1 + len(scaled) // MOST_FOR_SHAPE]).pvalue >= LEAST_CHANCE)
+    return bool(shapiro(scaled[:: 1 + len(scaled) // MOST_FOR_SHAPE]).pvalue >= LEAST_CHANCE)

@@ -8,7 +8,8 @@ WITHOUT = ("header", "curve")
 
 
 def flattened(message, prefix=""):
-    """{name: cell} of a message, parts of nested ones as part/field; the names of today's message are those of its slots."""
+    """{name: cell} of a message, parts of nested ones as part/field; the names of today's message
+    are those of its slots."""
     cells = {}
     for name in message.__slots__:
         if not prefix and name in WITHOUT:

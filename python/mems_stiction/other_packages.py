@@ -1,4 +1,5 @@
-"""Packages of others that `pip install .` does not bring: where one is missing, the sentence says how to get it."""
+"""Packages of others that `pip install .` does not bring: where one is missing, the sentence says
+how to get it."""
 
 from __future__ import annotations
 
@@ -12,4 +13,7 @@ def require_package(name: str, purpose: str) -> None:
     try:
         importlib.import_module(name)
     except ImportError:
-        raise Error("%s needs the Python package %s (apt install python3-%s, or pip install %s)" % (purpose, name, name, name)) from None
+        raise Error(
+            "%s needs the Python package %s (apt install python3-%s, or pip install %s)"
+            % (purpose, name, name, name)
+        ) from None

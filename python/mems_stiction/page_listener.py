@@ -1,4 +1,5 @@
-"""From the node's topics to a PageState. Starts without a master, says what it waits for, and follows a master that is started anew."""
+"""From the node's topics to a PageState. Starts without a master, says what it waits for, and
+follows a master that is started anew."""
 
 import threading
 import time
@@ -6,8 +7,17 @@ import time
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, DeviceAdhesion, HalfSpaceSolution, PartVerdict, ScanInfo,
-                               StictionPrediction, SweepLoadActionFeedback, SweepLoadActionResult)
+from mems_stiction.msg import (
+    CycleContactActionFeedback,
+    CycleContactActionResult,
+    DeviceAdhesion,
+    HalfSpaceSolution,
+    PartVerdict,
+    ScanInfo,
+    StictionPrediction,
+    SweepLoadActionFeedback,
+    SweepLoadActionResult,
+)
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
@@ -32,7 +42,11 @@ class PageListener:
     def follow(self):
         master = rosgraph.Master(rospy.get_name())
         while not rospy.is_shutdown() and not master.is_online():
-            self._state.set_link("error", "No ROS master at %s: start roscore or a launch file. This page waits." % rosgraph.get_master_uri())
+            self._state.set_link(
+                "error",
+                "No ROS master at %s: start roscore or a launch file. This page waits."
+                % rosgraph.get_master_uri(),
+            )
             time.sleep(LOOK_PERIOD)
         rospy.init_node("station_page", anonymous=True, disable_signals=True)
         self._subscribe()
@@ -43,32 +57,83 @@ class PageListener:
     def _look(self, master):
         try:
             master.lookupNode(rospy.get_name())
-        except rosgraph.MasterError:  # another one, which knows nothing of this node: rospy does not notice
+        except (
+            rosgraph.MasterError
+        ):  # another one, which knows nothing of this node: rospy does not notice
             for subscriber in self._subscribers:
                 subscriber.unregister()
             return self._subscribe()
         except OSError:
-            return self._state.set_link("error", "The ROS master at %s is gone." % rosgraph.get_master_uri())
+            return self._state.set_link(
+                "error", "The ROS master at %s is gone." % rosgraph.get_master_uri()
+            )
         if self._subscribers[0].get_num_connections():
             return self._state.set_link("ok", "Connected to the node.")
-        self._state.set_link("error", "No node publishes %s: nothing is predicted. roslaunch mems_stiction stiction.launch starts one." %
-                             self._subscribers[0].resolved_name)
+        self._state.set_link(
+            "error",
+            "No node publishes %s: nothing is predicted. roslaunch mems_stiction stiction.launch "
+            "starts one." % self._subscribers[0].resolved_name,
+        )
 
     def _subscribe(self):
-        topics = [("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
-                  ("part_verdict", PartVerdict, self._on_part, None, dict(queue_size=10)),
-                  ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
-                  ("deformed_height", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
-                  ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
-                  ("device_force", DeviceAdhesion, self._on_device, None, dict(queue_size=10)),
-                  ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
-                  ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100))]
+        topics = [
+            ("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
+            ("part_verdict", PartVerdict, self._on_part, None, dict(queue_size=10)),
+            ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
+            (
+                "deformed_height",
+                Image,
+                self._on_map,
+                "height",
+                dict(queue_size=1, buff_size=MAP_BUFFER),
+            ),
+            (
+                "contact_map",
+                Image,
+                self._on_map,
+                "contacts",
+                dict(queue_size=1, buff_size=MAP_BUFFER),
+            ),
+            ("device_force", DeviceAdhesion, self._on_device, None, dict(queue_size=10)),
+            ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
+            ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100)),
+        ]
         for action, kind, feedback, result, take in (
-                ("sweep_load", "sweep", SweepLoadActionFeedback, SweepLoadActionResult, self._state.add_sweep),
-                ("cycle_contact", "cycles", CycleContactActionFeedback, CycleContactActionResult, self._state.add_cycles)):
-            topics += [("%s/%s/feedback" % (self._node, action), feedback, self._on_feedback, kind, dict(queue_size=10)),
-                       ("%s/%s/result" % (self._node, action), result, self._on_result, take, dict(queue_size=10))]
-        self._subscribers = [rospy.Subscriber(name, kind, callback, argument, **settings) for name, kind, callback, argument, settings in topics]
+            (
+                "sweep_load",
+                "sweep",
+                SweepLoadActionFeedback,
+                SweepLoadActionResult,
+                self._state.add_sweep,
+            ),
+            (
+                "cycle_contact",
+                "cycles",
+                CycleContactActionFeedback,
+                CycleContactActionResult,
+                self._state.add_cycles,
+            ),
+        ):
+            topics += [
+                (
+                    "%s/%s/feedback" % (self._node, action),
+                    feedback,
+                    self._on_feedback,
+                    kind,
+                    dict(queue_size=10),
+                ),
+                (
+                    "%s/%s/result" % (self._node, action),
+                    result,
+                    self._on_result,
+                    take,
+                    dict(queue_size=10),
+                ),
+            ]
+        self._subscribers = [
+            rospy.Subscriber(name, kind, callback, argument, **settings)
+            for name, kind, callback, argument, settings in topics
+        ]
 
     def _on_prediction(self, prediction):
         self._state.add_prediction(prediction.header.stamp.to_nsec(), prediction)
@@ -93,11 +158,17 @@ class PageListener:
             self._state.set_map(name, stamp, image, self._size(stamp, image))
 
     def _size(self, stamp, image):
-        """Width and height of the scan [m] by the pitch that its scan_info or the parameters state; None if neither does."""
+        """Width and height of the scan [m] by the pitch that its scan_info or the parameters state;
+        None if neither does."""
         pitch = self._infos.get(stamp, (0.0, 0.0))
         if min(pitch) <= 0:
-            pitch = [rospy.get_param_cached(self._node + "/scan/pitch_" + axis, 0.0) for axis in "xy"]
-        is_known = all(isinstance(one, (int, float)) and SMALLEST_PITCH <= one <= LARGEST_PITCH for one in pitch)
+            pitch = [
+                rospy.get_param_cached(self._node + "/scan/pitch_" + axis, 0.0) for axis in "xy"
+            ]
+        is_known = all(
+            isinstance(one, (int, float)) and SMALLEST_PITCH <= one <= LARGEST_PITCH
+            for one in pitch
+        )
         return (image.width * pitch[0], image.height * pitch[1]) if is_known else None
 
     def _on_device(self, device):
@@ -110,12 +181,16 @@ class PageListener:
         for status in message.status:
             node, _, what = status.name.partition(": ")
             own, other = self._node.strip("/"), node.strip("/")
-            is_our_source = what == SOURCE_STATUS and own.rpartition("/")[0] == other.rpartition("/")[0]
+            is_our_source = (
+                what == SOURCE_STATUS and own.rpartition("/")[0] == other.rpartition("/")[0]
+            )
             if other == own or is_our_source:
                 self._state.add_diagnostics(status)
 
     def _on_feedback(self, message, kind):
-        self._state.add_progress(kind, message.status.goal_id.id, message.feedback.done, message.feedback.total)
+        self._state.add_progress(
+            kind, message.status.goal_id.id, message.feedback.done, message.feedback.total
+        )
 
     def _on_result(self, message, take):
         take(message.status.goal_id.id, message.result)

@@ -1,4 +1,5 @@
-"""The newest prediction of each place of a wafer or part, within bounds, for the station's page. No ROS here, and not the core."""
+"""The newest prediction of each place of a wafer or part, within bounds, for the station's page. No
+ROS here, and not the core."""
 
 import math
 
@@ -17,7 +18,8 @@ def has_site(row):
 
 
 class Wafers:
-    """The newest prediction of each place. Where there are too many, those heard of last are kept, and it is said how many went."""
+    """The newest prediction of each place. Where there are too many, those heard of last are kept,
+    and it is said how many went."""
 
     def __init__(self):
         self.version = 0
@@ -30,15 +32,24 @@ class Wafers:
         row = {name: getattr(prediction, name) for name in COLUMNS}
         if prediction.status == NO_EQUILIBRIUM:  # its forces are not to be used
             row.update(dict.fromkeys(FORCES, math.nan))
-        row.update(stamp=stamp, level=VERDICTS.get(prediction.sticks, VERDICTS[3])[0] if prediction.status != NO_EQUILIBRIUM else "unknown")
+        row.update(
+            stamp=stamp,
+            level=VERDICTS.get(prediction.sticks, VERDICTS[3])[0]
+            if prediction.status != NO_EQUILIBRIUM
+            else "unknown",
+        )
         self._change()
         if not has_site(row) and not any(row[name] for name in NAMES):
             self._nameless += 1
             return
         key = row["lot_id"], row["wafer_id"]
         places = self._wafers[key] = self._wafers.pop(key, {})
-        # a site of a wafer is one place whoever lies there; one of a part without a wafer is the part's
-        place = ("" if row["wafer_id"] else (row["part_id"], row["serial_id"]), (row["site_x"], row["site_y"]) if has_site(row) else stamp)
+        # a site of a wafer is one place whoever lies there; one of a part without a wafer is the
+        # part's
+        place = (
+            "" if row["wafer_id"] else (row["part_id"], row["serial_id"]),
+            (row["site_x"], row["site_y"]) if has_site(row) else stamp,
+        )
         places.pop(place, None)
         places[place] = row
         if len(places) > MOST_PLACES:
@@ -53,8 +64,13 @@ class Wafers:
         for places in self._wafers.values():
             for place, row in places.items():
                 if row["stamp"] == stamp:
-                    places[place] = dict(row, device_pull_off_force=device.pull_off_force, margin=device.margin, peel_number=device.peel_number,
-                                         level=VERDICTS.get(device.sticks, VERDICTS[3])[0])
+                    places[place] = dict(
+                        row,
+                        device_pull_off_force=device.pull_off_force,
+                        margin=device.margin,
+                        peel_number=device.peel_number,
+                        level=VERDICTS.get(device.sticks, VERDICTS[3])[0],
+                    )
                     self._change()
 
     def _change(self):
@@ -65,5 +81,13 @@ class Wafers:
         """What page_wafers.told takes; the same object until something changes."""
         if self._told is None:
             rows = tuple(row for places in self._wafers.values() for row in places.values())
-            self._told = (rows, {"version": self.version, "wafers": self._lost_wafers, "places": self._lost_places, "nameless": self._nameless})
+            self._told = (
+                rows,
+                {
+                    "version": self.version,
+                    "wafers": self._lost_wafers,
+                    "places": self._lost_places,
+                    "nameless": self._nameless,
+                },
+            )
         return self._told

@@ -1,4 +1,5 @@
-"""What the station's page shows, in one place: newest scan, trend, maps, sweeps, cycles, diagnostics. No ROS here.
+"""What the station's page shows, in one place: newest scan, trend, maps, sweeps, cycles,
+diagnostics. No ROS here.
 
 Callbacks of topics write, the server reads; both may come from any thread. What grows is bounded.
 """
@@ -11,28 +12,54 @@ import time
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
 from mems_stiction.page_places import Wafers
-from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, part_of,
-                                      ratio_of, sentence, thinned_points, trace_of, verdict_of, with_unit)
+from mems_stiction.page_words import (
+    NO_EQUILIBRIUM,
+    curve_of,
+    device_of,
+    all_finite,
+    diagnostics_of,
+    figures_of,
+    finite,
+    flags_of,
+    half_space_of,
+    part_of,
+    ratio_of,
+    sentence,
+    thinned_points,
+    trace_of,
+    verdict_of,
+    with_unit,
+)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
 from mems_stiction.prediction_text import contact_area_of, ratio_name, ratio_value
 from mems_stiction.quantities import typeset
-from mems_stiction.station_text import area_label, cycle_sentences, safe_voltage_words, sweep_sentences
+from mems_stiction.station_text import (
+    area_label,
+    cycle_sentences,
+    safe_voltage_words,
+    sweep_sentences,
+)
 from mems_stiction.sweep_jumps import jumps_of
 
 MOST_SCANS = 300  # of the trend
 MOST_LOSSES = 50  # with their reasons
 MOST_PARTS = 100  # whose newest verdicts are kept, as many as the node keeps
 MOST_DIAGNOSTICS = 30  # statuses of the node, by their names
-MOST_POINTS = 20000  # of a sweep or of cycles: more are beyond any that was seen, and keep browsers busy
+MOST_POINTS = (
+    20000  # of a sweep or of cycles: more are beyond any that was seen, and keep browsers busy
+)
 MOST_PERIODS = 9  # between scans, by which their rate is known
-STALE_UNTIL_KNOWN = 30.0  # without a scan for so long, what is shown is old, while the scans' rate is not known [s]
+STALE_UNTIL_KNOWN = (
+    30.0  # without a scan for so long, what is shown is old, while the scans' rate is not known [s]
+)
 STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
 UP = 0  # SweepPoint.UP
 
 
 def stamp_of_reason(reason):
-    """"rejected the scan of stamp 1001.500000000: ..." -> 1001500000000 [ns]; None where there is no stamp."""
+    """ "rejected the scan of stamp 1001.500000000: ..." -> 1001500000000 [ns]; None where there is
+    no stamp."""
     match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
     return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
 
@@ -44,18 +71,37 @@ def count_of(text):
 
 def _told_of(prediction):
     """What the page says of a prediction, whatever comes after it."""
-    return {"name": prediction.scan_name or prediction.header.frame_id, "verdict": verdict_of(prediction), "ratio": ratio_of(prediction),
-            "flags": flags_of(prediction), "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction),
-            "origin": provenance_words(prediction), "curve": curve_of(prediction), "preprocessing": list(prediction.preprocessing)}
+    return {
+        "name": prediction.scan_name or prediction.header.frame_id,
+        "verdict": verdict_of(prediction),
+        "ratio": ratio_of(prediction),
+        "flags": flags_of(prediction),
+        "warnings": list(prediction.warnings),
+        "figures": figures_of(prediction),
+        "trace": trace_of(prediction),
+        "origin": provenance_words(prediction),
+        "curve": curve_of(prediction),
+        "preprocessing": list(prediction.preprocessing),
+    }
 
 
 def _jumps_of(result):
     """The jumps of a sweep as plots of it number them: where they are, and why."""
-    jumps = [(load, jump) for load in sorted({point.mechanical_load for point in result.points})
-             for jump in jumps_of(result.points, load, result.pull_in_voltage)]
-    return [{"number": number, "load": load, "voltage": 0.5 * (jump.before.voltage + jump.after.voltage),
-             "area": 0.5 * (contact_area_of(jump.before) + contact_area_of(jump.after)), "words": typeset(jump.words())}
-            for number, (load, jump) in enumerate(jumps, 1)]
+    jumps = [
+        (load, jump)
+        for load in sorted({point.mechanical_load for point in result.points})
+        for jump in jumps_of(result.points, load, result.pull_in_voltage)
+    ]
+    return [
+        {
+            "number": number,
+            "load": load,
+            "voltage": 0.5 * (jump.before.voltage + jump.after.voltage),
+            "area": 0.5 * (contact_area_of(jump.before) + contact_area_of(jump.after)),
+            "words": typeset(jump.words()),
+        }
+        for number, (load, jump) in enumerate(jumps, 1)
+    ]
 
 
 class PageState:
@@ -79,7 +125,8 @@ class PageState:
         self._half_space = None
         self._device = None
         self._part = None
-        self._parts = {}  # newest last: (part, serial number) -> (what the page shows, message, when)
+        # newest last: (part, serial number) -> (what the page shows, message, when)
+        self._parts = {}
         self._wafers = Wafers()
         self._maps = {}
         self._map_notes = {}  # why the newest map of a name is not among them
@@ -98,16 +145,28 @@ class PageState:
 
     def add_prediction(self, stamp, prediction):
         """stamp: of the scan [ns]."""
-        name, told = ratio_name(prediction), _told_of(prediction)  # before anything changes: what cannot be told is not shown
+        name, told = (
+            ratio_name(prediction),
+            _told_of(prediction),
+        )  # before anything changes: what cannot be told is not shown
         device_force = prediction.device_pull_off_force
         with self._lock:
             self._count += 1
-            self._trend.append({
-                "number": self._count, "stamp": stamp, "force": finite(prediction.pull_off_force), "device_force": finite(device_force),
-                "restoring_force": finite(prediction.restoring_force), "ratio": finite(getattr(prediction, name)),
-                "lower": finite(getattr(prediction, name + "_lower")), "upper": finite(getattr(prediction, name + "_upper")),
-                "level": told["verdict"]["level"], "settings": prediction.settings_hash,
-                "is_usable": prediction.status != NO_EQUILIBRIUM})
+            self._trend.append(
+                {
+                    "number": self._count,
+                    "stamp": stamp,
+                    "force": finite(prediction.pull_off_force),
+                    "device_force": finite(device_force),
+                    "restoring_force": finite(prediction.restoring_force),
+                    "ratio": finite(getattr(prediction, name)),
+                    "lower": finite(getattr(prediction, name + "_lower")),
+                    "upper": finite(getattr(prediction, name + "_upper")),
+                    "level": told["verdict"]["level"],
+                    "settings": prediction.settings_hash,
+                    "is_usable": prediction.status != NO_EQUILIBRIUM,
+                }
+            )
             self._wafers.add(stamp, prediction)
             self._latest = (self._count, stamp, prediction, told)
             self._loss_is_newest = False
@@ -117,7 +176,8 @@ class PageState:
             self._changed()
 
     def add_diagnostics(self, status):
-        """One status of the node. Scans that it rejected or dropped since its last one become part of the trend."""
+        """One status of the node. Scans that it rejected or dropped since its last one become part
+        of the trend."""
         entry = diagnostics_of(status)
         values = dict(entry["values"])
         with self._lock:
@@ -129,8 +189,13 @@ class PageState:
             if None not in counts:
                 losses = sum(counts)
                 before, self._node_losses = self._node_losses, losses
-                if before is not None:  # those before the first look were not ours; a node that restarts counts from 0
-                    self._lose(losses - before if losses >= before else losses, values.get("last_reason", ""))
+                if (
+                    before is not None
+                ):  # those before the first look were not ours; a node that restarts counts from 0
+                    self._lose(
+                        losses - before if losses >= before else losses,
+                        values.get("last_reason", ""),
+                    )
             self._changed()
 
     def _lose(self, count, reason):
@@ -149,7 +214,8 @@ class PageState:
             self._changed()
 
     def add_device(self, stamp, device):
-        """The force of the whole device, by the scan of this stamp [ns] and those of its part before."""
+        """The force of the whole device, by the scan of this stamp [ns] and those of its part
+        before."""
         with self._lock:
             shown = dict(device_of(device), stamp=stamp)
             if not self._is_earlier(stamp, self._device):
@@ -159,8 +225,14 @@ class PageState:
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
                     if row.get("stamp") == stamp:
-                        row.update(device_force=shown["force"], restoring_force=shown["restoring_force"], ratio=ratio["value"], lower=ratio["lower"],
-                                   upper=ratio["upper"], level=shown["verdict"]["level"])
+                        row.update(
+                            device_force=shown["force"],
+                            restoring_force=shown["restoring_force"],
+                            ratio=ratio["value"],
+                            lower=ratio["lower"],
+                            upper=ratio["upper"],
+                            level=shown["verdict"]["level"],
+                        )
             self._changed()
 
     def add_part(self, stamp, part):
@@ -176,12 +248,18 @@ class PageState:
             self._changed()
 
     def scan_row(self):
-        """The newest prediction as a row, {column: cell} with the names of its message; None before the first."""
+        """The newest prediction as a row, {column: cell} with the names of its message; None before
+        the first."""
         with self._lock:
-            return self._latest and dict(number=self._latest[0], stamp="%.9f" % (self._latest[1] * 1e-9), **flattened(self._latest[2]))
+            return self._latest and dict(
+                number=self._latest[0],
+                stamp="%.9f" % (self._latest[1] * 1e-9),
+                **flattened(self._latest[2]),
+            )
 
     def part_rows(self):
-        """The newest verdict on each part as a row, with the names of PartVerdict; the part that was heard of last comes last."""
+        """The newest verdict on each part as a row, with the names of PartVerdict; the part that
+        was heard of last comes last."""
         with self._lock:
             return [flattened(message) for _, message, _ in self._parts.values()]
 
@@ -191,7 +269,8 @@ class PageState:
             return self._wafers.rows_and_counts()
 
     def stale_after(self):
-        """For how long nothing may come before what is shown is old [s]: three times as long as it usually takes."""
+        """For how long nothing may come before what is shown is old [s]: three times as long as it
+        usually takes."""
         with self._lock:
             if not self._periods:
                 return STALE_UNTIL_KNOWN
@@ -199,7 +278,8 @@ class PageState:
             return max(SHORTEST_STALE, STALE_PERIODS * usual)
 
     def set_map(self, name, stamp, image, size=None):
-        """An image message that is drawn when a browser asks for it. size: (width, height) of the scan [m], if known."""
+        """An image message that is drawn when a browser asks for it. size: (width, height) of the
+        scan [m], if known."""
         try:
             require_map(name, image)
             note = None
@@ -225,7 +305,8 @@ class PageState:
             return self._maps[name][2]
 
     def add_progress(self, kind, goal, done, total):
-        """Of the sweep or the cycles that run. Progress of a goal that has ended comes too late: topics do not wait for each other."""
+        """Of the sweep or the cycles that run. Progress of a goal that has ended comes too late:
+        topics do not wait for each other."""
         with self._lock:
             run = self._runs.setdefault(kind, {})
             if run.get("goal") != goal:
@@ -234,27 +315,71 @@ class PageState:
 
     def add_sweep(self, goal, result):
         del result.points[MOST_POINTS:]
-        points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
-                   "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
-                   "margin": finite(ratio_value(point)), "lower": finite(ratio_value(point, "_lower")), "upper": finite(ratio_value(point, "_upper")),
-                   "held": finite(point.holding_margin), "force": finite(point.pull_off_force), "force_lower": finite(point.pull_off_force_lower),
-                   "force_upper": finite(point.pull_off_force_upper), "area": finite(contact_area_of(point)), "is_open": bool(point.is_open)}
-                  for point in result.points if finite(point.voltage) is not None]
+        points = [
+            {
+                "way": "up" if point.direction == UP else "down",
+                "load": point.mechanical_load,
+                "load_text": with_unit(point.mechanical_load, "N"),
+                "voltage": point.voltage,
+                "margin": finite(ratio_value(point)),
+                "lower": finite(ratio_value(point, "_lower")),
+                "upper": finite(ratio_value(point, "_upper")),
+                "held": finite(point.holding_margin),
+                "force": finite(point.pull_off_force),
+                "force_lower": finite(point.pull_off_force_lower),
+                "force_upper": finite(point.pull_off_force_upper),
+                "area": finite(contact_area_of(point)),
+                "is_open": bool(point.is_open),
+            }
+            for point in result.points
+            if finite(point.voltage) is not None
+        ]
         points = thinned_points(points)
-        safe = [{"load": summary.mechanical_load, "load_text": with_unit(summary.mechanical_load, "N"), "voltage": finite(summary.highest_safe_voltage),
-                 "words": typeset(safe_voltage_words(summary, result.points))} for summary in result.summaries]
-        self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message, safe=safe,
-                  jumps=_jumps_of(result) if points else [], area_label=area_label(result.points), pull_in=finite(result.pull_in_voltage))
+        safe = [
+            {
+                "load": summary.mechanical_load,
+                "load_text": with_unit(summary.mechanical_load, "N"),
+                "voltage": finite(summary.highest_safe_voltage),
+                "words": typeset(safe_voltage_words(summary, result.points)),
+            }
+            for summary in result.summaries
+        ]
+        self._end(
+            "sweep",
+            goal,
+            points,
+            sweep_sentences(result, width=None) if points else [],
+            result.message,
+            safe=safe,
+            jumps=_jumps_of(result) if points else [],
+            area_label=area_label(result.points),
+            pull_in=finite(result.pull_in_voltage),
+        )
 
     def add_cycles(self, goal, result):
         del result.cycles[MOST_POINTS:]
-        points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(ratio_value(cycle)),
-                   "lower": finite(ratio_value(cycle, "_lower")), "plastic": cycle.plastic_count} for cycle in result.cycles]
+        points = [
+            {
+                "cycle": cycle.cycle,
+                "force": finite(cycle.pull_off_force),
+                "margin": finite(ratio_value(cycle)),
+                "lower": finite(ratio_value(cycle, "_lower")),
+                "plastic": cycle.plastic_count,
+            }
+            for cycle in result.cycles
+        ]
         self._end("cycles", goal, thinned_points(points), cycle_sentences(result), result.message)
 
     def _end(self, kind, goal, points, sentences, message, **more):
         with self._lock:
-            self._runs[kind] = dict(more, goal=goal, points=points, sentences=[typeset(text) for text in sentences], message=message, ended=self._clock())
+            self._runs[kind] = dict(
+                more,
+                goal=goal,
+                points=points,
+                sentences=[typeset(text) for text in sentences],
+                message=message,
+                ended=self._clock(),
+            )
             self._changed()
 
     def snapshot(self):
@@ -262,17 +387,53 @@ class PageState:
         with self._lock:
             now = self._clock()
             self._broken = {}
-            parts = {"losses": (lambda: list(self._losses), []), "scan": (self._scan, None), "trend": (lambda: list(self._trend), []),
-                     "control": (self._control, None), "part": (self._shown_part, None),
-                     "parts": (lambda: [dict(shown, number=self._number_of(shown["stamp"]), age=now - heard) for shown, _, heard in self._parts.values()], []),
-                     "half_space": (lambda: self._with_number(self._half_space), None), "device": (lambda: self._with_number(self._device), None),
-                     "maps": (self._shown_maps, {}),
-                     "diagnostics": (lambda: [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())], []),
-                     "runs": (lambda: {kind: self._run(run, now) for kind, run in self._runs.items()}, {})}
-            shown = {name: self._part_or_empty(name, make, empty) for name, (make, empty) in parts.items()}
-            return all_finite(dict(shown, version=self.version, link=self._link, age=None if self._heard is None else now - self._heard, count=self._count,
-                                   lost=self._lost, loss_is_newest=self._loss_is_newest, stale_after=self.stale_after(), wafers=self._wafers.version,
-                                   map_notes=list(self._map_notes.values()), broken=list(self._broken.values())))
+            parts = {
+                "losses": (lambda: list(self._losses), []),
+                "scan": (self._scan, None),
+                "trend": (lambda: list(self._trend), []),
+                "control": (self._control, None),
+                "part": (self._shown_part, None),
+                "parts": (
+                    lambda: [
+                        dict(shown, number=self._number_of(shown["stamp"]), age=now - heard)
+                        for shown, _, heard in self._parts.values()
+                    ],
+                    [],
+                ),
+                "half_space": (lambda: self._with_number(self._half_space), None),
+                "device": (lambda: self._with_number(self._device), None),
+                "maps": (self._shown_maps, {}),
+                "diagnostics": (
+                    lambda: [
+                        dict(entry, age=now - heard)
+                        for _, (entry, heard) in sorted(self._diagnostics.items())
+                    ],
+                    [],
+                ),
+                "runs": (
+                    lambda: {kind: self._run(run, now) for kind, run in self._runs.items()},
+                    {},
+                ),
+            }
+            shown = {
+                name: self._part_or_empty(name, make, empty)
+                for name, (make, empty) in parts.items()
+            }
+            return all_finite(
+                dict(
+                    shown,
+                    version=self.version,
+                    link=self._link,
+                    age=None if self._heard is None else now - self._heard,
+                    count=self._count,
+                    lost=self._lost,
+                    loss_is_newest=self._loss_is_newest,
+                    stale_after=self.stale_after(),
+                    wafers=self._wafers.version,
+                    map_notes=list(self._map_notes.values()),
+                    broken=list(self._broken.values()),
+                )
+            )
 
     def _part_or_empty(self, name, make, empty):
         """One part of the page never hides the others."""
@@ -286,7 +447,12 @@ class PageState:
         if self._latest is None:
             return None
         number, stamp, prediction, told = self._latest
-        verdict, ratio, warnings, figures = told["verdict"], told["ratio"], told["warnings"], told["figures"]
+        verdict, ratio, warnings, figures = (
+            told["verdict"],
+            told["ratio"],
+            told["warnings"],
+            told["figures"],
+        )
         device = self._device
         if device is not None and device["stamp"] == stamp and device["is_found"]:
             verdict, ratio = dict(device["verdict"]), device["ratio"]
@@ -294,39 +460,71 @@ class PageState:
                 verdict["reason"] += " Judged again, under the settings of now."
             warnings = warnings + device["warnings"]
             figures = [figure for figure in figures if figure["name"] != "device_pull_off_force"]
-        return dict(told, number=number, stamp="%.3f" % (stamp * 1e-9), verdict=verdict, ratio=ratio, warnings=warnings, figures=figures)
+        return dict(
+            told,
+            number=number,
+            stamp="%.3f" % (stamp * 1e-9),
+            verdict=verdict,
+            ratio=ratio,
+            warnings=warnings,
+            figures=figures,
+        )
 
     def _control(self):
-        """Control limits of the forces in the trend, as plot_trend draws them: of which figure, from the first to the last scan that they are of, and
-        the numbers of those outside; None where too few scans have the settings of the newest."""
+        """Control limits of the forces in the trend, as plot_trend draws them: of which figure,
+        from the first to the last scan that they are of, and the numbers of those outside; None
+        where too few scans have the settings of the newest."""
         rows = [row for row in self._trend if row.get("is_usable")]
         name = "force" if all(row["device_force"] is None for row in rows) else "device_force"
         series = of_newest_settings([(row["number"], row[name], row["settings"]) for row in rows])
         limits = control_limits([value for _, value in series])
         if limits is None:
             return None
-        return {"of": name, "first": series[0][0], "last": series[-1][0], "lower": limits.lower, "centre": limits.centre, "upper": limits.upper,
-                "outside": [number for number, value in series if value is not None and limits.is_outside(value)]}
+        return {
+            "of": name,
+            "first": series[0][0],
+            "last": series[-1][0],
+            "lower": limits.lower,
+            "centre": limits.centre,
+            "upper": limits.upper,
+            "outside": [
+                number for number, value in series if value is not None and limits.is_outside(value)
+            ],
+        }
 
     def _shown_part(self):
         """is_newest: whether the newest scan is one of its own."""
-        return self._part and dict(self._part, is_newest=self._latest is not None and self._latest[1] == self._part["stamp"])
+        return self._part and dict(
+            self._part,
+            is_newest=self._latest is not None and self._latest[1] == self._part["stamp"],
+        )
 
     def _with_number(self, of_scan):
         return of_scan and dict(of_scan, number=self._number_of(of_scan["stamp"]))
 
     def _is_earlier(self, stamp, shown):
-        """Whether what comes is of a scan before that of what is shown: when that was solved as a half-space it is judged again, and hides no later one. By
-        the order in which scans came, since a bag brings the stamps of its day."""
+        """Whether what comes is of a scan before that of what is shown: when that was solved as a
+        half-space it is judged again, and hides no later one. By the order in which scans came,
+        since a bag brings the stamps of its day."""
         number, other = self._number_of(stamp), shown and self._number_of(shown["stamp"])
         return number is not None and other is not None and number < other
 
     def _number_of(self, stamp):
-        return next((row["number"] for row in reversed(self._trend) if row.get("stamp") == stamp), None)
+        return next(
+            (row["number"] for row in reversed(self._trend) if row.get("stamp") == stamp), None
+        )
 
     def _shown_maps(self):
-        return {name: {"id": str(stamp), "number": self._number_of(stamp), "columns": image.width, "rows": image.height, "size": size}
-                for name, (stamp, image, size) in self._maps.items()}
+        return {
+            name: {
+                "id": str(stamp),
+                "number": self._number_of(stamp),
+                "columns": image.width,
+                "rows": image.height,
+                "size": size,
+            }
+            for name, (stamp, image, size) in self._maps.items()
+        }
 
     def _run(self, run, now):
         shown = {key: value for key, value in run.items() if key != "ended"}

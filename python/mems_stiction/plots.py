@@ -9,7 +9,9 @@ import textwrap
 
 import matplotlib
 
-if "matplotlib.pyplot" not in sys.modules:  # else somebody draws already, in a notebook or in windows
+if (
+    "matplotlib.pyplot" not in sys.modules
+):  # else somebody draws already, in a notebook or in windows
     matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -39,8 +41,9 @@ def with_unit(value, unit, digits=3):
 
 
 def widen(axes, values, share=LEAST_SPAN):
-    """Gives a linear axis of height a least span of that share of the largest of the values that it shows, about their middle: what differs by less is
-    drawn as the level line that it is, not as noise over the whole axis."""
+    """Gives a linear axis of height a least span of that share of the largest of the values that it
+    shows, about their middle: what differs by less is drawn as the level line that it is, not as
+    noise over the whole axis."""
     finite = np.asarray(values, dtype=float)
     finite = finite[np.isfinite(finite)]
     if not finite.size:
@@ -53,28 +56,51 @@ def widen(axes, values, share=LEAST_SPAN):
 
 
 def name_ticks(axes, names, most_upright, **style):
-    """Names below the places 0, 1, ... of the axis, shortened; aslant where there are more than so many."""
+    """Names below the places 0, 1, ... of the axis, shortened; aslant where there are more than so
+    many."""
     is_slant = len(names) > most_upright
     axes.set_xticks(range(len(names)))
-    axes.set_xticklabels([literal(textwrap.shorten(name, 22, placeholder="…")) for name in names], rotation=30 if is_slant else 0,
-                         ha="right" if is_slant else "center", **style)
+    axes.set_xticklabels(
+        [literal(textwrap.shorten(name, 22, placeholder="…")) for name in names],
+        rotation=30 if is_slant else 0,
+        ha="right" if is_slant else "center",
+        **style,
+    )
 
 
 class ScanPicture:
     """What one picture shows.
 
-    heights, deformed: the scan before and after contact [m]; they may differ by a plane, since preprocessing levels.
+    heights, deformed: the scan before and after contact [m]; they may differ by a plane, since
+    preprocessing levels.
     counter_deformed: the counter-surface after contact [m], or None for a flat one.
     contact_map: 0 apart, 1 elastic, 2 elasto-plastic, 3 plastic.
     asperities, prediction: the messages' records. pitch_x, pitch_y: [m].
     """
 
-    def __init__(self, name, heights, deformed, counter_deformed, contact_map, asperities, prediction, pitch_x, pitch_y):
+    def __init__(
+        self,
+        name,
+        heights,
+        deformed,
+        counter_deformed,
+        contact_map,
+        asperities,
+        prediction,
+        pitch_x,
+        pitch_y,
+    ):
         self.name = name
         self.deformed = np.asarray(deformed, dtype=float)
         self.contact_map = np.asarray(contact_map)
-        self.heights = in_frame_of(np.asarray(heights, dtype=float), self.deformed, self.contact_map)
-        self.counter = np.zeros_like(self.deformed) if counter_deformed is None else np.asarray(counter_deformed, float)
+        self.heights = in_frame_of(
+            np.asarray(heights, dtype=float), self.deformed, self.contact_map
+        )
+        self.counter = (
+            np.zeros_like(self.deformed)
+            if counter_deformed is None
+            else np.asarray(counter_deformed, float)
+        )
         self.asperities = list(asperities)
         self.prediction = prediction
         self.pitch_x, self.pitch_y = pitch_x, pitch_y
@@ -85,10 +111,12 @@ class ScanPicture:
         return columns * self.pitch_x, rows * self.pitch_y
 
     def counter_at_contact(self):
-        """The counter-surface where the search ended, in the scan's heights. The cell that came into contact last touches
-        without interference: no other contact cell is further apart."""
+        """The counter-surface where the search ended, in the scan's heights. The cell that came
+        into contact last touches without interference: no other contact cell is further apart."""
         separation = (self.counter - self.heights)[self.contact_map > 0]
-        return self.counter - (np.nanmax(separation) if separation.size else np.nanmin(self.counter - self.heights))
+        return self.counter - (
+            np.nanmax(separation) if separation.size else np.nanmin(self.counter - self.heights)
+        )
 
 
 def in_frame_of(heights, deformed, contact_map):
@@ -107,9 +135,22 @@ def save_picture(picture, path):
     """Writes the three panels as PNG."""
     figure = plt.figure(figsize=(15, 5.4), dpi=110)
     caption = _caption(picture)
-    top = min(0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055)  # below the caption there is a line of titles
-    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=top, bottom=0.17, wspace=0.3)
-    figure.suptitle(literal(picture.name), x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
+    top = min(
+        0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055
+    )  # below the caption there is a line of titles
+    grid = figure.add_gridspec(
+        1,
+        3,
+        width_ratios=(1.0, 1.0, 1.15),
+        left=0.045,
+        right=0.985,
+        top=top,
+        bottom=0.17,
+        wspace=0.3,
+    )
+    figure.suptitle(
+        literal(picture.name), x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold"
+    )
     figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
     draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
@@ -136,14 +177,22 @@ def save(figure, target):
 def _caption(picture):
     prediction = picture.prediction
     bound = bound_of(prediction, "at least ")
-    parts = [STATUS_NAMES.get(prediction.status, "?"),
-             "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N", digits_of(prediction))),
-             "contact %s of the area" % percent(prediction.contact_fraction),
-             "rms height %s" % with_unit(prediction.rms_height, "m"),
-             "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]
+    parts = [
+        STATUS_NAMES.get(prediction.status, "?"),
+        "pull-off force %s%s"
+        % (bound, with_unit(prediction.pull_off_force, "N", digits_of(prediction))),
+        "contact %s of the area" % percent(prediction.contact_fraction),
+        "rms height %s" % with_unit(prediction.rms_height, "m"),
+        "normal load %s" % with_unit(prediction.normal_load, "N"),
+        "voltage %s" % with_unit(prediction.voltage, "V"),
+    ]
     text = "   |   ".join(parts)
     flags = flag_words(flag_names(prediction.regime_flags), prediction.model_doubt)
-    return text + "\n" + textwrap.fill("Outside the model's range: " + flags, CAPTION_WIDTH) if flags else text
+    return (
+        text + "\n" + textwrap.fill("Outside the model's range: " + flags, CAPTION_WIDTH)
+        if flags
+        else text
+    )
 
 
 def map_axes(axes, picture, title):
@@ -169,8 +218,14 @@ def draw_heights(figure, axes, picture):
     low, high = np.percentile(finite, [0.2, 99.8]) if finite.size else (0, 1)
     middle = np.mean(finite)
     axes.set_facecolor("#e8d5e8")
-    image = axes.imshow((picture.heights - middle) * scale, extent=extent, cmap="viridis", vmin=(low - middle) * scale,
-                        vmax=(high - middle) * scale, interpolation="nearest")
+    image = axes.imshow(
+        (picture.heights - middle) * scale,
+        extent=extent,
+        cmap="viridis",
+        vmin=(low - middle) * scale,
+        vmax=(high - middle) * scale,
+        interpolation="nearest",
+    )
     bar = figure.colorbar(image, cax=beside(axes), extend="both")
     bar.set_label("height above mean [%s]" % unit)
 
@@ -180,13 +235,19 @@ def draw_relief(axes, picture, extent):
     finite = picture.heights[np.isfinite(picture.heights)]
     low, high = np.percentile(finite, [1, 99])
     span = high - low or 1.0  # a plane
-    axes.imshow(picture.heights, extent=extent, cmap="gray", vmin=low - 0.9 * span, vmax=high + 0.15 * span,
-                interpolation="nearest")
+    axes.imshow(
+        picture.heights,
+        extent=extent,
+        cmap="gray",
+        vmin=low - 0.9 * span,
+        vmax=high + 0.15 * span,
+        interpolation="nearest",
+    )
 
 
 def draw_contacts(axes, picture, section=None, title="Contact by regime", legend_at=0.47):
-    """Contacts in the colours of their regimes over the heights; the line of the cross-section. The legend stands below,
-    around this share of the figure's width."""
+    """Contacts in the colours of their regimes over the heights; the line of the cross-section. The
+    legend stands below, around this share of the figure's width."""
     extent, scale = map_axes(axes, picture, title)
     draw_relief(axes, picture, extent)
     colours = ListedColormap([colour for _, _, colour in REGIMES])
@@ -199,22 +260,47 @@ def draw_contacts(axes, picture, section=None, title="Contact by regime", legend
         ringed = [a for a in small[:MOST_RINGS] if a.regime == value]
         if not ringed:
             continue
-        axes.scatter([(a.x + picture.pitch_x / 2) * scale for a in ringed],
-                     [(a.y + picture.pitch_y / 2) * scale for a in ringed], s=55 if len(small) < 80 else 20,
-                     facecolors="none", edgecolors=colour, linewidths=1.1, clip_on=False)
+        axes.scatter(
+            [(a.x + picture.pitch_x / 2) * scale for a in ringed],
+            [(a.y + picture.pitch_y / 2) * scale for a in ringed],
+            s=55 if len(small) < 80 else 20,
+            facecolors="none",
+            edgecolors=colour,
+            linewidths=1.1,
+            clip_on=False,
+        )
     if section is not None:
         y = (section.row + 0.5) * picture.pitch_y * scale
-        axes.plot([section.first * picture.pitch_x * scale, (section.last + 1) * picture.pitch_x * scale], [y, y],
-                  color="black", linewidth=1.6)
+        axes.plot(
+            [section.first * picture.pitch_x * scale, (section.last + 1) * picture.pitch_x * scale],
+            [y, y],
+            color="black",
+            linewidth=1.6,
+        )
     axes.set_xlim(extent[0], extent[1])
     axes.set_ylim(extent[2], extent[3])
     beside(axes).set_axis_off()  # the two maps keep the same size
-    counts = (picture.prediction.elastic_count, picture.prediction.elasto_plastic_count, picture.prediction.plastic_count)
-    handles = [Patch(color=colour, label="%s (%d)" % (label, count)) for (_, label, colour), count in zip(REGIMES, counts)]
+    counts = (
+        picture.prediction.elastic_count,
+        picture.prediction.elasto_plastic_count,
+        picture.prediction.plastic_count,
+    )
+    handles = [
+        Patch(color=colour, label="%s (%d)" % (label, count))
+        for (_, label, colour), count in zip(REGIMES, counts)
+    ]
     if section is not None:
         handles.append(plt.Line2D([], [], color="black", linewidth=1.6, label="cross-section"))
-    axes.figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(legend_at, 0.01), ncol=4, fontsize=9, frameon=False,
-                       handlelength=1.2, columnspacing=1.2)
+    axes.figure.legend(
+        handles=handles,
+        loc="lower center",
+        bbox_to_anchor=(legend_at, 0.01),
+        ncol=4,
+        fontsize=9,
+        frameon=False,
+        handlelength=1.2,
+        columnspacing=1.2,
+    )
 
 
 class _Section:
@@ -223,7 +309,8 @@ class _Section:
 
 
 def _section(picture):
-    """Along x through the contact that carries most, three cap radii to either side and at least 7 pixels."""
+    """Along x through the contact that carries most, three cap radii to either side and at least 7
+    pixels."""
     if not picture.asperities:
         return None
     asperity = max(picture.asperities, key=lambda a: a.load)
@@ -249,13 +336,35 @@ def _draw_section(axes, picture, section):
     z_scale, z_unit = length_scale(np.nanmax(before) - np.nanmin(before))
     changed = np.nanmax(np.abs(after - before)) > 1e-3 * max(np.nanmax(before - counter), 1e-12)
     style = {"marker": "."} if len(x) < 60 else {}
-    axes.fill_between(x * x_scale, (after - zero) * z_scale, np.nanmin(before - zero) * z_scale, color="#e9edf2")
-    axes.plot(x * x_scale, (counter - zero) * z_scale, color="#555555", linewidth=1.4, linestyle=(0, (5, 2)),
-              zorder=3, label="counter-surface at rest")
-    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="before contact", **style)
-    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="after contact" if changed else "after contact: unchanged")
-    # Ten times the interference shows what the contact does, a third of the relief where it stands; the rest may leave
-    # the picture.
+    axes.fill_between(
+        x * x_scale, (after - zero) * z_scale, np.nanmin(before - zero) * z_scale, color="#e9edf2"
+    )
+    axes.plot(
+        x * x_scale,
+        (counter - zero) * z_scale,
+        color="#555555",
+        linewidth=1.4,
+        linestyle=(0, (5, 2)),
+        zorder=3,
+        label="counter-surface at rest",
+    )
+    axes.plot(
+        x * x_scale,
+        (before - zero) * z_scale,
+        color="#e07b00",
+        linewidth=2.6,
+        label="before contact",
+        **style,
+    )
+    axes.plot(
+        x * x_scale,
+        (after - zero) * z_scale,
+        color="#0b4f9e",
+        linewidth=1.4,
+        label="after contact" if changed else "after contact: unchanged",
+    )
+    # Ten times the interference shows what the contact does, a third of the relief where it stands;
+    # the rest may leave the picture.
     relief = zero - np.nanmin(before)
     deepest = -min(relief, max(10 * np.nanmax(before - counter), relief / 3))
     low, high = deepest * z_scale, max(0.0, np.nanmax(counter - zero) * z_scale)
@@ -269,6 +378,20 @@ def _draw_section(axes, picture, section):
     axes.legend(loc="upper left", fontsize=8.5, frameon=False)
     asperity = section.asperity
     regime = dict((value, label) for value, label, _ in REGIMES).get(asperity.regime, "?")
-    axes.text(0.985, 0.975, "%s\nload %s\nradius of curvature %s\nplasticity index %.2f" % (
-        regime, with_unit(asperity.load, "N"), with_unit(asperity.composite_radius, "m"), asperity.plasticity_index),
-        transform=axes.transAxes, ha="right", va="top", fontsize=8.5, color="#333333", linespacing=1.35)
+    axes.text(
+        0.985,
+        0.975,
+        "%s\nload %s\nradius of curvature %s\nplasticity index %.2f"
+        % (
+            regime,
+            with_unit(asperity.load, "N"),
+            with_unit(asperity.composite_radius, "m"),
+            asperity.plasticity_index,
+        ),
+        transform=axes.transAxes,
+        ha="right",
+        va="top",
+        fontsize=8.5,
+        color="#333333",
+        linespacing=1.35,
+    )

@@ -3,13 +3,28 @@
 import math
 import re
 
-BEYOND_PREFIXES = 1e15  # no figure here is so large: what is gets an exponent, in place of hundreds of digits
+BEYOND_PREFIXES = (
+    1e15  # no figure here is so large: what is gets an exponent, in place of hundreds of digits
+)
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
-_PREFIXES = {-21: "z", -18: "a", -15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+_PREFIXES = {
+    -21: "z",
+    -18: "a",
+    -15: "f",
+    -12: "p",
+    -9: "n",
+    -6: "u",
+    -3: "m",
+    0: "",
+    3: "k",
+    6: "M",
+    9: "G",
+}
 
 
 def prefix_for(value):
-    """The power of ten (a multiple of 3) and the letter with which `value` has one to three digits before the point."""
+    """The power of ten (a multiple of 3) and the letter with which `value` has one to three digits
+    before the point."""
     if value == 0 or not math.isfinite(value):
         return 0, ""
     exponent = 3 * math.floor(math.log10(abs(value) * (1 + 1e-9)) / 3)
@@ -32,7 +47,8 @@ def with_unit(value, unit, digits=3):
 
 
 def length_scale(extent):
-    """Factor and unit for an axis that spans `extent` metres: (1e9, "nm") or (1e6, "µm"), (1e3, "mm")."""
+    """Factor and unit for an axis that spans `extent` metres: (1e9, "nm") or (1e6, "µm"), (1e3,
+    "mm")."""
     if extent < 2e-6:
         return 1e9, "nm"
     return (1e6, "µm") if extent < 2e-3 else (1e3, "mm")
@@ -50,7 +66,8 @@ def percent(fraction):
 
 
 def ratio(value, digits=3):
-    """Significant digits, without an exponent up to a million: "0.0299", "16", "1240". "-" where there is none."""
+    """Significant digits, without an exponent up to a million: "0.0299", "16", "1240". "-" where
+    there is none."""
     if math.isnan(value):
         return "-"
     text = "%.*g" % (digits, value)
@@ -58,28 +75,30 @@ def ratio(value, digits=3):
 
 
 def known_digits(value, lower, upper):
-    """How many digits of a value are worth showing whose 95 % interval is this: two where it reaches further than 5 % to either
-    side, else three; three where it is not known."""
+    """How many digits of a value are worth showing whose 95 % interval is this: two where it
+    reaches further than 5 % to either side, else three; three where it is not known."""
     return 2 if abs(upper - lower) > 2 * SURE * abs(value) else 3
 
 
 def with_interval(value, lower, upper, unit=""):
-    """"2.1 uN (1.5 to 2.9)", rounded to what is known; without the interval where that is not."""
+    """ "2.1 uN (1.5 to 2.9)", rounded to what is known; without the interval where that is not."""
     digits = known_digits(value, lower, upper)
     text = with_unit(value, unit, digits) if unit else ratio(value, digits)
     if not math.isfinite(value) or math.isnan(lower) or math.isnan(upper):
         return text
-    scale = 10.0**prefix_for(float("%.*e" % (digits - 1, value)))[0] if unit else 1.0
+    scale = 10.0 ** prefix_for(float("%.*e" % (digits - 1, value)))[0] if unit else 1.0
     return "%s (%s to %s)" % (text, ratio(lower / scale, digits), ratio(upper / scale, digits))
 
 
 def typeset(text):
-    """A sentence with quantities, as a picture or a page can show it and a terminal may not: "0.2 um^2" with its letters."""
+    """A sentence with quantities, as a picture or a page can show it and a terminal may not: "0.2
+    um^2" with its letters."""
     return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
 def literal(text):
-    """A text that came from outside, as it stands, for a picture of matplotlib, which takes what is between two dollar signs for a formula."""
+    """A text that came from outside, as it stands, for a picture of matplotlib, which takes what is
+    between two dollar signs for a formula."""
     return text.replace("$", r"\$")
 
 
@@ -87,7 +106,8 @@ _UNITS = r"(?:[afpnuµmkMG]?(?:m|N|V|J|Pa|s|Hz|K)(?:\^?[2²3³])?(?:/(?:m|s)(?:\
 
 
 def unbroken(text):
-    """The text with a space that ends no line between each number and its unit, and behind a bound's sign."""
+    """The text with a space that ends no line between each number and its unit, and behind a
+    bound's sign."""
     return re.sub(r"(?<=≥) (?=\d)|(?<=\d) (?=%s(?![\w]))" % _UNITS, "\u00a0", text)
 
 

@@ -5,8 +5,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 
 class Rejections:
-    """`count` scans were dropped or rejected so far; `last_reason` says why the latest was. `is_known`: the node has
-    told."""
+    """`count` scans were dropped or rejected so far; `last_reason` says why the latest was.
+    `is_known`: the node has told."""
 
     def __init__(self):
         self.is_known = False

@@ -14,7 +14,8 @@ MOST_MAPS = 12
 
 
 def lots_section(rows, embedded):
-    """What the page shows; None where no row says of which lot or wafer it is, or none was predicted.
+    """What the page shows; None where no row says of which lot or wafer it is, or none was
+    predicted.
 
     embedded: makes the address of a picture within the page from a PNG.
     """
@@ -26,10 +27,16 @@ def lots_section(rows, embedded):
     if not wafers and not any(place.lot or place.wafer for place in places):
         return None
     found = compare_lots(rows)
-    maps = [(wafer_word(lot, wafer) or "the wafer", embedded(_png(figure))) for lot, wafer, figure in itertools.islice(found.maps(), MOST_MAPS)]
-    return {"statements": [typeset(text[0].upper() + text[1:] + ".") for text in found.statements],
-            "picture": embedded(_png(comparison_figure(found.to_dict(), has_statements=False))), "maps": maps,
-            "has_more": len(wafers) > MOST_MAPS}
+    maps = [
+        (wafer_word(lot, wafer) or "the wafer", embedded(_png(figure)))
+        for lot, wafer, figure in itertools.islice(found.maps(), MOST_MAPS)
+    ]
+    return {
+        "statements": [typeset(text[0].upper() + text[1:] + ".") for text in found.statements],
+        "picture": embedded(_png(comparison_figure(found.to_dict(), has_statements=False))),
+        "maps": maps,
+        "has_more": len(wafers) > MOST_MAPS,
+    }
 
 
 def _png(figure):

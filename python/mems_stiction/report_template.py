@@ -115,4 +115,4 @@ PAGE = """<!DOCTYPE html>
 </div>
 </body>
 </html>
-"""
+"""  # noqa: E501

@@ -1,4 +1,5 @@
-"""Tables of rows as people keep them: CSV, or Parquet with the unit of each column and where the rows come from."""
+"""Tables of rows as people keep them: CSV, or Parquet with the unit of each column and where the
+rows come from."""
 
 import csv
 import decimal
@@ -21,7 +22,7 @@ class Stamp(int):
 
     @classmethod
     def of(cls, text):
-        """"1000000000.1" in seconds."""
+        """ "1000000000.1" in seconds."""
         return cls(decimal.Decimal(text).scaleb(9))
 
     def __str__(self):
@@ -34,7 +35,13 @@ def units_of(message_class, prefix=""):
     name = None
     for line in message_class._full_text.split("\n" + "=" * 80)[0].splitlines():
         field = _FIELD.match(line)
-        comment = field.group(2) if field else line if line.lstrip().startswith("#") and line != line.lstrip() else None
+        comment = (
+            field.group(2)
+            if field
+            else line
+            if line.lstrip().startswith("#") and line != line.lstrip()
+            else None
+        )
         name = field.group(1) if field else name if comment else None
         unit = _UNIT.search(comment or "")
         if name and unit:
@@ -47,7 +54,8 @@ def is_parquet(path):
 
 
 def require_parquet(option, path):
-    """Before the work, not after it: raises OSError where a table cannot be written for want of a library."""
+    """Before the work, not after it: raises OSError where a table cannot be written for want of a
+    library."""
     if not path or not is_parquet(path):
         return
     try:
@@ -59,8 +67,8 @@ def require_parquet(option, path):
 def write_rows(path, names, rows, units, origin=None):
     """A table of dictionaries, whole or not at all; its kind goes by the ending of the path.
 
-    names: of the columns; a row may lack some. units: {name: unit}, SI. origin: {word: text} of all rows together. Both are left
-    out of a CSV.
+    names: of the columns; a row may lack some. units: {name: unit}, SI. origin: {word: text} of all
+    rows together. Both are left out of a CSV.
     """
     if is_parquet(path):
         write_table(path, _table_of(names, rows, units), units, origin or {})
@@ -89,7 +97,13 @@ def _table_of(names, rows, units):
 
     columns = [[row.get(name) for row in rows] for name in names]
     kinds = [_kind_of(column, name in units, pyarrow) for name, column in zip(names, columns)]
-    return pyarrow.Table.from_arrays([pyarrow.array(_of_kind(column, kind, pyarrow), kind) for column, kind in zip(columns, kinds)], names=list(names))
+    return pyarrow.Table.from_arrays(
+        [
+            pyarrow.array(_of_kind(column, kind, pyarrow), kind)
+            for column, kind in zip(columns, kinds)
+        ],
+        names=list(names),
+    )
 
 
 def _kind_of(column, has_unit, pyarrow):
@@ -102,8 +116,16 @@ def _kind_of(column, has_unit, pyarrow):
     if all(isinstance(value, bool) for value in values):
         return pyarrow.bool_()
     if all(isinstance(value, int) for value in values):
-        return pyarrow.int64() if all(-2**63 <= value < 2**63 for value in values) else pyarrow.float64()
-    return pyarrow.float64() if all(isinstance(value, (int, float)) for value in values) else pyarrow.string()
+        return (
+            pyarrow.int64()
+            if all(-(2**63) <= value < 2**63 for value in values)
+            else pyarrow.float64()
+        )
+    return (
+        pyarrow.float64()
+        if all(isinstance(value, (int, float)) for value in values)
+        else pyarrow.string()
+    )
 
 
 def _time(pyarrow):
@@ -113,22 +135,32 @@ def _time(pyarrow):
 def _of_kind(column, kind, pyarrow):
     if kind == pyarrow.string():
         return [value if value is None else str(value) for value in column]
-    return [float(value) for value in column] if kind == pyarrow.float64() and None not in column else column
+    return (
+        [float(value) for value in column]
+        if kind == pyarrow.float64() and None not in column
+        else column
+    )
 
 
 def converted(path, units, kinds, is_text):
-    """The rows of a CSV or of JSON lines as a table of pyarrow. A figure has the same type in every file, known or not.
+    """The rows of a CSV or of JSON lines as a table of pyarrow. A figure has the same type in every
+    file, known or not.
 
-    kinds: {name: "float", "int", "bool" or "str"} of what is declared; what else has a unit is a number. is_text: whether another
-    column is a text, whatever it looks like (a part 0012, a hash 12e4); the rest goes by its values. Raises OSError, and ValueError for
-    what are no rows.
+    kinds: {name: "float", "int", "bool" or "str"} of what is declared; what else has a unit is a
+    number. is_text: whether another column is a text, whatever it looks like (a part 0012, a hash
+    12e4); the rest goes by its values. Raises OSError, and ValueError for what are no rows.
     """
     import pyarrow
     import pyarrow.compute
     import pyarrow.csv
     import pyarrow.json
 
-    of_word = {"float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_(), "str": pyarrow.string()}
+    of_word = {
+        "float": pyarrow.float64(),
+        "int": pyarrow.int64(),
+        "bool": pyarrow.bool_(),
+        "str": pyarrow.string(),
+    }
     is_csv = str(path).endswith(".csv")
     with open(str(path), encoding="utf-8-sig", newline="") as stream:
         names = next(csv.reader(stream), []) if is_csv else json.loads(stream.readline() or "{}")
@@ -138,8 +170,14 @@ def converted(path, units, kinds, is_text):
     declared.update({name: pyarrow.float64() for name in names if name in units})
     declared.update({name: of_word[kinds[name]] for name in names if name in kinds})
     if is_csv:
-        options = pyarrow.csv.ConvertOptions(column_types=declared, strings_can_be_null=True, null_values=[""])
-        table = pyarrow.csv.read_csv(str(path), parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True), convert_options=options)
+        options = pyarrow.csv.ConvertOptions(
+            column_types=declared, strings_can_be_null=True, null_values=[""]
+        )
+        table = pyarrow.csv.read_csv(
+            str(path),
+            parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True),
+            convert_options=options,
+        )
     else:
         options = pyarrow.json.ParseOptions(explicit_schema=pyarrow.schema(list(declared.items())))
         table = pyarrow.json.read_json(str(path), parse_options=options)
@@ -161,8 +199,17 @@ def write_table(path, table, units, origin):
     import pyarrow
     import pyarrow.parquet
 
-    fields = [field.with_metadata({"unit": units[field.name]}) if field.name in units else field for field in table.schema]
-    told = {"mems_stiction." + word: str(text) for word, text in dict({"version": version()}, **origin).items() if text is not None}
+    fields = [
+        field.with_metadata({"unit": units[field.name]}) if field.name in units else field
+        for field in table.schema
+    ]
+    told = {
+        "mems_stiction." + word: str(text)
+        for word, text in dict({"version": version()}, **origin).items()
+        if text is not None
+    }
     # Not by its name: pyarrow removes what it cannot write, be it a device.
     with whole(path) as part, open(str(part), "wb") as stream:
-        pyarrow.parquet.write_table(table.cast(pyarrow.schema(fields, told)), stream, compression="zstd")
+        pyarrow.parquet.write_table(
+            table.cast(pyarrow.schema(fields, told)), stream, compression="zstd"
+        )

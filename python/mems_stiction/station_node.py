@@ -1,5 +1,5 @@
-"""How a command line becomes a node: without a master it gives up in time, what it is to write can be written, and what others
-say reaches no terminal as a control character."""
+"""How a command line becomes a node: without a master it gives up in time, what it is to write can
+be written, and what others say reaches no terminal as a control character."""
 
 import errno
 import sys
@@ -14,14 +14,16 @@ from mems_stiction.whole_file import check_writable, reason_of
 
 
 class Printable:
-    """A stream that spells out control characters but line ends and tabs: names, frames and reasons come from anybody in the
-    network, and none moves the cursor of a terminal."""
+    """A stream that spells out control characters but line ends and tabs: names, frames and reasons
+    come from anybody in the network, and none moves the cursor of a terminal."""
 
     def __init__(self, stream):
         self._stream = stream
 
     def write(self, text):
-        return self._stream.write("".join(letter if letter in "\n\t" else printable(letter) for letter in text))
+        return self._stream.write(
+            "".join(letter if letter in "\n\t" else printable(letter) for letter in text)
+        )
 
     def writelines(self, lines):
         for line in lines:
@@ -32,7 +34,8 @@ class Printable:
 
 
 class Closed:
-    """In place of a stream that the caller has closed, which is None: to write there fails, as on a full disk."""
+    """In place of a stream that the caller has closed, which is None: to write there fails, as on a
+    full disk."""
 
     closed = False
     encoding = "utf-8"
@@ -52,11 +55,13 @@ SILENT = 2.0  # of a wait that nobody is told of [s]
 
 
 class CannotRun(Exception):
-    """There is no master, no node, no place to write to, or the node has refused the goal; the text says why."""
+    """There is no master, no node, no place to write to, or the node has refused the goal; the text
+    says why."""
 
 
 def check_master_address():
-    """Raises CannotRun where ROS_MASTER_URI is no address, at which rospy would end in a traceback."""
+    """Raises CannotRun where ROS_MASTER_URI is no address, at which rospy would end in a
+    traceback."""
     address = rosgraph.get_master_uri()
     parts = urllib.parse.urlsplit(address)
     try:
@@ -64,20 +69,32 @@ def check_master_address():
     except ValueError:  # of the port
         is_address = False
     if not is_address:
-        raise CannotRun("ROS_MASTER_URI: '%s' is not allowed, must be an address as http://localhost:11311" % address)
+        raise CannotRun(
+            "ROS_MASTER_URI: '%s' is not allowed, must be an address as http://localhost:11311"
+            % address
+        )
 
 
 def become_node(name, timeout, **options):
-    """rospy.init_node() for a node of its own name, which alone would wait for a master for ever, and say nothing."""
+    """rospy.init_node() for a node of its own name, which alone would wait for a master for ever,
+    and say nothing."""
     check_master_address()
     begin = time.monotonic()
     is_told = False
     while not rosgraph.is_master_online():
         waited = time.monotonic() - begin
         if waited > timeout:
-            raise CannotRun("no ROS master at %s for %g s: is roscore or roslaunch running?" % (rosgraph.get_master_uri(), timeout))
+            raise CannotRun(
+                "no ROS master at %s for %g s: is roscore or roslaunch running?"
+                % (rosgraph.get_master_uri(), timeout)
+            )
         if waited > SILENT and not is_told:
-            print("%s: waits for a ROS master at %s (roscore or roslaunch)" % (name, rosgraph.get_master_uri()), file=sys.stderr, flush=True)
+            print(
+                "%s: waits for a ROS master at %s (roscore or roslaunch)"
+                % (name, rosgraph.get_master_uri()),
+                file=sys.stderr,
+                flush=True,
+            )
             is_told = True
         time.sleep(0.1)
     sys.stdout, sys.stderr = Printable(sys.stdout or Closed()), Printable(sys.stderr or Closed())
@@ -90,14 +107,22 @@ def become_node(name, timeout, **options):
 
 
 def no_node(what, name, timeout):
-    """The sentence on a service or an action "NODE/NAME" that did not come: under which names nodes of this package run instead."""
+    """The sentence on a service or an action "NODE/NAME" that did not come: under which names nodes
+    of this package run instead."""
     try:
         services = [service for service, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]]
     except (OSError, rosgraph.MasterError):
         services = []
-    nodes = sorted(service.rsplit("/", 1)[0] for service in services if service.endswith("/solve_half_space"))
+    nodes = sorted(
+        service.rsplit("/", 1)[0] for service in services if service.endswith("/solve_half_space")
+    )
     found = " There is %s (--node)" % ", ".join(nodes) if nodes else ""
-    return "no %s %s for %g s: is the node running under that name?%s" % (what, name, timeout, found)
+    return "no %s %s for %g s: is the node running under that name?%s" % (
+        what,
+        name,
+        timeout,
+        found,
+    )
 
 
 def require_writable(option, path):
@@ -111,7 +136,8 @@ def require_writable(option, path):
 
 
 def run_program(program, main, status):
-    """The whole of a script: main(), its exit status, and one line for what goes wrong on the way."""
+    """The whole of a script: main(), its exit status, and one line for what goes wrong on the
+    way."""
     try:
         interrupted.raise_from_here_on()
         result = main()

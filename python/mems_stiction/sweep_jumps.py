@@ -1,4 +1,5 @@
-"""Where a load sweep jumps, and why: what changes by leaps between two neighbouring voltages, in words."""
+"""Where a load sweep jumps, and why: what changes by leaps between two neighbouring voltages, in
+words."""
 
 import math
 
@@ -13,15 +14,21 @@ _STATES = {BONDED: "the surfaces bond", NO_EQUILIBRIUM: "the search finds no equ
 
 
 class Jump:
-    """From one point of a way to the next. cause: in words; height: how much of the range of area or force it spans [-]."""
+    """From one point of a way to the next. cause: in words; height: how much of the range of area
+    or force it spans [-]."""
 
     def __init__(self, before, after, cause, share):
         self.before, self.after, self.cause, self.share = before, after, cause, share
 
     def words(self):
         way = "up" if self.after.direction == UP else "down"
-        return "from %s to %s on the way %s%s: %s" % (with_unit(self.before.voltage, "V"), with_unit(self.after.voltage, "V"), way,
-                                                      _changes(self.before, self.after), self.cause)
+        return "from %s to %s on the way %s%s: %s" % (
+            with_unit(self.before.voltage, "V"),
+            with_unit(self.after.voltage, "V"),
+            way,
+            _changes(self.before, self.after),
+            self.cause,
+        )
 
 
 def ways_of(points, mechanical_load):
@@ -44,8 +51,8 @@ def jumps_of(points, mechanical_load, pull_in_voltage):
 
 
 def _leaps(way):
-    """{place of a step: its share} of those over which contact area or pull-off force is not continuous. Both go with the
-    field, and that with the square of the voltage."""
+    """{place of a step: its share} of those over which contact area or pull-off force is not
+    continuous. Both go with the field, and that with the square of the voltage."""
     closed = [point for point in way if not point.is_open]
     squares = [point.voltage**2 for point in closed]
     shares = {}
@@ -68,7 +75,9 @@ def _causes(before, after, is_leap, pull_in_voltage):
     if after.is_open:
         return []
     if before.voltage < pull_in_voltage <= after.voltage:
-        causes.append("pull-in at %s, the field closes the device by itself" % with_unit(pull_in_voltage, "V"))
+        causes.append(
+            "pull-in at %s, the field closes the device by itself" % with_unit(pull_in_voltage, "V")
+        )
     if after.status != before.status and after.status in _STATES:
         causes.append(_STATES[after.status])
     elif is_leap:
@@ -79,7 +88,11 @@ def _causes(before, after, is_leap, pull_in_voltage):
 def _contacts(before, after):
     more = after.asperity_count - before.asperity_count
     if more > 0:
-        return "%d new contact%s snap%s in" % (more, "" if more == 1 else "s", "s" if more == 1 else "")
+        return "%d new contact%s snap%s in" % (
+            more,
+            "" if more == 1 else "s",
+            "s" if more == 1 else "",
+        )
     if more < 0:
         return "contacts grow together, %d to %d" % (before.asperity_count, after.asperity_count)
     return "the same contacts spread at once"
@@ -89,7 +102,10 @@ def _changes(before, after):
     if after.is_open:
         return ""
     texts = []
-    for what, value_of, text in (("contact area", contact_area_of, area), ("pull-off force", lambda point: point.pull_off_force, _force)):
+    for what, value_of, text in (
+        ("contact area", contact_area_of, area),
+        ("pull-off force", lambda point: point.pull_off_force, _force),
+    ):
         old, new = text(value_of(before)), text(value_of(after))
         if old != new:
             texts.append("%s %s to %s" % (what, old, new))

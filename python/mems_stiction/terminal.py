@@ -1,4 +1,5 @@
-"""What programs say beside their answer, on the standard error: how far they are, and what looks wrong."""
+"""What programs say beside their answer, on the standard error: how far they are, and what looks
+wrong."""
 
 import contextlib
 import sys
@@ -7,10 +8,16 @@ import warnings
 
 def progress_of(program):
     """A function of the share that is done; it draws one line, on terminals alone."""
+
     def show(share):
         if sys.stderr.isatty():
             end = "\n" if share >= 1.0 else ""
-            print("\r%s: %3.0f %%%s" % (program, 100 * share, end), end="", file=sys.stderr, flush=True)
+            print(
+                "\r%s: %3.0f %%%s" % (program, 100 * share, end),
+                end="",
+                file=sys.stderr,
+                flush=True,
+            )
 
     return show
 

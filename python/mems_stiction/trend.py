@@ -3,12 +3,22 @@
 MOST_SCANS = 10000  # that are kept: some 5 kB each
 MOST_EARLY = 100  # verdicts on devices that wait for the prediction of their scan
 NOTHING_FOUND = 2  # DeviceAdhesion.REFUSED
-TAKEN = ("sticks", "restoring_force", "margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper",
-         "governed_by")
+TAKEN = (
+    "sticks",
+    "restoring_force",
+    "margin",
+    "margin_lower",
+    "margin_upper",
+    "peel_number",
+    "peel_number_lower",
+    "peel_number_upper",
+    "governed_by",
+)
 
 
 class Scan:
-    """One scan. `prediction` is its message, or None while there is none; `is_lost`: there will be none."""
+    """One scan. `prediction` is its message, or None while there is none; `is_lost`: there will be
+    none."""
 
     def __init__(self, stamp):
         self.stamp = stamp
@@ -20,8 +30,9 @@ class Scan:
 class Trend:
     """The scans in the order in which they were made.
 
-    Scans are predicted in this order, so that one without a prediction is lost once a later one has its own, or once
-    the node counts a loss. The oldest are forgotten beyond `most`; their numbers stay.
+    Scans are predicted in this order, so that one without a prediction is lost once a later one has
+    its own, or once the node counts a loss. The oldest are forgotten beyond `most`; their numbers
+    stay.
     """
 
     def __init__(self, most=MOST_SCANS):
@@ -35,13 +46,17 @@ class Trend:
     def add_scan(self, stamp):
         """An image has arrived."""
         place = len(self.scans)
-        while place > 0 and not self.scans[place - 1].has_arrived and self.scans[place - 1].stamp >= stamp:
+        while (
+            place > 0
+            and not self.scans[place - 1].has_arrived
+            and self.scans[place - 1].stamp >= stamp
+        ):
             place -= 1
         if place == len(self.scans) or self.scans[place].stamp != stamp:
             self.scans.insert(place, Scan(stamp))
         self.scans[place].has_arrived = True
-        if any(scan.prediction is not None for scan in self.scans[place + 1:]):
-            self._lose(self.scans[place:place + 1])
+        if any(scan.prediction is not None for scan in self.scans[place + 1 :]):
+            self._lose(self.scans[place : place + 1])
         self._forget()
 
     def add_prediction(self, stamp, prediction):
@@ -54,13 +69,18 @@ class Trend:
         scan.prediction, scan.is_lost = prediction, False
         if stamp in self._early:
             self.judge(stamp, self._early.pop(stamp))
-        self._lose(self.scans[:self.scans.index(scan)])
+        self._lose(self.scans[: self.scans.index(scan)])
         self._forget()
 
     def judge(self, stamp, device):
-        """The verdict on the whole device (a DeviceAdhesion) takes the place of the prediction's, whose settings it has: the newest scan of
-        the stamp is meant. What was judged under other settings belongs to no scan here."""
-        predicted = [scan.prediction for scan in self.scans if scan.stamp == stamp and scan.prediction is not None]
+        """The verdict on the whole device (a DeviceAdhesion) takes the place of the prediction's,
+        whose settings it has: the newest scan of the stamp is meant. What was judged under other
+        settings belongs to no scan here."""
+        predicted = [
+            scan.prediction
+            for scan in self.scans
+            if scan.stamp == stamp and scan.prediction is not None
+        ]
         if not predicted:
             self._early[stamp] = device
             while len(self._early) > MOST_EARLY:
@@ -71,7 +91,10 @@ class Trend:
             return
         for name in TAKEN:
             setattr(prediction, name, getattr(device, name))
-        prediction.reason, prediction.device_pull_off_force = device.verdict_reason, device.pull_off_force
+        prediction.reason, prediction.device_pull_off_force = (
+            device.verdict_reason,
+            device.pull_off_force,
+        )
 
     def _lose(self, scans):
         """A later one is predicted already."""
@@ -85,18 +108,22 @@ class Trend:
         waiting = [scan for scan in self.scans if scan.prediction is None and not scan.is_lost]
         already_seen = min(count, self._uncounted)
         self._uncounted -= already_seen
-        for scan in waiting[:count - already_seen]:
+        for scan in waiting[: count - already_seen]:
             scan.is_lost = True
 
     def _forget(self):
-        old = self.scans[:max(0, len(self.scans) - self._most)]
+        old = self.scans[: max(0, len(self.scans) - self._most)]
         self._forgotten += len(old)
         self._forgotten_losses += sum(scan.is_lost for scan in old)
-        del self.scans[:len(old)]
+        del self.scans[: len(old)]
 
     def decided(self):
         """(number from 1, scan) of all that are kept, but those that wait."""
-        return [(number, scan) for number, scan in enumerate(self.scans, 1 + self._forgotten) if scan.prediction is not None or scan.is_lost]
+        return [
+            (number, scan)
+            for number, scan in enumerate(self.scans, 1 + self._forgotten)
+            if scan.prediction is not None or scan.is_lost
+        ]
 
     def decided_count(self):
         """With those that are forgotten."""

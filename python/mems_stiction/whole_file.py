@@ -32,12 +32,19 @@ def reason_of(error):
 def new_part_of(path):
     """A new, empty file beside a file, with its ending, which says to others what is in it.
 
-    Nobody can guess the name, and what stands there already, as a link that somebody laid, is never written to.
+    Nobody can guess the name, and what stands there already, as a link that somebody laid, is never
+    written to.
     """
     while True:
         part = path.with_name(".%s.part-%s%s" % (path.stem, secrets.token_hex(6), path.suffix))
         with contextlib.suppress(FileExistsError):
-            os.close(os.open(str(part), os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0), 0o666))
+            os.close(
+                os.open(
+                    str(part),
+                    os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0),
+                    0o666,
+                )
+            )
             return part
 
 
@@ -72,13 +79,18 @@ def whole(path):
         if not is_device:
             with contextlib.suppress(OSError):
                 part.unlink()
-        if isinstance(error, OSError) and not isinstance(error, CannotWrite) and error.filename in (None, str(part), part):
+        if (
+            isinstance(error, OSError)
+            and not isinstance(error, CannotWrite)
+            and error.filename in (None, str(part), part)
+        ):
             raise CannotWrite(asked, error) from error
         raise
 
 
 def check_writable(path):
-    """Raises OSError if a file cannot be written there by whole(); CannotWrite where the place beside it, which nobody has named, is why."""
+    """Raises OSError if a file cannot be written there by whole(); CannotWrite where the place
+    beside it, which nobody has named, is why."""
     asked = path
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)

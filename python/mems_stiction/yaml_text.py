@@ -1,7 +1,9 @@
 """YAML that somebody else has written, read with limits.
 
-Anchors and aliases let a text of a few bytes contain itself, or stand for more than any memory holds.
-Both are refused before a tree is built, with the limits and words of the compiled reader (yaml_text.hpp).
+Anchors and aliases let a text of a few bytes contain itself, or stand for more than any memory
+holds.
+Both are refused before a tree is built, with the limits and words of the compiled reader
+(yaml_text.hpp).
 """
 
 from typing import Any, Dict, List, Optional
@@ -30,7 +32,11 @@ def read_yaml(text: str, loader: Optional[Any] = None) -> Any:
         raise UnfitYaml("is no YAML: %s" % " ".join(str(error).split()))
     except UnfitYaml:
         raise
-    except (ValueError, OverflowError, RecursionError) as error:  # 2001-99-99 is a date to YAML alone
+    except (
+        ValueError,
+        OverflowError,
+        RecursionError,
+    ) as error:  # 2001-99-99 is a date to YAML alone
         raise UnfitYaml("has a value that cannot be read: %s" % " ".join(str(error).split()))
 
 
@@ -70,8 +76,11 @@ class _Meter:
             elif isinstance(event, yaml.AliasEvent) and event.anchor in self.sizes:  # else no YAML
                 named = self.sizes[event.anchor]
                 if named is None:
-                    refuse(event.start_mark, "an alias stands inside what it names, so that the text "
-                           "contains itself; must not")
+                    refuse(
+                        event.start_mark,
+                        "an alias stands inside what it names, so that the text "
+                        "contains itself; must not",
+                    )
                 else:
                     size = _Size(event.start_mark, None, named.levels)
                     size.values, size.bytes = named.values, named.bytes
@@ -88,10 +97,15 @@ class _Meter:
         whole.values += size.values
         whole.bytes += size.bytes
         whole.levels = max(whole.levels, size.levels + 1)
-        for count, most, word in ((whole.values, self.most_values, "values"),
-                                  (whole.bytes, self.most_bytes, "bytes")):
+        for count, most, word in (
+            (whole.values, self.most_values, "values"),
+            (whole.bytes, self.most_bytes, "bytes"),
+        ):
             if count > most:
-                refuse(size.mark, "the text holds more than %d %s, as aliases stand for many" % (most, word))
+                refuse(
+                    size.mark,
+                    "the text holds more than %d %s, as aliases stand for many" % (most, word),
+                )
 
     def check_levels(self, mark: Any, levels: int) -> None:
         if levels > MOST_LEVELS:

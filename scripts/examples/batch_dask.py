@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""An archive of bags and scan files over the workers of a Dask cluster: shards by stiction_batch, joined at the end.
+"""An archive of bags and scan files over the workers of a Dask cluster: shards by stiction_batch,
+joined at the end.
 
-usage: batch_dask.py [--config FILE.yaml] [--workers N | --scheduler HOST:PORT] [--shards N] -o ROWS.csv BAG|SCAN...
+usage: batch_dask.py [--config FILE.yaml] [--workers N | --scheduler HOST:PORT] [--shards N] -o
+ROWS.csv BAG|SCAN...
 
-Without --scheduler the workers run on this machine. With one, workers must see the same folders and have stiction_batch
-on their PATH, from ROS or from pip. A shard whose worker dies goes to another, which goes on where it was; so does every
-shard when this is called again after an interruption.
+Without --scheduler the workers run on this machine. With one, workers must see the same folders and
+have stiction_batch on their PATH, from ROS or from pip. A shard whose worker dies goes to another,
+which goes on where it was; so does every shard when this is called again after an interruption.
 """
 
 import argparse
@@ -22,14 +24,23 @@ DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 
 
 def run_shard(command):
-    """One shard, in a process of its own; its last line. It ends with its worker: two must not write one file."""
+    """One shard, in a process of its own; its last line. It ends with its worker: two must not
+    write one file."""
+
     def die_with_worker():
         ctypes.CDLL(None).prctl(DIE_WITH_PARENT, signal.SIGKILL)
 
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          preexec_fn=die_with_worker)
+    done = subprocess.run(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+        preexec_fn=die_with_worker,
+    )
     if done.returncode not in (0, NONE_PREDICTED):
-        raise RuntimeError(done.stderr.strip() or "stiction_batch ended with status %d" % done.returncode)
+        raise RuntimeError(
+            done.stderr.strip() or "stiction_batch ended with status %d" % done.returncode
+        )
     return done.stdout.strip()
 
 
@@ -53,17 +64,31 @@ def main():
 
     output = pathlib.Path(os.path.abspath(arguments.output))
     count = arguments.shards or 4 * arguments.workers
-    shards = ["%s.shard_%04d%s" % (output.with_suffix(""), index, output.suffix) for index in range(1, count + 1)]
-    # Absolute, since workers stand in other folders. Links are not followed: a scan's settings lie beside its link.
+    shards = [
+        "%s.shard_%04d%s" % (output.with_suffix(""), index, output.suffix)
+        for index in range(1, count + 1)
+    ]
+    # Absolute, since workers stand in other folders. Links are not followed: a scan's settings lie
+    # beside its link.
     inputs = [os.path.abspath(path) for path in arguments.inputs]
     settings = ["--config", os.path.abspath(arguments.config)] if arguments.config else []
-    commands = [["stiction_batch", "--shard", "%d/%d" % (index, count), "-o", shard] + settings + ["--"] + inputs
-                for index, shard in enumerate(shards, 1)]
+    commands = [
+        ["stiction_batch", "--shard", "%d/%d" % (index, count), "-o", shard]
+        + settings
+        + ["--"]
+        + inputs
+        for index, shard in enumerate(shards, 1)
+    ]
 
     cluster = None
     if not arguments.scheduler:
         # Threads suffice: each runs a program and waits for it.
-        cluster = LocalCluster(n_workers=arguments.workers, threads_per_worker=1, processes=False, dashboard_address=None)
+        cluster = LocalCluster(
+            n_workers=arguments.workers,
+            threads_per_worker=1,
+            processes=False,
+            dashboard_address=None,
+        )
     try:
         with Client(arguments.scheduler or cluster) as client:
             futures = client.map(run_shard, commands, pure=False, retries=2)

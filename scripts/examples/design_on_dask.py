@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """A sweep of a design over the workers of a Dask cluster: a task for each force.
 
-usage: design_on_dask.py --axis NAME=FROM:TO:COUNT [--axis NAME=FROM:TO:COUNT] [--config FILE.yaml] [--pitch M]
-                         [--workers N | --scheduler HOST:PORT] -o ROWS.csv [--picture OUT.png] SCAN...
+usage: design_on_dask.py --axis NAME=FROM:TO:COUNT [--axis NAME=FROM:TO:COUNT] [--config FILE.yaml]
+[--pitch M]
+                         [--workers N | --scheduler HOST:PORT] -o ROWS.csv [--picture OUT.png]
+                         SCAN...
 
-Without --scheduler the workers run on this machine. With one, they must have mems_stiction installed; the scans are sent to them.
-A point whose worker dies goes to another. Called again after an interruption, it goes on after the rows that are there. The rows are
-those of the program design_sweep.
+Without --scheduler the workers run on this machine. With one, they must have mems_stiction
+installed; the scans are sent to them.
+A point whose worker dies goes to another. Called again after an interruption, it goes on after the
+rows that are there. The rows are those of the program design_sweep.
 """
 
 import argparse
@@ -35,11 +38,20 @@ def show_progress(share):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scans", nargs="+", metavar="SCAN")
-    parser.add_argument("--axis", action="append", type=axis, required=True, metavar="NAME=FROM:TO:COUNT", help="once or twice")
+    parser.add_argument(
+        "--axis",
+        action="append",
+        type=axis,
+        required=True,
+        metavar="NAME=FROM:TO:COUNT",
+        help="once or twice",
+    )
     parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv")
     parser.add_argument("--picture", metavar="OUT.png")
     parser.add_argument("-c", "--config", metavar="FILE.yaml")
-    parser.add_argument("-p", "--pitch", type=float, metavar="M", help="of scans that do not say it")
+    parser.add_argument(
+        "-p", "--pitch", type=float, metavar="M", help="of scans that do not say it"
+    )
     parser.add_argument("--workers", type=positive, default=2, help="on this machine (2)")
     parser.add_argument("--scheduler", metavar="HOST:PORT", help="of a cluster that runs already")
     arguments = parser.parse_args()
@@ -51,10 +63,19 @@ def main():
     cluster = None
     try:
         if not arguments.scheduler:
-            cluster = LocalCluster(n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None)
+            cluster = LocalCluster(
+                n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None
+            )
         with Client(arguments.scheduler or cluster) as client:
-            found = mems_stiction.design_sweep(arguments.scans, dict(arguments.axis), arguments.config, arguments.pitch, arguments.output,
-                                               on_progress=show_progress, executor=client.get_executor(pure=False, retries=2))
+            found = mems_stiction.design_sweep(
+                arguments.scans,
+                dict(arguments.axis),
+                arguments.config,
+                arguments.pitch,
+                arguments.output,
+                on_progress=show_progress,
+                executor=client.get_executor(pure=False, retries=2),
+            )
     except (KilledWorker, OSError, mems_stiction.Error) as error:
         print("design_on_dask: %s" % error, file=sys.stderr)
         return 2

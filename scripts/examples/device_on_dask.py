@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""The force of one device of any size, its surface made and summed strip by strip by the workers of a Dask cluster.
+"""The force of one device of any size, its surface made and summed strip by strip by the workers of
+a Dask cluster.
 
-usage: device_on_dask.py --area M2 [--contacts N] [--config FILE.yaml] [--pitch M] [--seed N] [--realisation N] [--depth M]
+usage: device_on_dask.py --area M2 [--contacts N] [--config FILE.yaml] [--pitch M] [--seed N]
+[--realisation N] [--depth M]
                          [--workers N | --scheduler HOST:PORT] [--strips N] SCAN...
 
-Prints one JSON object: what holds the surface of this seed, the same bits on any cluster. Without --scheduler the workers
-run on this machine. With one, they must have mems_stiction installed; the scans are sent to them, once, and the surface is made there.
+Prints one JSON object: what holds the surface of this seed, the same bits on any cluster. Without
+--scheduler the workers run on this machine. With one, they must have mems_stiction installed; the
+scans are sent to them, once, and the surface is made there.
 A strip whose worker dies goes to another. 10^10 pixels take about 6 minutes of one processor.
 """
 
@@ -38,13 +41,28 @@ def arrived(futures):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("scans", nargs="+", metavar="SCAN")
-    parser.add_argument("-a", "--area", type=float, metavar="M2", help="of all contacts together; else device/contact_area")
-    parser.add_argument("--contacts", type=positive, metavar="N", help="that share it; else device/contacts")
+    parser.add_argument(
+        "-a",
+        "--area",
+        type=float,
+        metavar="M2",
+        help="of all contacts together; else device/contact_area",
+    )
+    parser.add_argument(
+        "--contacts", type=positive, metavar="N", help="that share it; else device/contacts"
+    )
     parser.add_argument("-c", "--config", metavar="FILE.yaml")
-    parser.add_argument("-p", "--pitch", type=float, metavar="M", help="of scans that do not say it")
+    parser.add_argument(
+        "-p", "--pitch", type=float, metavar="M", help="of scans that do not say it"
+    )
     parser.add_argument("--seed", type=int, help="else device_force/seed")
     parser.add_argument("--realisation", type=int, default=0, help="which surface of the seed (0)")
-    parser.add_argument("--depth", type=float, metavar="M", help="of the cells that are sent; only where it is asked for")
+    parser.add_argument(
+        "--depth",
+        type=float,
+        metavar="M",
+        help="of the cells that are sent; only where it is asked for",
+    )
     parser.add_argument("--workers", type=positive, default=2, help="on this machine (2)")
     parser.add_argument("--scheduler", metavar="HOST:PORT", help="of a cluster that runs already")
     parser.add_argument("--strips", type=positive, help="sixteen for each worker if not given")
@@ -56,15 +74,29 @@ def main():
 
     cluster = None
     try:
-        surface = mems_stiction.MadeSurface(arguments.scans, arguments.area, arguments.pitch, arguments.contacts, arguments.config,
-                                            arguments.seed, realisation=arguments.realisation, depth=arguments.depth)
+        surface = mems_stiction.MadeSurface(
+            arguments.scans,
+            arguments.area,
+            arguments.pitch,
+            arguments.contacts,
+            arguments.config,
+            arguments.seed,
+            realisation=arguments.realisation,
+            depth=arguments.depth,
+        )
         if not arguments.scheduler:
-            cluster = LocalCluster(n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None)
+            cluster = LocalCluster(
+                n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None
+            )
         with Client(arguments.scheduler or cluster) as client:
             workers = len(client.scheduler_info()["workers"])
-            shared = client.scatter(surface, broadcast=True, hash=False)  # made again from its scans and its seed
-            futures = [client.submit(cells, shared, first_row, rows, pure=False, retries=2)
-                       for first_row, rows in surface.strips(arguments.strips or 16 * max(workers, 1))]
+            shared = client.scatter(
+                surface, broadcast=True, hash=False
+            )  # made again from its scans and its seed
+            futures = [
+                client.submit(cells, shared, first_row, rows, pure=False, retries=2)
+                for first_row, rows in surface.strips(arguments.strips or 16 * max(workers, 1))
+            ]
             found = surface.adhesion(arrived(futures))
     except (KilledWorker, OSError, mems_stiction.Error) as error:
         print("device_on_dask: %s" % error, file=sys.stderr)
@@ -72,7 +104,16 @@ def main():
     finally:
         if cluster is not None:
             cluster.close()
-    print(json.dumps(dict({name: found[name].item() for name in found.dtype.names}, rows=surface.rows, cols=surface.cols, pitch=surface.pitch)))
+    print(
+        json.dumps(
+            dict(
+                {name: found[name].item() for name in found.dtype.names},
+                rows=surface.rows,
+                cols=surface.cols,
+                pitch=surface.pitch,
+            )
+        )
+    )
     return 0
 
 

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Small frames of the error map's kinds as half-spaces: median and sum of what they take of the processor; scripts/bench calls it.
+"""Small frames of the error map's kinds as half-spaces: median and sum of what they take of the
+processor; scripts/bench calls it.
 
 usage: bench_half_space_frames.py ROWS.json [--count N] [--pixels N]
 
-Adds rows to ROWS.json, in pairs: a forward and an inverse real transform of such a frame by SciPy, in the same run.
+Adds rows to ROWS.json, in pairs: a forward and an inverse real transform of such a frame by SciPy,
+in the same run.
 """
 
 import argparse
@@ -56,9 +58,15 @@ def main():
     rows = json.loads(arguments.rows.read_text())
     pair = pair_seconds(arguments.pixels)
     pairs = np.array([solved(number, arguments.pixels) for number in range(arguments.count)]) / pair
-    frames = "%d frames of %d x %d of the error map's kinds" % (arguments.count, arguments.pixels, arguments.pixels)
+    frames = "%d frames of %d x %d of the error map's kinds" % (
+        arguments.count,
+        arguments.pixels,
+        arguments.pixels,
+    )
     for name, figure in (("median", float(np.median(pairs))), ("sum", float(pairs.sum()))):
-        rows.append({"work": "%s, %s" % (frames, name), "figure": figure, "unit": "pairs", "limit": None})
+        rows.append(
+            {"work": "%s, %s" % (frames, name), "figure": figure, "unit": "pairs", "limit": None}
+        )
     arguments.rows.write_text(json.dumps(rows, indent=2) + "\n")
 
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""How long do many small frames take through the Python module, and how long by a call of predict_scan for each?
+"""How long do many small frames take through the Python module, and how long by a call of
+predict_scan for each?
 
 usage: bench_module.py PREDICT_SCAN [--frames N] [--pixels N]
 
-Prints a row for each way: wall time, and the processors' time of this process and its children, which other programs on the
-machine disturb less. Frames are Gaussian; every way must give the same forces.
+Prints a row for each way: wall time, and the processors' time of this process and its children,
+which other programs on the machine disturb less. Frames are Gaussian; every way must give the same
+forces.
 """
 
 import argparse
@@ -19,7 +21,10 @@ import mems_stiction
 import numpy as np
 
 PITCH = 20e-9  # [m]
-ROUGHNESS = {"type": "gaussian", "gaussian": {"rms_height": 5e-9, "correlation_length_x": 1e-7, "correlation_length_y": 1e-7}}
+ROUGHNESS = {
+    "type": "gaussian",
+    "gaussian": {"rms_height": 5e-9, "correlation_length_x": 1e-7, "correlation_length_y": 1e-7},
+}
 
 
 def processor_seconds():
@@ -32,7 +37,11 @@ def by_program(program, frames):
         path = os.path.join(folder, "frame.npy")
         for frame in frames:
             np.save(path, frame)
-            done = subprocess.run([program, "--json", "--pitch", repr(PITCH), path], stdout=subprocess.PIPE, check=True)
+            done = subprocess.run(
+                [program, "--json", "--pitch", repr(PITCH), path],
+                stdout=subprocess.PIPE,
+                check=True,
+            )
             yield json.loads(done.stdout.decode())["pull_off_force"]
 
 
@@ -47,14 +56,34 @@ def main():
     parser.add_argument("--frames", type=int, default=1000, metavar="N")
     parser.add_argument("--pixels", type=int, default=128, metavar="N", help="of a side")
     arguments = parser.parse_args()
-    frames = [mems_stiction.generate((arguments.pixels,) * 2, PITCH, counter_surface={**ROUGHNESS, "seed": seed}).heights
-              for seed in range(1, arguments.frames + 1)]
-    ways = (("predict_scan, a process for each", lambda: list(by_program(arguments.program, frames))),
-            ("predict()", lambda: [mems_stiction.predict(frame, PITCH).pull_off_force for frame in frames]),
-            ("Predictor.predict()", lambda: by_predictor(frames)),
-            ("predict_many()", lambda: [one.pull_off_force for one in mems_stiction.predict_many(frames, PITCH)]))
+    frames = [
+        mems_stiction.generate(
+            (arguments.pixels,) * 2, PITCH, counter_surface={**ROUGHNESS, "seed": seed}
+        ).heights
+        for seed in range(1, arguments.frames + 1)
+    ]
+    ways = (
+        ("predict_scan, a process for each", lambda: list(by_program(arguments.program, frames))),
+        (
+            "predict()",
+            lambda: [mems_stiction.predict(frame, PITCH).pull_off_force for frame in frames],
+        ),
+        ("Predictor.predict()", lambda: by_predictor(frames)),
+        (
+            "predict_many()",
+            lambda: [one.pull_off_force for one in mems_stiction.predict_many(frames, PITCH)],
+        ),
+    )
     first = None
-    print("%-34s %10s %16s %14s" % ("%d frames of %d x %d" % (arguments.frames, arguments.pixels, arguments.pixels), "wall [s]", "processors [s]", "times as fast"))
+    print(
+        "%-34s %10s %16s %14s"
+        % (
+            "%d frames of %d x %d" % (arguments.frames, arguments.pixels, arguments.pixels),
+            "wall [s]",
+            "processors [s]",
+            "times as fast",
+        )
+    )
     for name, run in ways:
         wall, used = time.perf_counter(), processor_seconds()
         forces = run()
@@ -62,7 +91,11 @@ def main():
         first = first or (forces, wall, used)
         if forces != first[0]:
             raise SystemExit("%s: other forces than predict_scan" % name)
-        print("%-34s %10.2f %16.2f %14s" % (name, wall, used, "%.0f, %.0f" % (first[1] / wall, first[2] / used)), flush=True)
+        print(
+            "%-34s %10.2f %16.2f %14s"
+            % (name, wall, used, "%.0f, %.0f" % (first[1] / wall, first[2] / used)),
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Measures the unit of the device's answers: a transform of 4096 x 4096 numbers and its inverse by numpy, double, one thread.
+"""Measures the unit of the device's answers: a transform of 4096 x 4096 numbers and its inverse by
+numpy, double, one thread.
 
 usage: bench_transform_pair.py OUTPUT.json   {"seconds": processor time, the least of three}
 """

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Compares two builds of predict_scan, the vectorised and the portable one: both must print the same figures and write the
-same surfaces after contact, byte for byte, on generated scans of every kind.
+"""Compares two builds of predict_scan, the vectorised and the portable one: both must print the
+same figures and write the same surfaces after contact, byte for byte, on generated scans of every
+kind.
 
 usage: compare_builds.py VECTORIZED-PREDICT_SCAN PORTABLE-PREDICT_SCAN
 
-Prints whether this processor takes the vectorised functions, and what was compared. Exit status: 0 the same, 1 not.
+Prints whether this processor takes the vectorised functions, and what was compared. Exit status: 0
+the same, 1 not.
 """
 
 import argparse
@@ -25,13 +27,24 @@ SHAPE = (259, 301)  # no multiple of any vector's length
 PITCH = 10e-9  # [m]
 FIELDS_SHOWN = 3  # of a prediction that differs
 OFFSET = 1e-3  # [m]: so far up, a surface after contact is written in double precision
-CLEANING = {"offset": {"enabled": True}, "lines": {"method": "median"}, "spikes": {"enabled": True}, "fill": {"enabled": True},
-            "level": "plane"}
-ROUGH = {"type": "gaussian", "gaussian": {"rms_height": 3e-9, "correlation_length_x": 60e-9, "correlation_length_y": 90e-9}}
+CLEANING = {
+    "offset": {"enabled": True},
+    "lines": {"method": "median"},
+    "spikes": {"enabled": True},
+    "fill": {"enabled": True},
+    "level": "plane",
+}
+ROUGH = {
+    "type": "gaussian",
+    "gaussian": {"rms_height": 3e-9, "correlation_length_x": 60e-9, "correlation_length_y": 90e-9},
+}
 SETTINGS = {
     "default": {},
     "pressed": {"load": {"mechanical_load": 2e-5}},
-    "voltage": {"load": {"voltage": 20.0, "mechanical_load": 1e-6}, "interface": {"insulator_thickness": 50e-9}},
+    "voltage": {
+        "load": {"voltage": 20.0, "mechanical_load": 1e-6},
+        "interface": {"insulator_thickness": 50e-9},
+    },
     "soft": {"lower": {"hardness": 1e9}, "load": {"mechanical_load": 1e-5}},
     "neighbours of 8": {"approach": {"connectivity": 8}, "load": {"mechanical_load": 2e-6}},
     "as printed": {"approach": {"formulation": "printed"}, "load": {"mechanical_load": 2e-6}},
@@ -39,7 +52,10 @@ SETTINGS = {
     "humid": {"interface": {"relative_humidity": 0.5}},
     "rough counter-surface": {"counter_surface": ROUGH, "load": {"mechanical_load": 1e-6}},
     "cleaned": {"preprocessing": CLEANING, "output": {"spatial_roughness": True}},
-    "cleaned, refined, rough counter-surface": {"preprocessing": dict(CLEANING, refine={"factor": 2}), "counter_surface": ROUGH},
+    "cleaned, refined, rough counter-surface": {
+        "preprocessing": dict(CLEANING, refine={"factor": 2}),
+        "counter_surface": ROUGH,
+    },
 }
 
 # A program finds the library of its own build only where none comes before it.
@@ -48,9 +64,15 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "LD_
 
 def rough_surface(random, rms_height, correlation_length):
     """Gaussian heights and autocorrelation [m]."""
-    squares = sum((2 * np.pi * frequencies) ** 2 for frequencies in
-                  np.meshgrid(*(np.fft.fftfreq(size, PITCH) for size in SHAPE), indexing="ij"))
-    heights = np.fft.ifft2(np.fft.fft2(random.standard_normal(SHAPE)) * np.exp(-squares * correlation_length ** 2 / 8)).real
+    squares = sum(
+        (2 * np.pi * frequencies) ** 2
+        for frequencies in np.meshgrid(
+            *(np.fft.fftfreq(size, PITCH) for size in SHAPE), indexing="ij"
+        )
+    )
+    heights = np.fft.ifft2(
+        np.fft.fft2(random.standard_normal(SHAPE)) * np.exp(-squares * correlation_length**2 / 8)
+    ).real
     return (heights - heights.mean()) * (rms_height / heights.std())
 
 
@@ -65,10 +87,28 @@ def write_tiff(path, heights):
     """One strip of float32 or float64."""
     pixels, (rows, cols) = heights.tobytes(), heights.shape
     width, length, strip = (256, 4, cols), (257, 4, rows), (273, 4, 8)
-    tags = [width, length, (258, 3, 8 * heights.itemsize), (259, 3, 1), (262, 3, 1), strip, (277, 3, 1), (278, 4, rows),
-            (279, 4, len(pixels)), (339, 3, 3)]  # bits, uncompressed, black is zero, one sample, ..., floating point
-    entries = b"".join(struct.pack("<HHI", tag, kind, 1) + struct.pack("<I", value) for tag, kind, value in tags)
-    path.write_bytes(struct.pack("<2sHI", b"II", 42, 8 + len(pixels)) + pixels + struct.pack("<H", len(tags)) + entries + bytes(4))
+    tags = [
+        width,
+        length,
+        (258, 3, 8 * heights.itemsize),
+        (259, 3, 1),
+        (262, 3, 1),
+        strip,
+        (277, 3, 1),
+        (278, 4, rows),
+        (279, 4, len(pixels)),
+        (339, 3, 3),
+    ]  # bits, uncompressed, black is zero, one sample, ..., floating point
+    entries = b"".join(
+        struct.pack("<HHI", tag, kind, 1) + struct.pack("<I", value) for tag, kind, value in tags
+    )
+    path.write_bytes(
+        struct.pack("<2sHI", b"II", 42, 8 + len(pixels))
+        + pixels
+        + struct.pack("<H", len(tags))
+        + entries
+        + bytes(4)
+    )
 
 
 def make_scans(folder):
@@ -77,27 +117,55 @@ def make_scans(folder):
     gaussian = rough_surface(random, 3e-9, 80e-9)
     scans = {
         "float32.tiff": gaussian.astype("<f4"),
-        "float32_steps.tiff": (np.round(gaussian / 0.05e-9) * 0.05e-9).astype("<f4"),  # many cells of one height
+        "float32_steps.tiff": (np.round(gaussian / 0.05e-9) * 0.05e-9).astype(
+            "<f4"
+        ),  # many cells of one height
         "float32_smooth.tiff": rough_surface(random, 0.2e-9, 100e-9).astype("<f4"),
         "float64_holes.tiff": with_holes(random, rough_surface(random, 8e-9, 60e-9)).astype("<f8"),
         "float64_offset.tiff": rough_surface(random, 5e-9, 40e-9).astype("<f8") + OFFSET,
     }
     for name, heights in scans.items():
         write_tiff(folder / name, heights)
-    subprocess.run([sys.executable, str(REPOSITORY / "scripts" / "examples" / "make_afm_scan"), str(folder / "afm.txt")], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            str(REPOSITORY / "scripts" / "examples" / "make_afm_scan"),
+            str(folder / "afm.txt"),
+        ],
+        check=True,
+    )
     (folder / "afm.txt.yaml").write_text("height_scale: 1.0e-9\n")
     return [*scans, "afm.txt"]
 
 
 def predict(program, folder, scan, config):
-    """What the program printed, without the time that it took, and the surface after contact that it wrote."""
+    """What the program printed, without the time that it took, and the surface after contact that
+    it wrote."""
     deformed = folder / "deformed.tiff"
     if deformed.exists():
         deformed.unlink()
-    done = subprocess.run([str(program), "--json", "--config", config, "--pitch", "%g" % PITCH, "--deformed", deformed.name, scan],
-                          cwd=str(folder), env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    done = subprocess.run(
+        [
+            str(program),
+            "--json",
+            "--config",
+            config,
+            "--pitch",
+            "%g" % PITCH,
+            "--deformed",
+            deformed.name,
+            scan,
+        ],
+        cwd=str(folder),
+        env=ENVIRONMENT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+    )
     if done.returncode:
-        sys.exit("%s, %s: exit status %d: %s" % (program, scan, done.returncode, done.stderr.strip()))
+        sys.exit(
+            "%s, %s: exit status %d: %s" % (program, scan, done.returncode, done.stderr.strip())
+        )
     return re.sub(r'"processing_time":[^,}]*,', "", done.stdout), deformed.read_bytes()
 
 
@@ -105,17 +173,31 @@ def difference(one, other):
     """In words; None if there is none."""
     if one[0] != other[0]:
         fields, others = (json.loads(text) for text in (one[0], other[0]))
-        names = sorted(name for name in set(fields) | set(others) if fields.get(name) != others.get(name))
-        shown = ["%s %s, portable %s" % (name, str(fields.get(name))[:60], str(others.get(name))[:60]) for name in names[:FIELDS_SHOWN]]
-        return "; ".join(shown + ["%d more" % (len(names) - len(shown))] * (len(names) > len(shown)))
+        names = sorted(
+            name for name in set(fields) | set(others) if fields.get(name) != others.get(name)
+        )
+        shown = [
+            "%s %s, portable %s" % (name, str(fields.get(name))[:60], str(others.get(name))[:60])
+            for name in names[:FIELDS_SHOWN]
+        ]
+        return "; ".join(
+            shown + ["%d more" % (len(names) - len(shown))] * (len(names) > len(shown))
+        )
     return None if one[1] == other[1] else "the surfaces after contact differ"
 
 
 def library_of(program):
     """The text of the core library that the program loads."""
-    loaded = subprocess.run(["ldd", str(program)], env=ENVIRONMENT, stdout=subprocess.PIPE, check=True,
-                            universal_newlines=True).stdout
-    return pathlib.Path(re.search(r"libmems_stiction\.so\S* => (\S+)", loaded).group(1)).read_bytes()
+    loaded = subprocess.run(
+        ["ldd", str(program)],
+        env=ENVIRONMENT,
+        stdout=subprocess.PIPE,
+        check=True,
+        universal_newlines=True,
+    ).stdout
+    return pathlib.Path(
+        re.search(r"libmems_stiction\.so\S* => (\S+)", loaded).group(1)
+    ).read_bytes()
 
 
 def main():
@@ -127,10 +209,16 @@ def main():
 
     processor = pathlib.Path("/proc/cpuinfo")
     takes_avx2 = processor.exists() and re.search(r"\bavx2\b", processor.read_text())
-    print("this processor has AVX2: %s" % ("yes" if takes_avx2 else "no, so both builds run the same instructions"))
+    print(
+        "this processor has AVX2: %s"
+        % ("yes" if takes_avx2 else "no, so both builds run the same instructions")
+    )
     # GCC names the versions of a function by their target.
     has_avx2 = [b".avx2" in library_of(program) for program in programs]
-    print("functions compiled for AVX2: %s in the vectorised build" % ("some" if has_avx2[0] else "none"))
+    print(
+        "functions compiled for AVX2: %s in the vectorised build"
+        % ("some" if has_avx2[0] else "none")
+    )
     if has_avx2[1]:
         sys.exit("the portable build has functions for AVX2")
 
@@ -139,9 +227,15 @@ def main():
         folder = pathlib.Path(name)
         scans = make_scans(folder)
         for title, settings in SETTINGS.items():
-            (folder / "config.yaml").write_text(json.dumps(dict(settings, output=dict(settings.get("output", {}), energy_curve=True))))
+            (folder / "config.yaml").write_text(
+                json.dumps(
+                    dict(settings, output=dict(settings.get("output", {}), energy_curve=True))
+                )
+            )
             for scan in scans:
-                vectorized, portable = (predict(program, folder, scan, "config.yaml") for program in programs)
+                vectorized, portable = (
+                    predict(program, folder, scan, "config.yaml") for program in programs
+                )
                 count += 1
                 found = difference(vectorized, portable)
                 if found:
@@ -150,8 +244,19 @@ def main():
                 statuses[record["status"]] += 1
                 for regime in ("elastic_count", "elasto_plastic_count", "plastic_count"):
                     contacts[regime] += record[regime]
-    print("%d predictions compared: %s" % (count, ", ".join("%d %s" % (number, status) for status, number in sorted(statuses.items()))))
-    print("contacts: %s" % ", ".join("%d %s" % (number, regime[:-len("_count")]) for regime, number in contacts.items()))
+    print(
+        "%d predictions compared: %s"
+        % (
+            count,
+            ", ".join("%d %s" % (number, status) for status, number in sorted(statuses.items())),
+        )
+    )
+    print(
+        "contacts: %s"
+        % ", ".join(
+            "%d %s" % (number, regime[: -len("_count")]) for regime, number in contacts.items()
+        )
+    )
     if min(contacts.values()) == 0 or len(statuses) < 2:
         different.append("the scans leave out a regime or a status: they compare too little")
     print("\n".join(different) if different else "all the same, byte for byte")

@@ -27,8 +27,14 @@ import warnings
 import yaml
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-PROGRAMS = ("predict_scan", "predict_device", "stiction_batch", "import_scan", "make_scan_bag",
-            "stiction_node")
+PROGRAMS = (
+    "predict_scan",
+    "predict_device",
+    "stiction_batch",
+    "import_scan",
+    "make_scan_bag",
+    "stiction_node",
+)
 LEVEL = {"level": "plane"}
 SETTINGS = {  # under which each scan is predicted
     "default": {},
@@ -37,9 +43,21 @@ SETTINGS = {  # under which each scan is predicted
     "paper": {"preprocessing": LEVEL, "approach": {"formulation": "paper"}},
 }
 WITHOUT_MEANING = {"processing_time", "version", "settings_hash", "file"}  # in a comparison
-FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "approach",
-           "flattening_ratio", "is_conforming", "asperity_count", "elastic_count", "plastic_count",
-           "pull_off_contact_count", "regime_flag_names", "model_doubt")
+FIGURES = (
+    "status",
+    "pull_off_force",
+    "apparent_work_of_adhesion",
+    "contact_area",
+    "approach",
+    "flattening_ratio",
+    "is_conforming",
+    "asperity_count",
+    "elastic_count",
+    "plastic_count",
+    "pull_off_contact_count",
+    "regime_flag_names",
+    "model_doubt",
+)
 COMPARED = ("pull_off_force", "apparent_work_of_adhesion", "contact_area")
 FLAG = "near_bonding"
 TOLERANCE = 1e-3  # of figures that no flag doubts
@@ -47,6 +65,7 @@ SHOWN = 12  # lines of each kind
 
 
 # ---------------------------------------------------------------- names
+
 
 def flat_keys(tree, prefix=""):
     for key, value in tree.items():
@@ -85,6 +104,7 @@ def options_of(program):
 
 def module_names():
     import mems_stiction
+
     names = []
     for name, value in sorted(vars(mems_stiction).items()):
         if name.startswith("_") or inspect.ismodule(value):
@@ -122,6 +142,7 @@ def names_of(build):
 
 
 # ---------------------------------------------------------------- scans
+
 
 def import_of(program, path, folder):
     found = run(program, "--output", folder, path)
@@ -166,26 +187,31 @@ def scans_of(build):
 
 # ---------------------------------------------------------------- frames
 
+
 def maps():
     """For each map what draws a frame by its number: heights, pitch, settings."""
     sys.path.insert(0, str(REPOSITORY / "studies"))
     import trust_frames
     import trust_kinds
     import trust_run
+
     scans = trust_frames.Scans(None)
 
     def of(frame, heights):
         return heights, frame["pitch"], trust_run.settings_of(frame, "separation_curve")
 
     first_changing = trust_kinds.ALIKE_COUNT
-    return {"map": lambda number: of(*trust_frames.draw(number, 128, scans)),
-            "kinds": lambda number: of(*trust_kinds.draw(number, 160)),
-            "changing kinds": lambda number: of(*trust_kinds.draw(first_changing + number, 160)),
-            "pressed": lambda number: of(*trust_kinds.draw_pressed(number, 96, 61))}
+    return {
+        "map": lambda number: of(*trust_frames.draw(number, 128, scans)),
+        "kinds": lambda number: of(*trust_kinds.draw(number, 160)),
+        "changing kinds": lambda number: of(*trust_kinds.draw(first_changing + number, 160)),
+        "pressed": lambda number: of(*trust_kinds.draw_pressed(number, 96, 61)),
+    }
 
 
 def frames_of(count):
     import mems_stiction
+
     warnings.simplefilter("ignore")  # heights and constants are as drawn
     found = {}
     for name, draw in maps().items():
@@ -198,6 +224,7 @@ def frames_of(count):
 
 
 # ---------------------------------------------------------------- comparison
+
 
 def differs(one, other):
     if not isinstance(one, float) or not isinstance(other, float):
@@ -236,8 +263,10 @@ def compare_records(before, now):
     for name, one in before.items():
         other = now.get(name, {})
         keys = [key for key in one.keys() | other.keys() if differs(one.get(key), other.get(key))]
-        words = [key if key not in COMPARED else "%s %s -> %s" % (key, one.get(key), other.get(key))
-                 for key in sorted(keys)]
+        words = [
+            key if key not in COMPARED else "%s %s -> %s" % (key, one.get(key), other.get(key))
+            for key in sorted(keys)
+        ]
         if keys:
             (flagged if is_flagged(one, other) else changed).append(name + ": " + ", ".join(words))
     show("records that changed", changed)
@@ -251,15 +280,25 @@ def compare_frames(before, now):
         pairs = list(zip(before.get(name, []), now[name]))
         changed = []
         for number, (one, other) in enumerate(pairs):
-            words = ["%s %.5g -> %.5g" % (key, one[key], other[key]) for key in COMPARED
-                     if differs(one[key], other[key]) and not is_flagged(one, other)]
+            words = [
+                "%s %.5g -> %.5g" % (key, one[key], other[key])
+                for key in COMPARED
+                if differs(one[key], other[key]) and not is_flagged(one, other)
+            ]
             if words:
                 changed.append("frame %d: %s" % (number, ", ".join(words)))
         flagged = [sum(map(is_flagged, side)) for side in zip(*pairs)]
-        print("%s: %d frames, flagged %d before and %d now; %d lost the flag, %d never had it" % (
-            name, len(pairs), flagged[0], flagged[1],
-            sum(is_flagged(one) and not is_flagged(other) for one, other in pairs),
-            sum(not is_flagged(one, other) for one, other in pairs)))
+        print(
+            "%s: %d frames, flagged %d before and %d now; %d lost the flag, %d never had it"
+            % (
+                name,
+                len(pairs),
+                flagged[0],
+                flagged[1],
+                sum(is_flagged(one) and not is_flagged(other) for one, other in pairs),
+                sum(not is_flagged(one, other) for one, other in pairs),
+            )
+        )
         show("unflagged frames of %s that changed" % name, changed)
         is_kept = is_kept and not changed
     return is_kept
@@ -269,26 +308,40 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", choices=("store", "compare"))
     parser.add_argument("file", type=pathlib.Path)
-    parser.add_argument("--build", type=pathlib.Path, help="folder of the programs",
-                        default=REPOSITORY / "build/devel/lib/mems_stiction")
+    parser.add_argument(
+        "--build",
+        type=pathlib.Path,
+        help="folder of the programs",
+        default=REPOSITORY / "build/devel/lib/mems_stiction",
+    )
     parser.add_argument("--frames", type=int, default=300, help="of each error map")
     arguments = parser.parse_args()
     before = json.loads(arguments.file.read_text()) if arguments.what == "compare" else None
     count = before["count"] if before else arguments.frames
     imports, records = scans_of(arguments.build)
-    now = {"count": count, "names": names_of(arguments.build), "imports": imports,
-           "records": records, "frames": frames_of(count)}
+    now = {
+        "count": count,
+        "names": names_of(arguments.build),
+        "imports": imports,
+        "records": records,
+        "frames": frames_of(count),
+    }
     if before is None:
         arguments.file.write_text(json.dumps(now))
         return 0
     now = json.loads(json.dumps(now))
     changed = [name for name in before["imports"] if before["imports"][name] != imports.get(name)]
     show("imports that changed", changed)
-    kept = [compare_names(before["names"], now["names"]), not changed,
-            compare_records(before["records"], now["records"]),
-            compare_frames(before["frames"], now["frames"])]
-    print("kept: names %s, imports %s, records %s, frames %s" % tuple(
-        "yes" if one else "NO" for one in kept))
+    kept = [
+        compare_names(before["names"], now["names"]),
+        not changed,
+        compare_records(before["records"], now["records"]),
+        compare_frames(before["frames"], now["frames"]),
+    ]
+    print(
+        "kept: names %s, imports %s, records %s, frames %s"
+        % tuple("yes" if one else "NO" for one in kept)
+    )
     return 0 if all(kept) else 1
 
 

@@ -3,12 +3,15 @@
 
 usage: count_results.py [--total CHECKS.tsv] [--ctest CTEST.xml] FOLDER...
 
-Cases of Google Test, nose and rostest are counted one by one. A rostest writes its test nodes' cases to rosunit-NAME.xml
-and one case per node to rostest-*.xml: the latter counts only where a node failed without a failing case of its own (it
-crashed, timed out or wrote nothing). CHECKS.tsv has one line per check: passed|failed|skipped, name, file with its output.
-CTEST.xml is what ctest says of the programs: one that failed without a failing case in its results (it crashed, ran out of
-time, or was not found) is a failed case, and the ten slowest cases of all results are shown.
-With --total the last line is "N passed, N failed, N skipped", and the exit status is 1 if any failed or nothing ran.
+Cases of Google Test, nose and rostest are counted one by one. A rostest writes its test nodes'
+cases to rosunit-NAME.xml and one case per node to rostest-*.xml: the latter counts only where a
+node failed without a failing case of its own (it crashed, timed out or wrote nothing). CHECKS.tsv
+has one line per check: passed|failed|skipped, name, file with its output.
+CTEST.xml is what ctest says of the programs: one that failed without a failing case in its results
+(it crashed, ran out of time, or was not found) is a failed case, and the ten slowest cases of all
+results are shown.
+With --total the last line is "N passed, N failed, N skipped", and the exit status is 1 if any
+failed or nothing ran.
 """
 
 import argparse
@@ -29,7 +32,8 @@ def local_name(tag):
 
 
 def cases_of(path):
-    """The cases of one XML file; a file that cannot be read is one failed case, since its tests left no result."""
+    """The cases of one XML file; a file that cannot be read is one failed case, since its tests
+    left no result."""
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError) as error:
@@ -45,21 +49,39 @@ def cases_of(path):
         if problems:
             texts = [(child.text or child.get("message") or "").strip() for child in problems]
             cases.append(Case(name, "failed", "\n".join(texts), seconds))
-        elif skipped or element.get("result") == "skipped" or element.get("status") in ("notrun", "skipped"):
-            reason = (skipped[0].get("message") or skipped[0].text or "").strip() if skipped else "disabled"
+        elif (
+            skipped
+            or element.get("result") == "skipped"
+            or element.get("status") in ("notrun", "skipped")
+        ):
+            reason = (
+                (skipped[0].get("message") or skipped[0].text or "").strip()
+                if skipped
+                else "disabled"
+            )
             cases.append(Case(name, "skipped", reason))
         else:
             cases.append(Case(name, "passed", seconds=seconds))
-    cases.extend(case for suite in root.iter() if local_name(suite.tag) == "testsuite" for case in untold_failures(suite, path))
+    cases.extend(
+        case
+        for suite in root.iter()
+        if local_name(suite.tag) == "testsuite"
+        for case in untold_failures(suite, path)
+    )
     return cases
 
 
 def untold_failures(suite, path):
-    """A failed case for a suite that counts more failures than its cases tell: rosunit leaves those of a subTest out."""
+    """A failed case for a suite that counts more failures than its cases tell: rosunit leaves those
+    of a subTest out."""
     stated = sum(int(suite.get(key) or 0) for key in ("failures", "errors"))
     told = sum(local_name(child.tag) in ("failure", "error") for child in suite.iter())
     name = "%s (%s)" % (suite.get("name"), path.stem)
-    return [Case(name, "failed", "%d failures without a case: see %s" % (stated - told, path))] if stated > told else []
+    return (
+        [Case(name, "failed", "%d failures without a case: see %s" % (stated - told, path))]
+        if stated > told
+        else []
+    )
 
 
 def cases_of_folder(folder):
@@ -67,7 +89,11 @@ def cases_of_folder(folder):
     for path in sorted(pathlib.Path(folder).rglob("*.xml")):
         found = cases_of(path)
         if path.name.startswith("rostest-"):
-            found = [case for case in found if case.verdict == "failed" and not told_by_node(path.parent, case)]
+            found = [
+                case
+                for case in found
+                if case.verdict == "failed" and not told_by_node(path.parent, case)
+            ]
         cases.extend(found)
     return cases
 
@@ -75,33 +101,48 @@ def cases_of_folder(folder):
 def told_by_node(folder, case):
     """Whether the node behind this case of a rostest has a failing case of its own."""
     node = case.name.rsplit(".", 1)[-1]
-    node = node[len("test"):] if node.startswith("test") else node
+    node = node[len("test") :] if node.startswith("test") else node
     path = folder / ("rosunit-%s.xml" % node)
     return path.exists() and any(inner.verdict == "failed" for inner in cases_of(path))
 
 
 def results_of_program(name, folders):
-    """The result files of a test of ctest: NAME, or _ctest_PACKAGE_KIND_NAME by catkin, whose rostests have a folder each."""
+    """The result files of a test of ctest: NAME, or _ctest_PACKAGE_KIND_NAME by catkin, whose
+    rostests have a folder each."""
     for kind in ("gtest", "nosetests", "rostest"):
         head, mark, rest = name.partition("_%s_" % kind)
         if head.startswith("_ctest_") and mark:
             break
     else:
         kind, rest = "gtest", name
-    rest = rest[:-len(".test")] if rest.endswith(".test") else rest
-    found = [path for folder in folders for path in pathlib.Path(folder).rglob("%s-%s.xml" % (kind, rest))]
-    return [inner for path in found for inner in (path.parent.glob("*.xml") if kind == "rostest" else [path])]
+    rest = rest[: -len(".test")] if rest.endswith(".test") else rest
+    found = [
+        path
+        for folder in folders
+        for path in pathlib.Path(folder).rglob("%s-%s.xml" % (kind, rest))
+    ]
+    return [
+        inner
+        for path in found
+        for inner in (path.parent.glob("*.xml") if kind == "rostest" else [path])
+    ]
 
 
 def cases_of_ctest(path, folders):
-    """A failed case for each program that failed without a failing case in its results, with what it said last."""
+    """A failed case for each program that failed without a failing case in its results, with what
+    it said last."""
     cases = []
     for element in ElementTree.parse(path).getroot().iter("testcase"):
         name = element.get("name")
         if element.get("status") == "run" or any(
-                inner.verdict == "failed" for file in results_of_program(name, folders) for inner in cases_of(file)):
+            inner.verdict == "failed"
+            for file in results_of_program(name, folders)
+            for inner in cases_of(file)
+        ):
             continue
-        reason = " ".join(failure.get("message") or "" for failure in element.iter("failure")) or element.get("status")
+        reason = " ".join(
+            failure.get("message") or "" for failure in element.iter("failure")
+        ) or element.get("status")
         output = (element.findtext("system-out") or "").strip().splitlines()
         cases.append(Case(name, "failed", "\n".join([reason, *output[-20:]])))
     return cases
@@ -129,7 +170,9 @@ def show_failures(cases):
             continue
         lines = case.text.splitlines()
         print("FAILED  %s" % case.name)
-        if len(lines) > LINES_SHOWN:  # a compiler names the cause first, a program that gives up last
+        if (
+            len(lines) > LINES_SHOWN
+        ):  # a compiler names the cause first, a program that gives up last
             half = LINES_SHOWN // 2
             lines[half:-half] = ["... %d more lines" % (len(lines) - LINES_SHOWN)]
         for line in lines:
@@ -140,7 +183,9 @@ def show_skipped(cases):
     reasons = {}
     for case in cases:
         if case.verdict == "skipped":
-            reason = [line for line in case.text.splitlines() if line.strip()][-1:] or ["no reason given"]
+            reason = [line for line in case.text.splitlines() if line.strip()][-1:] or [
+                "no reason given"
+            ]
             reasons.setdefault(reason[0].strip(), []).append(case.name)
     for reason, names in reasons.items():
         print("skipped %d: %s" % (len(names), reason))
@@ -154,12 +199,17 @@ def main():
     arguments = parser.parse_args()
 
     cases = [case for folder in arguments.folders for case in cases_of_folder(folder)]
-    if arguments.ctest and pathlib.Path(arguments.ctest).exists():  # else nothing was built that could be run
+    if (
+        arguments.ctest and pathlib.Path(arguments.ctest).exists()
+    ):  # else nothing was built that could be run
         show_slowest(cases)
         cases += cases_of_ctest(arguments.ctest, arguments.folders)
     if arguments.total:
         cases += cases_of_checks(arguments.total)
-    count = {verdict: sum(case.verdict == verdict for case in cases) for verdict in ("passed", "failed", "skipped")}
+    count = {
+        verdict: sum(case.verdict == verdict for case in cases)
+        for verdict in ("passed", "failed", "skipped")
+    }
     summary = "%(passed)d passed, %(failed)d failed, %(skipped)d skipped" % count
     if arguments.total:
         show_skipped(cases)

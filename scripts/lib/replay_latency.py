@@ -3,9 +3,10 @@
 
 usage: replay_latency.py --bag BAG --rate HZ --shell NAME --output latency.json
 
-Latency is the time from the arrival of a scan at a listener to that of its prediction at the same listener: serialization and
-transport of the scan to the node run beside those to the listener. The node's own share, from its callback to its publish
-call over the core's time, is read from /diagnostics.
+Latency is the time from the arrival of a scan at a listener to that of its prediction at the same
+listener: serialization and transport of the scan to the node run beside those to the listener. The
+node's own share, from its callback to its publish call over the core's time, is read from
+/diagnostics.
 """
 
 import argparse
@@ -33,7 +34,8 @@ class Listener:
         self.subscribers = [
             rospy.Subscriber("height", rospy.AnyMsg, self.on_scan, queue_size=None),
             rospy.Subscriber("prediction", StictionPrediction, self.on_prediction, queue_size=None),
-            rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics, queue_size=None)]
+            rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics, queue_size=None),
+        ]
 
     def on_scan(self, message):
         arrival = time.monotonic()
@@ -44,7 +46,9 @@ class Listener:
     def on_prediction(self, prediction):
         arrival = time.monotonic()
         with self.lock:
-            self.predictions[(prediction.header.stamp.secs, prediction.header.stamp.nsecs)] = arrival
+            self.predictions[(prediction.header.stamp.secs, prediction.header.stamp.nsecs)] = (
+                arrival
+            )
             self.core_ms.append(1e3 * prediction.processing_time)
 
     def on_diagnostics(self, array):
@@ -70,7 +74,9 @@ def main():
     arguments = parser.parse_args()
 
     with rosbag.Bag(arguments.bag) as bag:
-        stamps = [message.header.stamp.to_sec() for _, message, _ in bag.read_messages("/scan_info")]
+        stamps = [
+            message.header.stamp.to_sec() for _, message, _ in bag.read_messages("/scan_info")
+        ]
     if len(stamps) < 2:
         sys.exit("%s holds fewer than two scans" % arguments.bag)
     recorded_rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
@@ -82,23 +88,44 @@ def main():
         if time.monotonic() > deadline:
             sys.exit("no node publishes predictions")
         time.sleep(0.1)
-    subprocess.run(["rosbag", "play", "--quiet", "--wait-for-subscribers", "-r", str(arguments.rate / recorded_rate),
-                    arguments.bag], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [
+            "rosbag",
+            "play",
+            "--quiet",
+            "--wait-for-subscribers",
+            "-r",
+            str(arguments.rate / recorded_rate),
+            arguments.bag,
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     deadline = time.monotonic() + 30
     while len(listener.predictions) < len(stamps) and time.monotonic() < deadline:
         time.sleep(0.1)
     time.sleep(1.5)  # the last diagnostics
 
     with listener.lock:
-        latencies = [1e3 * (listener.predictions[stamp] - arrival) for stamp, arrival in listener.scans.items()
-                     if stamp in listener.predictions]
+        latencies = [
+            1e3 * (listener.predictions[stamp] - arrival)
+            for stamp, arrival in listener.scans.items()
+            if stamp in listener.predictions
+        ]
         if not latencies:
             sys.exit("no prediction arrived")
-        row = {"shell": arguments.shell, "rate": arguments.rate, "scans": len(stamps),
-               "p50_ms": percentile(latencies, 0.5), "p99_ms": percentile(latencies, 0.99),
-               "dropped": len(stamps) - len(listener.predictions),
-               "core_p50_ms": percentile(listener.core_ms, 0.5),
-               "callback_to_publish_over_core": statistics.median(listener.ratios) if listener.ratios else float("nan")}
+        row = {
+            "shell": arguments.shell,
+            "rate": arguments.rate,
+            "scans": len(stamps),
+            "p50_ms": percentile(latencies, 0.5),
+            "p99_ms": percentile(latencies, 0.99),
+            "dropped": len(stamps) - len(listener.predictions),
+            "core_p50_ms": percentile(listener.core_ms, 0.5),
+            "callback_to_publish_over_core": statistics.median(listener.ratios)
+            if listener.ratios
+            else float("nan"),
+        }
     rows = json.loads(arguments.output.read_text()) if arguments.output.exists() else []
     arguments.output.write_text(json.dumps(rows + [row], indent=1) + "\n")
 

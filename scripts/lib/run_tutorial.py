@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Runs the commands of a page and compares what they say with what the page shows, so that it does not rot.
+"""Runs the commands of a page and compares what they say with what the page shows, so that it does
+not rot.
 
-usage: run_tutorial.py [--write] PAGE.md    in a folder of its own, which is removed; the programs must be on the PATH
+usage: run_tutorial.py [--write] PAGE.md    in a folder of its own, which is removed; the programs
+must be on the PATH
 
-Blocks marked ```console hold commands ("$ ...") with their output below; blocks marked ```yaml whose first line is a comment
-with a file's name, as in "# device.yaml", are files that are written before the commands that follow. All commands of a page
-run in one shell, in order. Numbers may differ by one percent: other compilers and libraries round otherwise. --write puts what
-the commands said into the page.
+Blocks marked ```console hold commands ("$ ...") with their output below; blocks marked ```yaml
+whose first line is a comment with a file's name, as in "# device.yaml", are files that are written
+before the commands that follow. All commands of a page run in one shell, in order. Numbers may
+differ by one percent: other compilers and libraries round otherwise. --write puts what the commands
+said into the page.
 """
 
 import argparse
@@ -80,10 +83,23 @@ def run(actions, folder):
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    settings = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOSTNAME="localhost", ROS_HOME=str(folder / "ros_home"))
+    settings = dict(
+        os.environ,
+        ROS_MASTER_URI="http://localhost:%d" % port,
+        ROS_HOSTNAME="localhost",
+        ROS_HOME=str(folder / "ros_home"),
+    )
     settings.pop("ROS_NAMESPACE", None)
-    shell = subprocess.Popen(["bash", "-c", script_of(actions)], cwd=str(folder), env=settings, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, start_new_session=True)
+    shell = subprocess.Popen(
+        ["bash", "-c", script_of(actions)],
+        cwd=str(folder),
+        env=settings,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        universal_newlines=True,
+        start_new_session=True,
+    )
     try:
         output, _ = shell.communicate(timeout=TIMEOUT)
     finally:
@@ -122,7 +138,11 @@ def differences(step):
     if len(shown) == len(said) and all(agree(*pair) for pair in zip(shown, said)):
         return None
     return "line %d: $ %s\n  shown:\n    %s\n  said:\n    %s" % (
-        step.line_number + 1, step.command, "\n    ".join(shown), "\n    ".join(said))
+        step.line_number + 1,
+        step.command,
+        "\n    ".join(shown),
+        "\n    ".join(said),
+    )
 
 
 def rewritten(text, steps):
@@ -143,7 +163,9 @@ def rewritten(text, steps):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("page", type=pathlib.Path)
-    parser.add_argument("--write", action="store_true", help="put what the commands said into the page")
+    parser.add_argument(
+        "--write", action="store_true", help="put what the commands said into the page"
+    )
     arguments = parser.parse_args()
     text = arguments.page.read_text(encoding="utf-8")
     actions = list(actions_of(text))
@@ -151,7 +173,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         failed = run(actions, pathlib.Path(folder))
     for step in failed:
-        print("line %d: $ %s\n  failed and said:\n    %s" % (step.line_number + 1, step.command, "\n    ".join(step.said)))
+        print(
+            "line %d: $ %s\n  failed and said:\n    %s"
+            % (step.line_number + 1, step.command, "\n    ".join(step.said))
+        )
     if arguments.write and not failed:
         arguments.page.write_text(rewritten(text, steps), encoding="utf-8")
         return 0

@@ -13,7 +13,14 @@ import numpy as np
 import rospy
 from dynamic_reconfigure import DynamicReconfigureCallbackException
 from dynamic_reconfigure.client import Client
-from mems_stiction.msg import CycleContactAction, CycleContactGoal, ScanInfo, StictionPrediction, SweepLoadAction, SweepLoadGoal
+from mems_stiction.msg import (
+    CycleContactAction,
+    CycleContactGoal,
+    ScanInfo,
+    StictionPrediction,
+    SweepLoadAction,
+    SweepLoadGoal,
+)
 from mems_stiction.srv import GetLoad, Predict, SetLoad, SolveHalfSpace
 from sensor_msgs.msg import Image
 from std_srvs.srv import Trigger
@@ -21,7 +28,9 @@ from stiction_client import Counts, image_message, info_message, wait_until
 
 LARGEST_SIDE = 700
 ENCODINGS = {"32FC1": np.float32, "64FC1": np.float64, "16UC1": np.uint16, "mono8": np.uint8}
-SHARE_OF_GROWTH = 1.25  # of the memory after a third of the time, which the largest frames have had by then
+SHARE_OF_GROWTH = (
+    1.25  # of the memory after a third of the time, which the largest frames have had by then
+)
 MORE_HANDLES = 8  # connections of our own that come and go
 
 
@@ -68,7 +77,10 @@ class Scans:
         self._chance = chance
         self._height = rospy.Publisher("height", Image, queue_size=100)
         self._info = rospy.Publisher("scan_info", ScanInfo, queue_size=100)
-        wait_until(lambda: self._height.get_num_connections() and self._info.get_num_connections(), "the node to subscribe")
+        wait_until(
+            lambda: self._height.get_num_connections() and self._info.get_num_connections(),
+            "the node to subscribe",
+        )
         self._second = 1000
         self.sent = 0
 
@@ -121,15 +133,32 @@ class Callers:
     def one(self):
         self.calls += 1
         # a new goal ends the one before it, so each kind has one caller
-        chosen = self._chance.choice([self._load, self._one_scan, self._half_space, self._get_load, self._reset,
-                                      self._sweep_load if self._is_first else self._cycle_contact, self._reconfigure, self._listen])
+        chosen = self._chance.choice(
+            [
+                self._load,
+                self._one_scan,
+                self._half_space,
+                self._get_load,
+                self._reset,
+                self._sweep_load if self._is_first else self._cycle_contact,
+                self._reconfigure,
+                self._listen,
+            ]
+        )
         try:
             chosen()
-        except (rospy.ServiceException, rospy.ROSException, DynamicReconfigureCallbackException):  # no answer, or none any more
+        except (
+            rospy.ServiceException,
+            rospy.ROSException,
+            DynamicReconfigureCallbackException,
+        ):  # no answer, or none any more
             self.failed += 1
 
     def _load(self):
-        self._set_load(self._chance.uniform(-60.0, 60.0), self._chance.choice([0.0, 1e-6, 1e-4, 1.0, float("nan")]))
+        self._set_load(
+            self._chance.uniform(-60.0, 60.0),
+            self._chance.choice([0.0, 1e-6, 1e-4, 1.0, float("nan")]),
+        )
 
     def _one_scan(self):
         self._predict(*self._scans.message(300), self._chance.uniform(0.0, 50.0), 1e-6)
@@ -145,7 +174,10 @@ class Callers:
             client.wait_for_result(rospy.Duration(30.0))
 
     def _sweep_load(self):
-        self._run(self._sweep, SweepLoadGoal(voltages=list(np.linspace(0.0, 40.0, self._chance.randrange(1, 20)))))
+        self._run(
+            self._sweep,
+            SweepLoadGoal(voltages=list(np.linspace(0.0, 40.0, self._chance.randrange(1, 20)))),
+        )
 
     def _cycle_contact(self):
         self._run(self._cycle, CycleContactGoal(count=self._chance.randrange(0, 20)))
@@ -155,7 +187,9 @@ class Callers:
 
     def _listen(self):
         """Maps and lists are made only while somebody listens."""
-        topic, kind = self._chance.choice([("deformed_height", Image), ("contact_map", Image), ("preview", Image)])
+        topic, kind = self._chance.choice(
+            [("deformed_height", Image), ("contact_map", Image), ("preview", Image)]
+        )
         listener = rospy.Subscriber(topic, kind, lambda _: None)
         time.sleep(self._chance.uniform(0.0, 2.0))
         listener.unregister()
@@ -165,10 +199,20 @@ def main(pid, minutes, seed):
     rospy.init_node("soak", disable_signals=True)
     counts = Counts()
     published = []  # stamps
-    rospy.Subscriber("prediction", StictionPrediction, lambda message: published.append(message.header.stamp), queue_size=1000)
+    rospy.Subscriber(
+        "prediction",
+        StictionPrediction,
+        lambda message: published.append(message.header.stamp),
+        queue_size=1000,
+    )
     process = Process(pid)
     scans = Scans(random.Random(seed))
-    callers = [Callers(random.Random(seed + 1 + number), Scans(random.Random(seed + 100 + number)), number == 0) for number in range(2)]
+    callers = [
+        Callers(
+            random.Random(seed + 1 + number), Scans(random.Random(seed + 100 + number)), number == 0
+        )
+        for number in range(2)
+    ]
     end = time.monotonic() + 60.0 * minutes
 
     def call(caller):
@@ -180,7 +224,9 @@ def main(pid, minutes, seed):
         thread.start()
 
     def line():
-        received = {key: counts[key] for key in ("received", "predicted", "rejected", "dropped", "waiting")}
+        received = {
+            key: counts[key] for key in ("received", "predicted", "rejected", "dropped", "waiting")
+        }
         return process.memory(), process.handles(), process.threads(), received
 
     print("minute  memory [MB]  handles  threads    sent  calls  counts")
@@ -195,23 +241,53 @@ def main(pid, minutes, seed):
             samples.append(line())
             memory, handles, count, received = samples[-1]
             if len(samples) % 6 == 1:
-                print("%6.1f %12.0f %8d %8d %7d %6d  %s" % (minutes - (end - time.monotonic()) / 60.0, memory, handles, count, scans.sent,
-                                                          sum(caller.calls for caller in callers), received), flush=True)
+                print(
+                    "%6.1f %12.0f %8d %8d %7d %6d  %s"
+                    % (
+                        minutes - (end - time.monotonic()) / 60.0,
+                        memory,
+                        handles,
+                        count,
+                        scans.sent,
+                        sum(caller.calls for caller in callers),
+                        received,
+                    ),
+                    flush=True,
+                )
     for thread in threads:
         thread.join(timeout=120.0)
     alive = [thread for thread in threads if thread.is_alive()]
-    wait_until(lambda: counts["waiting"] == "0" and counts["waiting_for_partner"] == "0" and counts["received"] == str(scans.sent),
-               "the end of the scans: %d were sent, %s counted" % (scans.sent, counts["received"]), 120.0)
-    figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped", "missing_by_sequence")}
+    wait_until(
+        lambda: (
+            counts["waiting"] == "0"
+            and counts["waiting_for_partner"] == "0"
+            and counts["received"] == str(scans.sent)
+        ),
+        "the end of the scans: %d were sent, %s counted" % (scans.sent, counts["received"]),
+        120.0,
+    )
+    figures = {
+        key: int(counts[key])
+        for key in ("received", "predicted", "rejected", "dropped", "missing_by_sequence")
+    }
     wait_until(lambda: len(published) >= figures["predicted"], "the predictions")
     last = line()
-    early = max(sample[0] for sample in samples[:max(1, len(samples) // 3)])
-    late = max(sample[0] for sample in samples[-max(1, len(samples) // 3):])
+    early = max(sample[0] for sample in samples[: max(1, len(samples) // 3)])
+    late = max(sample[0] for sample in samples[-max(1, len(samples) // 3) :])
     handles = [sample[1] for sample in samples]
-    print("sent %d, counted %s; %d calls, %d of them without an answer" % (
-        scans.sent, figures, sum(caller.calls for caller in callers), sum(caller.failed for caller in callers)))
-    print("memory: largest in the first third %.0f MB, in the last third %.0f MB; handles %d to %d, %d in the end; threads %d" % (
-        early, late, min(handles), max(handles), last[1], last[2]))
+    print(
+        "sent %d, counted %s; %d calls, %d of them without an answer"
+        % (
+            scans.sent,
+            figures,
+            sum(caller.calls for caller in callers),
+            sum(caller.failed for caller in callers),
+        )
+    )
+    print(
+        "memory: largest in the first third %.0f MB, in the last third %.0f MB; handles %d to %d, "
+        "%d in the end; threads %d" % (early, late, min(handles), max(handles), last[1], last[2])
+    )
     wrong = []
     if figures["predicted"] + figures["rejected"] + figures["dropped"] != scans.sent:
         wrong.append("not every image was counted once")

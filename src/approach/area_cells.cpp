@@ -14,7 +14,8 @@ namespace mems_stiction {
 namespace {
 
 constexpr std::int64_t kFarthestPlace = std::int64_t{1} << 30U;
-/// Cells that are held before those that will not be kept are dropped: a part more than are kept, and these.
+/// Cells that are held before those that will not be kept are dropped: a part more than are kept,
+/// and these.
 constexpr std::int64_t kFewCells = 1 << 14;
 constexpr std::int64_t kPartMore = 2;
 constexpr std::size_t kBlock = 16;
@@ -36,8 +37,12 @@ MEMS_STICTION_INLINE double highestIn(const Scalar* line, std::size_t size) {
   return highest.largest();
 }
 
-MEMS_STICTION_VECTORIZED double highestOf(const float* line, std::size_t size) { return highestIn(line, size); }
-MEMS_STICTION_VECTORIZED double highestOf(const double* line, std::size_t size) { return highestIn(line, size); }
+MEMS_STICTION_VECTORIZED double highestOf(const float* line, std::size_t size) {
+  return highestIn(line, size);
+}
+MEMS_STICTION_VECTORIZED double highestOf(const double* line, std::size_t size) {
+  return highestIn(line, size);
+}
 
 MEMS_STICTION_VECTORIZED std::int32_t largestOfBlock(const std::int32_t* slots) {
   std::int32_t largest = 0;
@@ -55,12 +60,13 @@ AreaCells::AreaCells(double pitch_x, double pitch_y, const AreaCellLimits& limit
     : pitch_x_(pitch_x), pitch_y_(pitch_y), limits_(limits) {
   const auto isLength = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (!isLength(pitch_x) || !isLength(pitch_y)) {
-    throw SurfaceError("the pitch of an area (" + numberText(pitch_x) + " x " + numberText(pitch_y) +
-                       " m) must be above 0");
+    throw SurfaceError("the pitch of an area (" + numberText(pitch_x) + " x " +
+                       numberText(pitch_y) + " m) must be above 0");
   }
   if (std::isnan(limits.level) || !(limits.depth > 0.0) || limits.most_cells < 1) {
-    throw SurfaceError("an area keeps no cell above " + numberText(limits.level) + " m, " + numberText(limits.depth) +
-                       " m deep, at most " + std::to_string(limits.most_cells));
+    throw SurfaceError("an area keeps no cell above " + numberText(limits.level) + " m, " +
+                       numberText(limits.depth) + " m deep, at most " +
+                       std::to_string(limits.most_cells));
   }
 }
 
@@ -68,7 +74,8 @@ std::int64_t AreaCells::levelByHeight() const {
   std::int64_t level = kNoLevel;
   if (limits_.level > -HeightCounts::kLargestHeight) level = HeightCounts::finestOf(limits_.level);
   if (limits_.depth < HeightCounts::kLargestHeight && !counts_.empty()) {
-    level = std::max(level, HeightCounts::finestOf(highest_) - HeightCounts::finestOf(limits_.depth));
+    level =
+        std::max(level, HeightCounts::finestOf(highest_) - HeightCounts::finestOf(limits_.depth));
   }
   return level;
 }
@@ -84,7 +91,8 @@ std::int64_t AreaCells::finestLevel() const {
 std::int64_t AreaCells::levelBucket() const {
   if (counts_.empty()) return 0;
   const std::int64_t level = finestLevel();
-  return level == kNoLevel ? counts_.lowest() : std::max(counts_.bucketAbove(level), counts_.lowest());
+  return level == kNoLevel ? counts_.lowest()
+                           : std::max(counts_.bucketAbove(level), counts_.lowest());
 }
 
 std::int64_t AreaCells::cellCount() const { return counts_.countFrom(levelBucket()); }
@@ -96,22 +104,27 @@ std::vector<AreaCell> AreaCells::cellsFrom(std::int64_t bucket) const {
   std::sort(found.begin(), found.end(), [](const AreaCell& one, const AreaCell& other) {
     return one.row != other.row ? one.row < other.row : one.col < other.col;
   });
-  const auto twice = std::adjacent_find(found.begin(), found.end(), [](const AreaCell& one, const AreaCell& other) {
-    return one.row == other.row && one.col == other.col;
-  });
+  const auto twice = std::adjacent_find(found.begin(), found.end(),
+                                        [](const AreaCell& one, const AreaCell& other) {
+                                          return one.row == other.row && one.col == other.col;
+                                        });
   if (twice != found.end()) {
-    throw SurfaceError("the cell in row " + std::to_string(twice->row) + ", column " + std::to_string(twice->col) +
+    throw SurfaceError("the cell in row " + std::to_string(twice->row) + ", column " +
+                       std::to_string(twice->col) +
                        " of the area was added twice: tiles must not overlap");
   }
   return found;
 }
 
-std::int64_t AreaCells::mostInMemory() const { return limits_.most_cells + limits_.most_cells / kPartMore + kFewCells; }
+std::int64_t AreaCells::mostInMemory() const {
+  return limits_.most_cells + limits_.most_cells / kPartMore + kFewCells;
+}
 
 void AreaCells::makeRoom(std::size_t more) {
   const std::size_t wanted = cells_.size() + more;
   if (wanted <= cells_.capacity()) return;
-  cells_.reserve(std::max(wanted, std::min(2 * cells_.capacity(), static_cast<std::size_t>(mostInMemory()) + more)));
+  cells_.reserve(std::max(
+      wanted, std::min(2 * cells_.capacity(), static_cast<std::size_t>(mostInMemory()) + more)));
 }
 
 void AreaCells::dropCells() {
@@ -130,13 +143,15 @@ void AreaCells::addRow(std::int64_t row, std::int64_t col, const Scalar* line, s
   if (std::isfinite(highest) && !(highest <= highest_)) highest_ = highest;
   dropped_below_ = std::max(dropped_below_, levelByHeight());
   std::int64_t wanted = 1;  // slot 0 is that of what is invalid
-  if (dropped_below_ != kNoLevel) wanted = std::max(counts_.slotOf(counts_.bucketAbove(dropped_below_)), wanted);
+  if (dropped_below_ != kNoLevel)
+    wanted = std::max(counts_.slotOf(counts_.bucketAbove(dropped_below_)), wanted);
   AreaCell* next = row_cells_.data();
   for (std::size_t first = 0; first < size; first += kBlock) {
     const std::size_t end = std::min(first + kBlock, size);
     if (end - first == kBlock && largestOfBlock(slots_.data() + first) < wanted) continue;
     for (std::size_t i = first; i < end; ++i) {  // which ones is random: written without a branch
-      *next = {static_cast<std::int32_t>(row), static_cast<std::int32_t>(col) + static_cast<std::int32_t>(i),
+      *next = {static_cast<std::int32_t>(row),
+               static_cast<std::int32_t>(col) + static_cast<std::int32_t>(i),
                static_cast<double>(line[i])};
       next += slots_[i] >= wanted ? 1 : 0;
     }
@@ -153,7 +168,8 @@ void AreaCells::add(std::int64_t row, std::int64_t col, const cv::Mat& relief) {
   if (row < -kFarthestPlace || col < -kFarthestPlace || row > kFarthestPlace - relief.rows ||
       col > kFarthestPlace - relief.cols) {
     throw SurfaceError("a tile at row " + std::to_string(row) + ", column " + std::to_string(col) +
-                       " lies too far out: the area must lie within " + std::to_string(kFarthestPlace) + " pixels");
+                       " lies too far out: the area must lie within " +
+                       std::to_string(kFarthestPlace) + " pixels");
   }
   const auto cols = static_cast<std::size_t>(relief.cols);
   slots_.resize(cols);
@@ -168,8 +184,10 @@ void AreaCells::add(std::int64_t row, std::int64_t col, const cv::Mat& relief) {
 }
 
 void AreaCells::add(const AreaCells& other) {
-  if (pitch_x_ != other.pitch_x_ || pitch_y_ != other.pitch_y_ || !sameLimits(limits_, other.limits_)) {
-    throw SurfaceError("parts of an area must have been collected with the same pitch and the same limits");
+  if (pitch_x_ != other.pitch_x_ || pitch_y_ != other.pitch_y_ ||
+      !sameLimits(limits_, other.limits_)) {
+    throw SurfaceError(
+        "parts of an area must have been collected with the same pitch and the same limits");
   }
   counts_.add(other.counts_);
   if (!std::isnan(other.highest_) && !(other.highest_ <= highest_)) highest_ = other.highest_;
@@ -182,7 +200,8 @@ void AreaCells::add(const AreaCells& other) {
 std::string AreaCells::toBytes() const {
   std::string bytes = kName;
   appendBytes(bytes, kOrderOfBytes);
-  for (const double value : {pitch_x_, pitch_y_, limits_.level, limits_.depth}) appendBytes(bytes, value);
+  for (const double value : {pitch_x_, pitch_y_, limits_.level, limits_.depth})
+    appendBytes(bytes, value);
   appendBytes(bytes, limits_.most_cells);
   appendBytes(bytes, highest_);
   counts_.appendTo(bytes);
@@ -194,10 +213,12 @@ std::string AreaCells::toBytes() const {
 
 AreaCells AreaCells::fromBytes(std::string_view bytes) {
   const std::string_view name(kName);
-  if (bytes.substr(0, name.size()) != name) throw SurfaceError("these bytes are no area cells of this version");
+  if (bytes.substr(0, name.size()) != name)
+    throw SurfaceError("these bytes are no area cells of this version");
   const std::size_t hash_size = contentHash("").size();
   if (bytes.size() < name.size() + hash_size ||
-      bytes.substr(bytes.size() - hash_size) != contentHash(bytes.substr(0, bytes.size() - hash_size))) {
+      bytes.substr(bytes.size() - hash_size) !=
+          contentHash(bytes.substr(0, bytes.size() - hash_size))) {
     throw SurfaceError("the bytes of these area cells have been cut off or changed");
   }
   bytes.remove_prefix(name.size());
@@ -210,8 +231,9 @@ AreaCells AreaCells::fromBytes(std::string_view bytes) {
   if (!takeBytes(bytes, order_of_bytes) || order_of_bytes != kOrderOfBytes) {
     throw SurfaceError("these area cells come from a machine with another order of bytes");
   }
-  bool is_whole = takeBytes(bytes, pitch_x) && takeBytes(bytes, pitch_y) && takeBytes(bytes, limits.level) &&
-                  takeBytes(bytes, limits.depth) && takeBytes(bytes, limits.most_cells) && takeBytes(bytes, highest);
+  bool is_whole = takeBytes(bytes, pitch_x) && takeBytes(bytes, pitch_y) &&
+                  takeBytes(bytes, limits.level) && takeBytes(bytes, limits.depth) &&
+                  takeBytes(bytes, limits.most_cells) && takeBytes(bytes, highest);
   AreaCells cells(pitch_x, pitch_y, limits);
   cells.highest_ = highest;
   cells.counts_ = HeightCounts::takeFrom(bytes);

@@ -1,11 +1,11 @@
 #pragma once
 
 /// @file
-/// What contacts need to know of an area that is too large to be held as a frame: its highest cells, one by one, and how many
-/// others lie at which height.
+/// What contacts need to know of an area that is too large to be held as a frame: its highest
+/// cells, one by one, and how many others lie at which height.
 ///
-/// Tiles come in one by one, in any order, here or elsewhere: AreaCells of other tiles are added. What is kept depends on the
-/// relief alone, to the bit.
+/// Tiles come in one by one, in any order, here or elsewhere: AreaCells of other tiles are added.
+/// What is kept depends on the relief alone, to the bit.
 ///
 ///     AreaCells cells(pitch, pitch);
 ///     for (...) cells.add(first_row, first_col, relief_of_tile);
@@ -29,11 +29,14 @@ struct AreaCell {
   double relief = 0.0;  ///< z1 - z2 [m]
 };
 
-/// Which cells are kept one by one. Every limit holds; a level is taken to the next bucket of the counts above it.
+/// Which cells are kept one by one. Every limit holds; a level is taken to the next bucket of the
+/// counts above it.
 struct AreaCellLimits {
   double level = -std::numeric_limits<double>::infinity();  ///< none below this height [m]
-  double depth = std::numeric_limits<double>::infinity();   ///< none that far below the highest of all [m]
-  std::int64_t most_cells = std::int64_t{1} << 22U;  ///< none below the level at which there are more; 16 bytes each
+  double depth =
+      std::numeric_limits<double>::infinity();  ///< none that far below the highest of all [m]
+  std::int64_t most_cells =
+      std::int64_t{1} << 22U;  ///< none below the level at which there are more; 16 bytes each
 };
 
 /// Of one area, or of a part of it.
@@ -42,10 +45,11 @@ class AreaCells {
   /// @throw SurfaceError unless both pitches [m] are above 0, and the limits let any cell through.
   AreaCells(double pitch_x, double pitch_y, const AreaCellLimits& limits = {});
 
-  /// Adds a tile. Tiles need not fill the area: what never comes is not there. Rows that are left out between separate pieces of
-  /// surface keep them apart.
+  /// Adds a tile. Tiles need not fill the area: what never comes is not there. Rows that are left
+  /// out between separate pieces of surface keep them apart.
   /// - @p row, @p col of its first pixel in the area, within 2^30
-  /// - @p relief z1 - z2, CV_32FC1 or CV_64FC1 [m] from a level that is that of all tiles, within 1000 m; others than finite ones
+  /// - @p relief z1 - z2, CV_32FC1 or CV_64FC1 [m] from a level that is that of all tiles, within
+  /// 1000 m; others than finite ones
   ///   are invalid
   /// @throw SurfaceError if it is another.
   void add(std::int64_t row, std::int64_t col, const cv::Mat& relief);
@@ -60,7 +64,9 @@ class AreaCells {
   /// All valid cells by height.
   const HeightCounts& counts() const { return counts_; }
   std::int64_t validCount() const { return counts_.total(); }
-  double area() const { return static_cast<double>(validCount()) * pitch_x_ * pitch_y_; }  ///< of the valid cells [m^2]
+  double area() const {
+    return static_cast<double>(validCount()) * pitch_x_ * pitch_y_;
+  }  ///< of the valid cells [m^2]
   /// The highest relief [m]; NaN without a valid cell.
   double highest() const { return highest_; }
 
@@ -77,7 +83,8 @@ class AreaCells {
   /// Most memory that it holds now [bytes].
   std::size_t memory() const { return counts_.memory() + cells_.capacity() * sizeof(AreaCell); }
 
-  /// For other processes, on machines of the same order of bytes. The same cells give the same bytes.
+  /// For other processes, on machines of the same order of bytes. The same cells give the same
+  /// bytes.
   std::string toBytes() const;
   /// @throw SurfaceError if the bytes are not whole, or of another version.
   static AreaCells fromBytes(std::string_view bytes);
@@ -87,8 +94,8 @@ class AreaCells {
   void addRow(std::int64_t row, std::int64_t col, const Scalar* line, std::size_t size);
   static constexpr std::int64_t kNoLevel = std::numeric_limits<std::int64_t>::min();
 
-  /// The finest bucket from which on upwards cells are kept by all limits, or by those of height alone: it only rises while cells
-  /// come in.
+  /// The finest bucket from which on upwards cells are kept by all limits, or by those of height
+  /// alone: it only rises while cells come in.
   std::int64_t finestLevel() const;
   std::int64_t levelByHeight() const;
   /// So many cells are held at most after each row, those included that will not be kept.

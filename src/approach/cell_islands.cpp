@@ -61,7 +61,8 @@ class Islands {
 
 void Islands::findRuns() {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const bool goes_on = i > 0 && cells_[i - 1].row == cells_[i].row && cells_[i - 1].col + 1 == cells_[i].col;
+    const bool goes_on =
+        i > 0 && cells_[i - 1].row == cells_[i].row && cells_[i - 1].col + 1 == cells_[i].col;
     if (!goes_on) runs_.push_back({i, i, runs_.size()});
     runs_.back().end = i + 1;
   }
@@ -82,7 +83,8 @@ void Islands::joinRuns() {
     const AreaCell& last = cells_[runs_[run].end - 1];
     const auto ends_before = [&](const Run& other) {
       const AreaCell& other_last = cells_[other.end - 1];
-      return other_last.row < first.row - 1 || (other_last.row == first.row - 1 && other_last.col < first.col - 1);
+      return other_last.row < first.row - 1 ||
+             (other_last.row == first.row - 1 && other_last.col < first.col - 1);
     };
     while (ends_before(runs_[above])) ++above;
     for (std::size_t other = above; other < run; ++other) {
@@ -117,8 +119,9 @@ void Islands::pack() {
   // on shelves, the highest first
   std::vector<std::size_t> order(islands_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return islands_[a].height() > islands_[b].height(); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return islands_[a].height() > islands_[b].height();
+  });
   double places = 0.0;
   for (const Island& island : islands_) {
     places += static_cast<double>(island.height()) * static_cast<double>(island.width());
@@ -145,21 +148,23 @@ void Islands::pack() {
 
 template <typename Scalar>
 cv::Mat Islands::frame() const {
-  cv::Mat_<Scalar> relief(static_cast<int>(rows_), static_cast<int>(cols_), std::numeric_limits<Scalar>::quiet_NaN());
+  cv::Mat_<Scalar> relief(static_cast<int>(rows_), static_cast<int>(cols_),
+                          std::numeric_limits<Scalar>::quiet_NaN());
   for (std::size_t run = 0; run < runs_.size(); ++run) {
     const Island& island = islands_[island_of_[run]];
     const AreaCell& first = cells_[runs_[run].first];
-    Scalar* place =
-        relief[static_cast<int>(first.row - island.top + island.row)] + (first.col - island.left + island.col);
-    for (std::size_t i = runs_[run].first; i < runs_[run].end; ++i) *place++ = static_cast<Scalar>(cells_[i].relief);
+    Scalar* place = relief[static_cast<int>(first.row - island.top + island.row)] +
+                    (first.col - island.left + island.col);
+    for (std::size_t i = runs_[run].first; i < runs_[run].end; ++i)
+      *place++ = static_cast<Scalar>(cells_[i].relief);
   }
   return relief;
 }
 
 }  // namespace
 
-std::optional<HeightMap> frameOfIslands(const std::vector<AreaCell>& cells, double pitch_x, double pitch_y,
-                                        std::int64_t most_places) {
+std::optional<HeightMap> frameOfIslands(const std::vector<AreaCell>& cells, double pitch_x,
+                                        double pitch_y, std::int64_t most_places) {
   Islands islands(cells);
   islands.pack();
   if (islands.rows() > most_places / islands.cols()) return std::nullopt;

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// The order in which cells come into contact: by gap, and of equal gaps as they stand in the frame, row by row. No two
-/// cells are equal then. Of its neighbours, those to the left and above stand before a cell, the others after it.
+/// The order in which cells come into contact: by gap, and of equal gaps as they stand in the
+/// frame, row by row. No two cells are equal then. Of its neighbours, those to the left and above
+/// stand before a cell, the others after it.
 
 namespace mems_stiction {
 
@@ -10,8 +11,8 @@ namespace mems_stiction {
 enum Side { kLeft = 0, kRight = 1, kTop = 2, kBottom = 3 };
 inline constexpr Side kSides[] = {kLeft, kRight, kTop, kBottom};
 
-/// A cell of the frame by row and column, and by its index row cols + col: each form where the other would cost a
-/// division.
+/// A cell of the frame by row and column, and by its index row cols + col: each form where the
+/// other would cost a division.
 struct GridCell {
   int row = 0;
   int col = 0;
@@ -22,7 +23,8 @@ struct GridCell {
   GridCell neighbour(Side side, int cols) const {
     constexpr int kRowStep[] = {0, 0, -1, 1};
     constexpr int kColStep[] = {-1, 1, 0, 0};
-    return {row + kRowStep[side], col + kColStep[side], index + kRowStep[side] * cols + kColStep[side]};
+    return {row + kRowStep[side], col + kColStep[side],
+            index + kRowStep[side] * cols + kColStep[side]};
   }
 };
 
@@ -31,7 +33,8 @@ inline bool comesBefore(double gap, int cell, double other_gap, int other) {
   return gap < other_gap || (gap == other_gap && cell < other);
 }
 
-/// Whether the neighbour at this side comes into contact before a cell; gaps in [m], infinite where there is no cell.
+/// Whether the neighbour at this side comes into contact before a cell; gaps in [m], infinite where
+/// there is no cell.
 constexpr bool comesFirst(Side side, double neighbour_gap, double gap) {
   return side == kLeft || side == kTop ? neighbour_gap <= gap : neighbour_gap < gap;
 }

@@ -21,7 +21,8 @@ GridCell DaleMap::below(const GridCell& cell, const StoredGaps<Scalar>& gaps) co
   const GridCell right = cell.neighbour(kRight, cols);
   const GridCell bottom = cell.neighbour(kBottom, cols);
   const double right_gap = cell.col + 1 < cols ? gaps[right.index] : GapField::kInvalidGap;
-  const double bottom_gap = cell.row + 1 < field_->rows() ? gaps[bottom.index] : GapField::kInvalidGap;
+  const double bottom_gap =
+      cell.row + 1 < field_->rows() ? gaps[bottom.index] : GapField::kInvalidGap;
   const bool right_is_lower = !comesBefore(bottom_gap, bottom.index, right_gap, right.index);
   if (right_is_lower && comesFirst(kRight, right_gap, gap)) return right;
   return comesFirst(kBottom, bottom_gap, gap) ? bottom : cell;
@@ -46,7 +47,8 @@ std::int32_t DaleMap::follow(const GridCell& start) {
   return field_->readGaps([&](const auto& gaps) { return follow(start, gaps); });
 }
 
-void DaleMap::findInRow(int row, const std::int32_t* cols, int count, const double* gaps, const double* gaps_above) {
+void DaleMap::findInRow(int row, const std::int32_t* cols, int count, const double* gaps,
+                        const double* gaps_above) {
   const int first_cell = row * field_->cols();
   std::int32_t* dale = dale_.data() + first_cell;
   const std::int32_t* dale_above = dale - (row > 0 ? field_->cols() : 0);
@@ -55,7 +57,8 @@ void DaleMap::findInRow(int row, const std::int32_t* cols, int count, const doub
     if (dale[col] != kUnknown) continue;
     // the first steps of below(), where they lead to a cell whose dale is known
     const std::int32_t left = dale[std::max(col - 1, 0)];
-    const std::int32_t top = comesFirst(kTop, gaps_above[col], gaps[col]) ? dale_above[col] : kUnknown;
+    const std::int32_t top =
+        comesFirst(kTop, gaps_above[col], gaps[col]) ? dale_above[col] : kUnknown;
     const std::int32_t known = comesFirst(kLeft, gaps[col - 1], gaps[col]) ? left : top;
     if (known != kUnknown) {
       dale[col] = known;

@@ -1,12 +1,14 @@
 #pragma once
 
 /// @file
-/// The dales of the gap (ISO 25178-2: the regions around the pits, from which paths lead down to the pit): each cell
-/// follows one downward path, to the left or up if that leads down, else to the lower one of right and below.
+/// The dales of the gap (ISO 25178-2: the regions around the pits, from which paths lead down to
+/// the pit): each cell follows one downward path, to the left or up if that leads down, else to the
+/// lower one of right and below.
 ///
-/// Down is to cells that come into contact before (cell_order.hpp), and no two cells are equal. A cell that comes into contact in
-/// the order of the gap then either starts a patch, as the pit of a dale, or touches the patch of its own dale: which
-/// patch a cell joins first is known before the approach begins, and patches meet only where dales do.
+/// Down is to cells that come into contact before (cell_order.hpp), and no two cells are equal. A
+/// cell that comes into contact in the order of the gap then either starts a patch, as the pit of a
+/// dale, or touches the patch of its own dale: which patch a cell joins first is known before the
+/// approach begins, and patches meet only where dales do.
 
 #include <cstdint>
 #include <vector>
@@ -21,8 +23,10 @@ class DaleTag {
  public:
   DaleTag() = default;
   /// - @p dale less than 2^28
-  /// - @p sides a bit for each Side where a neighbour that comes into contact before may belong to another dale
-  DaleTag(std::int32_t dale, std::uint32_t sides) : bits_(static_cast<std::uint32_t>(dale) << kSideBits | sides) {}
+  /// - @p sides a bit for each Side where a neighbour that comes into contact before may belong to
+  /// another dale
+  DaleTag(std::int32_t dale, std::uint32_t sides)
+      : bits_(static_cast<std::uint32_t>(dale) << kSideBits | sides) {}
 
   std::int32_t dale() const { return static_cast<std::int32_t>(bits_ >> kSideBits); }
   bool isBorder() const { return (bits_ & kAllSides) != 0; }
@@ -44,11 +48,14 @@ class DaleMap {
 
   /// Dale of a valid cell; follows the path downward when it is not known yet.
   std::int32_t find(const GridCell& cell) { return at(cell) == kUnknown ? follow(cell) : at(cell); }
-  /// Makes the dales of these cells of a row known: in order of the frame, most have their neighbour's.
+  /// Makes the dales of these cells of a row known: in order of the frame, most have their
+  /// neighbour's.
   /// - @p cols in ascending order
-  /// - @p gaps, @p gaps_above of the row and of the one above it [m]: from one cell before the first, infinite where
+  /// - @p gaps, @p gaps_above of the row and of the one above it [m]: from one cell before the
+  /// first, infinite where
   ///      the frame has no cell
-  void findInRow(int row, const std::int32_t* cols, int count, const double* gaps, const double* gaps_above);
+  void findInRow(int row, const std::int32_t* cols, int count, const double* gaps,
+                 const double* gaps_above);
   /// Dale of a cell, or kUnknown if nobody has asked for it, or if the cell is not valid.
   std::int32_t at(const GridCell& cell) const { return dale_[place(cell)]; }
   /// Number of dales found so far; they are numbered in the order in which they were found.

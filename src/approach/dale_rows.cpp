@@ -2,7 +2,8 @@
 
 namespace mems_stiction {
 
-MEMS_STICTION_VECTORIZED void RowsAround::tagsOf(const std::int32_t* columns, int count, DaleTag* tags) const {
+MEMS_STICTION_VECTORIZED void RowsAround::tagsOf(const std::int32_t* columns, int count,
+                                                 DaleTag* tags) const {
   for (int i = 0; i < count; ++i) tags[i] = tagOf(columns[i]);
 }
 
@@ -15,7 +16,8 @@ void DaleRows::start(const GapField& field, DaleMap& dales, double from, double 
   for (std::vector<double>* gaps : {gaps_, gaps_ + 1, gaps_ + 2, &no_row_}) {
     gaps->assign(static_cast<std::size_t>(field.cols()) + 2, GapField::kInvalidGap);
   }
-  for (std::vector<std::int32_t>& columns : columns_) columns.resize(static_cast<std::size_t>(field.cols()));
+  for (std::vector<std::int32_t>& columns : columns_)
+    columns.resize(static_cast<std::size_t>(field.cols()));
   read(0);
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 /// @file
-/// A pass over the frame, row by row, that knows for the cells of a range of gaps the gaps around them, their dales and
-/// where dales meet. Dales are found a row ahead: a cell asks for those of its neighbours.
+/// A pass over the frame, row by row, that knows for the cells of a range of gaps the gaps around
+/// them, their dales and where dales meet. Dales are found a row ahead: a cell asks for those of
+/// its neighbours.
 ///
 ///     rows.start(field, dales, 0.0, limit);
 ///     while (rows.next()) {
-///       for (int i = 0; i < rows.count(); ++i) use(rows.columns()[i], rows.around().tagOf(rows.columns()[i]));
+///       for (int i = 0; i < rows.count(); ++i) use(rows.columns()[i],
+///       rows.around().tagOf(rows.columns()[i]));
 ///     }
 
 #include <cstdint>
@@ -18,8 +20,8 @@
 
 namespace mems_stiction {
 
-/// A row and its neighbours: gaps [m], infinite off the frame and readable from one cell before the first to one past the
-/// last, and dales.
+/// A row and its neighbours: gaps [m], infinite off the frame and readable from one cell before the
+/// first to one past the last, and dales.
 struct RowsAround {
   const double* gaps;
   const double* above;
@@ -35,8 +37,9 @@ struct RowsAround {
     const double gap = gaps[col];
     // only neighbours that come into contact before matter
     const double gaps_around[] = {gaps[col - 1], gaps[col + 1], above[col], below[col]};
-    const std::int32_t dales_around[] = {dales[col > 0 ? col - 1 : 0], dales[col < last_col ? col + 1 : col],
-                                         dales_above[col], dales_below[col]};
+    const std::int32_t dales_around[] = {dales[col > 0 ? col - 1 : 0],
+                                         dales[col < last_col ? col + 1 : col], dales_above[col],
+                                         dales_below[col]};
     std::uint32_t sides = 0;
     for (const Side side : kSides) {
       const auto meets = static_cast<std::uint32_t>(comesFirst(side, gaps_around[side], gap)) &
@@ -67,7 +70,8 @@ class DaleRows {
 
  private:
   void read(int row);
-  /// Gaps of a row that was read lately, or of one off the frame, from one cell before the first [m].
+  /// Gaps of a row that was read lately, or of one off the frame, from one cell before the first
+  /// [m].
   const double* gapsOf(int row) const;
 
   const GapField* field_ = nullptr;

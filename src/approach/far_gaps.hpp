@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// The gaps of an area's cells that are not in its frame of the highest ones: too far away to touch, near enough to attract. They
-/// are summed by moments, in classes that are narrow against how far away they are, and so as exactly as the near ones.
+/// The gaps of an area's cells that are not in its frame of the highest ones: too far away to
+/// touch, near enough to attract. They are summed by moments, in classes that are narrow against
+/// how far away they are, and so as exactly as the near ones.
 
 #include <cstdint>
 #include <vector>
@@ -38,7 +39,8 @@ class FarGaps {
   std::int64_t count_ = 0;
   double gap_sum_ = 0.0;
   std::vector<GapMoments> moments_;
-  std::vector<std::int64_t> counts_before_;  ///< per bucket by ascending gap: number of cells before it
+  std::vector<std::int64_t>
+      counts_before_;  ///< per bucket by ascending gap: number of cells before it
 };
 
 }  // namespace mems_stiction

@@ -17,22 +17,25 @@ namespace {
 constexpr double kLargestRange = 1e100;
 
 std::string gridText(const HeightMap& surface) {
-  return std::to_string(surface.rows()) + " rows x " + std::to_string(surface.cols()) + " columns, pitch " +
-         numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) + " m";
+  return std::to_string(surface.rows()) + " rows x " + std::to_string(surface.cols()) +
+         " columns, pitch " + numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) +
+         " m";
 }
 
 void requireSameGrid(const HeightMap& lower, const HeightMap& upper) {
-  constexpr double kPitchTolerance = 1e-6;  // relative; pitches come through float32 files and decimal text
+  constexpr double kPitchTolerance =
+      1e-6;  // relative; pitches come through float32 files and decimal text
   const bool same_size = lower.rows() == upper.rows() && lower.cols() == upper.cols();
-  const bool same_pitch = std::abs(lower.pitchX() - upper.pitchX()) <= kPitchTolerance * lower.pitchX() &&
-                          std::abs(lower.pitchY() - upper.pitchY()) <= kPitchTolerance * lower.pitchY();
+  const bool same_pitch =
+      std::abs(lower.pitchX() - upper.pitchX()) <= kPitchTolerance * lower.pitchX() &&
+      std::abs(lower.pitchY() - upper.pitchY()) <= kPitchTolerance * lower.pitchY();
   if (same_size && same_pitch) return;
-  throw SurfaceError("the counter-surface's grid (" + gridText(upper) + ") must be the scan's (" + gridText(lower) +
-                     ")");
+  throw SurfaceError("the counter-surface's grid (" + gridText(upper) + ") must be the scan's (" +
+                     gridText(lower) + ")");
 }
 
-/// Sums over valid heights, in fixed packets. They are taken from a level that is one of the heights: it can stand for what
-/// is left out, and adds nothing.
+/// Sums over valid heights, in fixed packets. They are taken from a level that is one of the
+/// heights: it can stand for what is left out, and adds nothing.
 struct HeightSums {
   explicit HeightSums(double level_in) : level(level_in), highest(level_in), lowest(level_in) {}
 
@@ -63,7 +66,8 @@ MEMS_STICTION_INLINE void addHeights(const Scalar* line, std::size_t size, Heigh
   HeightSums local = sums;
   const std::size_t in_packets = size / Packet::kCount * Packet::kCount;
   for (std::size_t i = 0; i < in_packets; i += Packet::kCount) local.add(Packet::load(line + i));
-  if (in_packets < size) local.add(Packet::loadFirst(line + in_packets, size - in_packets, kNoHeight));
+  if (in_packets < size)
+    local.add(Packet::loadFirst(line + in_packets, size - in_packets, kNoHeight));
   sums = local;
 }
 
@@ -75,14 +79,17 @@ MEMS_STICTION_VECTORIZED void addRow(const double* line, std::size_t size, Heigh
 }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void gapsBelowTop(double top, const Scalar* relief, std::size_t size, double* gaps) {
+MEMS_STICTION_INLINE void gapsBelowTop(double top, const Scalar* relief, std::size_t size,
+                                       double* gaps) {
   for (std::size_t i = 0; i < size; ++i) gaps[i] = top - static_cast<double>(relief[i]);
 }
 
-MEMS_STICTION_VECTORIZED void gapsBelow(double top, const float* relief, std::size_t size, double* gaps) {
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const float* relief, std::size_t size,
+                                        double* gaps) {
   gapsBelowTop(top, relief, size, gaps);
 }
-MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* relief, std::size_t size, double* gaps) {
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* relief, std::size_t size,
+                                        double* gaps) {
   gapsBelowTop(top, relief, size, gaps);
 }
 
@@ -114,20 +121,23 @@ void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill
     addRow(line, cols, sums);
     if (sums.count() - count_before == cols) continue;
     std::replace_if(
-        line, line + cols, [&](Scalar height) { return !isFinite(height); }, -std::numeric_limits<Scalar>::infinity());
+        line, line + cols, [&](Scalar height) { return !isFinite(height); },
+        -std::numeric_limits<Scalar>::infinity());
   }
   if (sums.count() == 0) {
-    throw SurfaceError(upper_is_flat_ ? "the height map has no valid pixel"
-                                      : "no pixel is valid in both the scan and the counter-surface");
+    throw SurfaceError(upper_is_flat_
+                           ? "the height map has no valid pixel"
+                           : "no pixel is valid in both the scan and the counter-surface");
   }
   const auto count = static_cast<double>(sums.count());
   valid_count_ = static_cast<int>(sums.count());
   top_ = sums.highest.largest();
   largest_gap_ = top_ - sums.lowest.smallest();
   if (!(largest_gap_ <= kLargestRange)) {
-    throw SurfaceError(std::string(upper_is_flat_ ? "the heights lie" : "scan minus counter-surface lies") +
-                       " between " + numberText(sums.lowest.smallest()) + " and " + numberText(top_) +
-                       " m, which is not allowed: the range must be <= " + numberText(kLargestRange) + " m");
+    throw SurfaceError(
+        std::string(upper_is_flat_ ? "the heights lie" : "scan minus counter-surface lies") +
+        " between " + numberText(sums.lowest.smallest()) + " and " + numberText(top_) +
+        " m, which is not allowed: the range must be <= " + numberText(kLargestRange) + " m");
   }
   const double mean_excess = sums.sum.sum() / count;
   mean_gap_ = (top_ - sums.level) - mean_excess;
@@ -206,22 +216,26 @@ void GapField::computeBetween(const HeightMap& lower, const HeightMap& upper) {
   const bool lower_is_single = lower.heights().depth() == CV_32F;
   const bool upper_is_single = upper.heights().depth() == CV_32F;
   if (lower_is_single) {
-    upper_is_single ? subtractSurfaces<float, float>(lower, upper) : subtractSurfaces<float, double>(lower, upper);
+    upper_is_single ? subtractSurfaces<float, float>(lower, upper)
+                    : subtractSurfaces<float, double>(lower, upper);
   } else {
-    upper_is_single ? subtractSurfaces<double, float>(lower, upper) : subtractSurfaces<double, double>(lower, upper);
+    upper_is_single ? subtractSurfaces<double, float>(lower, upper)
+                    : subtractSurfaces<double, double>(lower, upper);
   }
 }
 
 MEMS_STICTION_VECTORIZED int columnsBetween(double from, double limit, const double* gaps, int cols,
                                             std::int32_t* columns) {
-  // Surfaces are smooth on the scale of a few cells: blocks that are wholly inside or outside are frequent.
+  // Surfaces are smooth on the scale of a few cells: blocks that are wholly inside or outside are
+  // frequent.
   constexpr std::int32_t kBlock = 8;
   std::int32_t* next = columns;
   std::int32_t col = 0;
   for (; col + kBlock <= cols; col += kBlock, gaps += kBlock) {
     const Packet first = Packet::load(gaps);
     const Packet second = Packet::load(gaps + Packet::kCount);
-    const int count = ((first < limit) ^ (first < from)).count() + ((second < limit) ^ (second < from)).count();
+    const int count =
+        ((first < limit) ^ (first < from)).count() + ((second < limit) ^ (second < from)).count();
     if (count == 0) continue;
     if (count == kBlock) {
       for (std::int32_t i = 0; i < kBlock; ++i) next[i] = col + i;

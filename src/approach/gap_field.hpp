@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the paper).
+/// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the
+/// paper).
 
 #include <cstddef>
 #include <cstdint>
@@ -24,16 +25,20 @@ struct StoredGaps {
   double operator[](std::ptrdiff_t cell) const { return top - static_cast<double>(relief[cell]); }
 };
 
-/// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they never come into
-/// contact and are left out of every sum. compute() reuses the memory of the previous frame.
+/// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they
+/// never come into contact and are left out of every sum. compute() reuses the memory of the
+/// previous frame.
 ///
-/// What is kept is the relief z1 - z2, in the precision of the scan where the upper surface is flat, and the gap is
-/// what lies between it and its highest point: a scan in single precision then costs 4 bytes a cell, and no digits.
+/// What is kept is the relief z1 - z2, in the precision of the scan where the upper surface is
+/// flat, and the gap is what lies between it and its highest point: a scan in single precision then
+/// costs 4 bytes a cell, and no digits.
 class GapField {
  public:
-  /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
+  /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than
+  /// 1e100 m apart.
   void compute(const SurfacePair& surfaces);
-  /// The gaps of another field whose relief has been lowered cell by cell [m], as a plate that tilts or bends does for itself.
+  /// The gaps of another field whose relief has been lowered cell by cell [m], as a plate that
+  /// tilts or bends does for itself.
   void lower(const GapField& field, const cv::Mat1d& lowering);
 
   int rows() const { return rows_; }
@@ -54,8 +59,8 @@ class GapField {
     const auto place = static_cast<std::size_t>(cell);
     return top_ - (is_single_ ? static_cast<double>(single_relief_[place]) : relief_[place]);
   }
-  /// read(StoredGaps) of a scalar that is known to the compiler, for code that asks for many gaps; returns what it
-  /// returns.
+  /// read(StoredGaps) of a scalar that is known to the compiler, for code that asks for many gaps;
+  /// returns what it returns.
   template <typename Reader>
   auto readGaps(const Reader& read) const {
     return is_single_ ? read(StoredGaps<float>{single_relief_.data(), top_})
@@ -65,14 +70,19 @@ class GapField {
   void gapsOfRow(int row, double* gaps) const;
   double largestGap() const { return largest_gap_; }
   double meanGap() const { return mean_gap_; }
-  /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared, cell by cell.
+  /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared,
+  /// cell by cell.
   double rmsGap() const { return rms_gap_; }
 
   bool upperIsFlat() const { return upper_is_flat_; }
-  /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.
-  double lowerHeight(int cell) const { return upper_is_flat_ ? -gap(cell) : lower_[static_cast<std::size_t>(cell)]; }
+  /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g
+  /// on the same level.
+  double lowerHeight(int cell) const {
+    return upper_is_flat_ ? -gap(cell) : lower_[static_cast<std::size_t>(cell)];
+  }
 
-  /// Asks the memory for z1 of a cell and of those above and below it, unless the upper surface is flat.
+  /// Asks the memory for z1 of a cell and of those above and below it, unless the upper surface is
+  /// flat.
   void prefetchLower(int cell) const;
 
   static constexpr double kInvalidGap = std::numeric_limits<double>::infinity();

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// How the moments of a bucket come about: as sums about its lower end, from which the moments are taken when all gaps
-/// are in.
+/// How the moments of a bucket come about: as sums about its lower end, from which the moments are
+/// taken when all gaps are in.
 
 #include <algorithm>
 
@@ -17,7 +17,8 @@ inline void addGaps(GapMoments& moments, double count, double excess) {
   moments.variance += count * excess * excess;
 }
 
-/// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the gap.
+/// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the
+/// gap.
 inline void finishMoments(GapMoments& moments, double lower_end) {
   if (moments.count == 0.0) return;
   const double mean_excess = moments.mean / moments.count;

@@ -12,8 +12,8 @@ namespace {
 constexpr int kMaxBuckets = 1 << 16;
 constexpr int kMinBuckets = 1 << 6;
 constexpr int kCellsPerBucket = 8;
-/// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by one, and the wider
-/// buckets of the tail start where their width is small against the gap.
+/// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by
+/// one, and the wider buckets of the tail start where their width is small against the gap.
 constexpr int kBucketsBeyondLimit = 16 * GapOrder::kBucketsPerTailBucket;
 
 int bucketCountFor(int valid_cells) {
@@ -25,8 +25,9 @@ int bucketCountFor(int valid_cells) {
 int roundedUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void findBucketsOf(const StoredGaps<Scalar>& gaps, std::ptrdiff_t first, std::size_t size,
-                                        double inverse_width, double last, std::int32_t* buckets) {
+MEMS_STICTION_INLINE void findBucketsOf(const StoredGaps<Scalar>& gaps, std::ptrdiff_t first,
+                                        std::size_t size, double inverse_width, double last,
+                                        std::int32_t* buckets) {
   const Scalar* relief = gaps.relief + first;
   const double top = gaps.top;
   for (std::size_t i = 0; i < size; ++i) {
@@ -35,18 +36,21 @@ MEMS_STICTION_INLINE void findBucketsOf(const StoredGaps<Scalar>& gaps, std::ptr
   }
 }
 
-MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<float>& gaps, std::ptrdiff_t first, std::size_t size,
-                                          double inverse_width, double last, std::int32_t* buckets) {
+MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<float>& gaps, std::ptrdiff_t first,
+                                          std::size_t size, double inverse_width, double last,
+                                          std::int32_t* buckets) {
   findBucketsOf(gaps, first, size, inverse_width, last, buckets);
 }
-MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<double>& gaps, std::ptrdiff_t first, std::size_t size,
-                                          double inverse_width, double last, std::int32_t* buckets) {
+MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<double>& gaps, std::ptrdiff_t first,
+                                          std::size_t size, double inverse_width, double last,
+                                          std::int32_t* buckets) {
   findBucketsOf(gaps, first, size, inverse_width, last, buckets);
 }
 
 }  // namespace
 
-void GapOrder::build(const GapField& field, double max_contact_fraction, double step, DaleMap* dales) {
+void GapOrder::build(const GapField& field, double max_contact_fraction, double step,
+                     DaleMap* dales) {
   dales_ = dales;
   chooseBuckets(field, step);
   countGaps(field);
@@ -62,7 +66,8 @@ void GapOrder::extend(const GapField& field, double max_contact_fraction) {
 }
 
 int GapOrder::wantedCells(const GapField& field, double max_contact_fraction) const {
-  return std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+  return std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1,
+                    field.validCount());
 }
 
 void GapOrder::orderUpTo(const GapField& field, int wanted) {
@@ -105,7 +110,8 @@ void GapOrder::countGaps(const GapField& field) {
       for (const std::int32_t bucket : row_buckets_) ++count[bucket];
     }
   });
-  bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
+  bucket_count_of_.back() -=
+      field.cellCount() - field.validCount();  // infinite gaps were counted there
 }
 
 void GapOrder::chooseOrderedBuckets(int wanted) {
@@ -113,17 +119,20 @@ void GapOrder::chooseOrderedBuckets(int wanted) {
   int bucket = 0;
   while (total < wanted) total += bucket_count_of_[static_cast<std::size_t>(bucket++)];
   const int wanted_buckets = std::min(
-      roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)), bucket_count_);
+      roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)),
+      bucket_count_);
   ordered_buckets_ = std::max(ordered_buckets_, wanted_buckets);
 }
 
 void GapOrder::measureTail() {
-  tail_moments_.assign(static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
+  tail_moments_.assign(
+      static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
   int bucket = ordered_buckets_;
   for (GapMoments& moments : tail_moments_) {
     const double lower_end = bucket * bucket_width_;
     for (int i = 0; i < kBucketsPerTailBucket; ++i, ++bucket) {
-      addGaps(moments, bucket_count_of_[static_cast<std::size_t>(bucket)], (i + 0.5) * bucket_width_);
+      addGaps(moments, bucket_count_of_[static_cast<std::size_t>(bucket)],
+              (i + 0.5) * bucket_width_);
     }
     finishMoments(moments, lower_end);
   }
@@ -163,15 +172,17 @@ int GapOrder::sortBelow(double approach) {
   if (approach >= group_count * group_width_ && ordered_buckets_ < bucket_count_) {
     return static_cast<int>(cells_.size());
   }
-  const double group_of_approach = std::min<double>(std::round(approach / group_width_), group_count);
+  const double group_of_approach =
+      std::min<double>(std::round(approach / group_width_), group_count);
   if (groups_are_steps_ && group_of_approach * group_width_ == approach) {
     return groupStart(static_cast<int>(group_of_approach));
   }
   const int group = std::min(bucketOf(approach) >> group_shift_, group_count - 1);
   sortGroup(group);
   const auto begin = cells_.begin() + groupStart(group);
-  const auto first_apart = std::partition_point(begin, cells_.begin() + group_end_[static_cast<std::size_t>(group)],
-                                                [approach](const OrderedCell& cell) { return cell.gap < approach; });
+  const auto first_apart =
+      std::partition_point(begin, cells_.begin() + group_end_[static_cast<std::size_t>(group)],
+                           [approach](const OrderedCell& cell) { return cell.gap < approach; });
   return static_cast<int>(first_apart - cells_.begin());
 }
 
@@ -182,10 +193,12 @@ double GapOrder::cellsBelow(double limit) const {
     const auto begin = cells_.begin() + groupStart(group);
     const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
     return static_cast<double>(
-        groupStart(group) + std::count_if(begin, end, [limit](const OrderedCell& cell) { return cell.gap < limit; }));
+        groupStart(group) +
+        std::count_if(begin, end, [limit](const OrderedCell& cell) { return cell.gap < limit; }));
   }
   auto count = static_cast<double>(cells_.size());
-  for (int bucket = ordered_buckets_; bucket < bucket_count_ && bucket < limit_in_widths; ++bucket) {
+  for (int bucket = ordered_buckets_; bucket < bucket_count_ && bucket < limit_in_widths;
+       ++bucket) {
     // the largest gap is the last bucket's upper end, and below any limit past it
     const double covered = std::min(limit_in_widths - bucket, 1.0);
     count += covered * bucket_count_of_[static_cast<std::size_t>(bucket)];
@@ -196,7 +209,8 @@ double GapOrder::cellsBelow(double limit) const {
 double GapOrder::lowerEndAt(int place) const {
   int before = 0;
   int bucket = 0;
-  while (bucket + 1 < bucket_count_ && before + bucket_count_of_[static_cast<std::size_t>(bucket)] <= place) {
+  while (bucket + 1 < bucket_count_ &&
+         before + bucket_count_of_[static_cast<std::size_t>(bucket)] <= place) {
     before += bucket_count_of_[static_cast<std::size_t>(bucket++)];
   }
   return bucket * bucket_width_;
@@ -213,6 +227,8 @@ int GapOrder::groupStartFrom(int bucket) const {
   return std::min(roundedUp(bucket, 1 << group_shift_), ordered_buckets_);
 }
 
-int GapOrder::cellsBefore(int group_start_bucket) const { return groupStart(group_start_bucket >> group_shift_); }
+int GapOrder::cellsBefore(int group_start_bucket) const {
+  return groupStart(group_start_bucket >> group_shift_);
+}
 
 }  // namespace mems_stiction

@@ -28,13 +28,16 @@ int GapOrder::openGroups(int first_bucket, int end_bucket) {
 }
 
 MEMS_STICTION_INLINE void GapOrder::put(const OrderedCell& cell, int bucket) {
-  OrderedCell& place = cells_[static_cast<std::size_t>(group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++)];
+  OrderedCell& place = cells_[static_cast<std::size_t>(
+      group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++)];
   place = cell;
-  __builtin_prefetch(&place + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
+  __builtin_prefetch(&place + kWriteAhead,
+                     1);  // where the group goes on: there are too many for the processor
 }
 
 void GapOrder::closeGroups(int first_bucket, int end_bucket) {
-  // group by group: while the cells come in, the moments of another bucket would be fetched for each
+  // group by group: while the cells come in, the moments of another bucket would be fetched for
+  // each
   for (int group = first_bucket >> group_shift_; group < end_bucket >> group_shift_; ++group) {
     if (group_shift_ == 0) {
       measureBucket(group);
@@ -42,7 +45,8 @@ void GapOrder::closeGroups(int first_bucket, int end_bucket) {
       for (int place = groupStart(group); place < groupStart(group + 1); ++place) {
         const double gap = cells_[static_cast<std::size_t>(place)].gap;
         const int bucket = bucketOf(gap);
-        addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+        addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0,
+                gap - bucket * bucket_width_);
       }
     }
   }
@@ -61,7 +65,8 @@ void GapOrder::measureBucket(int bucket) {
 }
 
 MEMS_STICTION_VECTORIZED void GapOrder::changeGaps(double limit, const std::vector<double>& gaps) {
-  const int end_bucket = (std::min(bucketOf(limit) >> group_shift_, groupCount() - 1) + 1) << group_shift_;
+  const int end_bucket = (std::min(bucketOf(limit) >> group_shift_, groupCount() - 1) + 1)
+                         << group_shift_;
   changed_cells_.assign(cells_.begin(), cells_.begin() + cellsBefore(end_bucket));
   std::fill_n(bucket_count_of_.begin(), end_bucket, 0);
   for (std::size_t i = 0; i < changed_cells_.size(); ++i) {
@@ -80,7 +85,8 @@ void GapOrder::collectCells(const GapField& field, int first_bucket) {
   cells_.resize(static_cast<std::size_t>(openGroups(first_bucket, ordered_buckets_)));
   const bool all_are_ordered = ordered_buckets_ == bucket_count_;
   const double from = first_bucket > 0 ? (first_bucket - 1) * bucket_width_ : 0.0;
-  const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
+  const double limit =
+      all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
   row_gaps_.resize(static_cast<std::size_t>(field.cols()));
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
   row_tags_.assign(static_cast<std::size_t>(field.cols()), {});
@@ -91,21 +97,24 @@ void GapOrder::collectCells(const GapField& field, int first_bucket) {
       const RowsAround& rows = dale_rows_.around();
       const std::int32_t* columns = dale_rows_.columns();
       rows.tagsOf(columns, dale_rows_.count(), row_tags_.data());
-      any_is_misplaced |=
-          collectRow(dale_rows_.row(), rows.gaps, columns, dale_rows_.count(), row_tags_.data(), first_bucket);
+      any_is_misplaced |= collectRow(dale_rows_.row(), rows.gaps, columns, dale_rows_.count(),
+                                     row_tags_.data(), first_bucket);
     }
   } else {
     for (int row = 0; row < field.rows(); ++row) {
       field.gapsOfRow(row, row_gaps_.data());
-      const int count = columnsBetween(from, limit, row_gaps_.data(), field.cols(), near_cells_.data());
-      any_is_misplaced |= collectRow(row, row_gaps_.data(), near_cells_.data(), count, row_tags_.data(), first_bucket);
+      const int count =
+          columnsBetween(from, limit, row_gaps_.data(), field.cols(), near_cells_.data());
+      any_is_misplaced |= collectRow(row, row_gaps_.data(), near_cells_.data(), count,
+                                     row_tags_.data(), first_bucket);
     }
   }
   closeGroups(first_bucket, ordered_buckets_);
   if (any_is_misplaced) mendGroups();
 }
 
-MEMS_STICTION_VECTORIZED bool GapOrder::collectRow(int row, const double* gaps, const std::int32_t* columns, int count,
+MEMS_STICTION_VECTORIZED bool GapOrder::collectRow(int row, const double* gaps,
+                                                   const std::int32_t* columns, int count,
                                                    const DaleTag* tags, int first_bucket) {
   bool any_is_misplaced = false;
   const std::int32_t first_cell = row * static_cast<std::int32_t>(row_gaps_.size());
@@ -117,7 +126,8 @@ MEMS_STICTION_VECTORIZED bool GapOrder::collectRow(int row, const double* gaps, 
     if (static_cast<std::uint32_t>(bucket - first_bucket) >= buckets) continue;
     put({gap, first_cell + col, tags[i]}, bucket);
     const double excess = gap - bucket * bucket_width_;
-    if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_) any_is_misplaced = true;
+    if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_)
+      any_is_misplaced = true;
   }
   return any_is_misplaced;
 }
@@ -146,15 +156,16 @@ void GapOrder::mendGroups() {
   }
 }
 
-/// The bucket of a gap that is a whole number of steps is a matter of rounding; a step takes what is below its
-/// approach.
+/// The bucket of a gap that is a whole number of steps is a matter of rounding; a step takes what
+/// is below its approach.
 void GapOrder::mendBoundary(int group) {
   const double boundary = group * group_width_;
   const auto begin = cells_.begin() + groupStart(group - 1);
   const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
-  const auto first_apart =
-      std::stable_partition(begin, end, [boundary](const OrderedCell& cell) { return cell.gap < boundary; });
-  group_end_[static_cast<std::size_t>(group - 1)] = static_cast<std::int32_t>(first_apart - cells_.begin());
+  const auto first_apart = std::stable_partition(
+      begin, end, [boundary](const OrderedCell& cell) { return cell.gap < boundary; });
+  group_end_[static_cast<std::size_t>(group - 1)] =
+      static_cast<std::int32_t>(first_apart - cells_.begin());
 }
 
 }  // namespace mems_stiction

@@ -10,8 +10,9 @@ GapMoments merged(const GapMoments& a, const GapMoments& b) {
   sum.count = a.count + b.count;
   sum.mean = (a.count * a.mean + b.count * b.mean) / sum.count;
   const double distance = b.mean - a.mean;
-  sum.variance =
-      (a.count * a.variance + b.count * b.variance + a.count * b.count / sum.count * distance * distance) / sum.count;
+  sum.variance = (a.count * a.variance + b.count * b.variance +
+                  a.count * b.count / sum.count * distance * distance) /
+                 sum.count;
   return sum;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 /// @file
-/// Sums over all cells that are apart, at any approach, without a pass over the frame: cells near contact one by one,
-/// the rest from a pyramid of histogram buckets, each level twice as wide, so that no bucket is wide against the
-/// distance that the summed law sees.
+/// Sums over all cells that are apart, at any approach, without a pass over the frame: cells near
+/// contact one by one, the rest from a pyramid of histogram buckets, each level twice as wide, so
+/// that no bucket is wide against the distance that the summed law sees.
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +18,16 @@ namespace mems_stiction {
 
 /// What a law's sum needs to know of it.
 struct PyramidRule {
-  double kink = 0.0;    ///< gap at which the law has a kink; no bucket that stands for cells lies across it [m]
+  double kink =
+      0.0;  ///< gap at which the law has a kink; no bucket that stands for cells lies across it [m]
   double offset = 0.0;  ///< the law varies over gap + offset, not over the gap [m], >= 0
 };
 
 /// Calls take(four gaps - approach, in packets) for one four of cells after the other.
 /// @return how many cells were taken: up to three are left
 template <typename Take>
-MEMS_STICTION_INLINE std::size_t visitFours(const OrderedCell* cells, std::size_t count, double approach,
-                                            const Take& take) {
+MEMS_STICTION_INLINE std::size_t visitFours(const OrderedCell* cells, std::size_t count,
+                                            double approach, const Take& take) {
   const std::size_t in_fours = count / Packet::kCount * Packet::kCount;
   for (std::size_t i = 0; i < in_fours; i += Packet::kCount) {
     take(Packet(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach);
@@ -44,17 +45,18 @@ class GapPyramid {
   /// - @p on_cells called with (first cell, count), the cells that are to be summed one by one
   /// - @p on_moments called with GapMoments, each standing for its cells
   template <typename OnCells, typename OnMoments>
-  MEMS_STICTION_INLINE void visit(double approach, int contact_count, const PyramidRule& rule, const OnCells& on_cells,
-                                  const OnMoments& on_moments) const;
+  MEMS_STICTION_INLINE void visit(double approach, int contact_count, const PyramidRule& rule,
+                                  const OnCells& on_cells, const OnMoments& on_moments) const;
 
  private:
   /// A bucket may stand for its cells when what the law sees is at least this many times its width.
   static constexpr double kGapsPerWidth = 12.0;
-  /// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series beyond, and, while they
-  /// are wide, as many as reach the kink.
+  /// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series
+  /// beyond, and, while they are wide, as many as reach the kink.
   static constexpr double kMostNearBuckets = 64.0;
   static constexpr std::size_t kTailLevel = 4;
-  static_assert(1 << kTailLevel == GapOrder::kBucketsPerTailBucket, "the tail's buckets are a level of the pyramid");
+  static_assert(1 << kTailLevel == GapOrder::kBucketsPerTailBucket,
+                "the tail's buckets are a level of the pyramid");
 
   /// momentsOf(k)[i]: buckets i 2^k .. (i + 1) 2^k - 1 together; level 0 is the order's own.
   const std::vector<GapMoments>& momentsOf(std::size_t level) const {
@@ -66,26 +68,31 @@ class GapPyramid {
 };
 
 template <typename OnCells, typename OnMoments>
-MEMS_STICTION_INLINE void GapPyramid::visit(double approach, int contact_count, const PyramidRule& rule,
-                                            const OnCells& on_cells, const OnMoments& on_moments) const {
+MEMS_STICTION_INLINE void GapPyramid::visit(double approach, int contact_count,
+                                            const PyramidRule& rule, const OnCells& on_cells,
+                                            const OnMoments& on_moments) const {
   const int bucket_count = order_->bucketCount();
   const double width = order_->bucketWidth();
   const double kink_in_widths = rule.kink / width;
   const double offset_in_widths = rule.offset / width;
   const double fewest_near = std::max(kGapsPerWidth - offset_in_widths, 0.0);
-  const int near_buckets = static_cast<int>(std::ceil(std::clamp(kink_in_widths, fewest_near, kMostNearBuckets)));
+  const int near_buckets =
+      static_cast<int>(std::ceil(std::clamp(kink_in_widths, fewest_near, kMostNearBuckets)));
   // a group is near as a whole: its cells are not in order
-  const double past_near = std::clamp<double>(approach / width + 1.0 + near_buckets, 0.0, bucket_count);
+  const double past_near =
+      std::clamp<double>(approach / width + 1.0 + near_buckets, 0.0, bucket_count);
   int bucket = order_->groupStartFrom(static_cast<int>(past_near));
   const int near_end = order_->cellsBefore(bucket);
-  on_cells(order_->cells().data() + contact_count, static_cast<std::size_t>(std::max(near_end - contact_count, 0)));
+  on_cells(order_->cells().data() + contact_count,
+           static_cast<std::size_t>(std::max(near_end - contact_count, 0)));
   while (bucket < bucket_count) {
     const double seen_in_widths = bucket - approach / width + offset_in_widths;
     std::size_t level = bucket < order_->orderedBuckets() ? 0 : kTailLevel;
     while (level < coarser_levels_.size() && bucket % (2 << level) == 0) {
       const double wider = 2 << level;
       const double gap_in_widths = bucket - approach / width;
-      const bool has_kink = gap_in_widths < kink_in_widths && kink_in_widths < gap_in_widths + wider;
+      const bool has_kink =
+          gap_in_widths < kink_in_widths && kink_in_widths < gap_in_widths + wider;
       if (has_kink || seen_in_widths < kGapsPerWidth * wider) break;
       ++level;
     }

@@ -19,12 +19,15 @@ constexpr double kRounding = 6755399441055744.0;  // 1.5 * 2^52
 constexpr std::int64_t kLeastRoom = 1 << 10;
 constexpr unsigned kMostShift = 40;
 
-MEMS_STICTION_INLINE double nearestFinest(double height) { return height * kPerMetre + kRounding - kRounding; }
+MEMS_STICTION_INLINE double nearestFinest(double height) {
+  return height * kPerMetre + kRounding - kRounding;
+}
 
-/// @return whether a height lies elsewhere than in `count` buckets of 1/inverse_width finest ones from the finest one `first` on
+/// @return whether a height lies elsewhere than in `count` buckets of 1/inverse_width finest ones
+/// from the finest one `first` on
 template <typename Scalar>
-MEMS_STICTION_INLINE bool findSlotsOf(const Scalar* line, std::size_t size, double first, double inverse_width,
-                                      double count, std::int32_t* slots) {
+MEMS_STICTION_INLINE bool findSlotsOf(const Scalar* line, std::size_t size, double first,
+                                      double inverse_width, double count, std::int32_t* slots) {
   std::int32_t is_any_outside = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const auto height = static_cast<double>(line[i]);
@@ -37,19 +40,20 @@ MEMS_STICTION_INLINE bool findSlotsOf(const Scalar* line, std::size_t size, doub
   return is_any_outside != 0;
 }
 
-MEMS_STICTION_VECTORIZED bool findSlots(const float* line, std::size_t size, double first, double inverse_width,
-                                        double count, std::int32_t* slots) {
+MEMS_STICTION_VECTORIZED bool findSlots(const float* line, std::size_t size, double first,
+                                        double inverse_width, double count, std::int32_t* slots) {
   return findSlotsOf(line, size, first, inverse_width, count, slots);
 }
-MEMS_STICTION_VECTORIZED bool findSlots(const double* line, std::size_t size, double first, double inverse_width,
-                                        double count, std::int32_t* slots) {
+MEMS_STICTION_VECTORIZED bool findSlots(const double* line, std::size_t size, double first,
+                                        double inverse_width, double count, std::int32_t* slots) {
   return findSlotsOf(line, size, first, inverse_width, count, slots);
 }
 
 }  // namespace
 
 std::int64_t HeightCounts::finestOf(double height) {
-  return static_cast<std::int64_t>(nearestFinest(std::clamp(height, -kLargestHeight, kLargestHeight)));
+  return static_cast<std::int64_t>(
+      nearestFinest(std::clamp(height, -kLargestHeight, kLargestHeight)));
 }
 
 double HeightCounts::width() const { return std::ldexp(1.0 / kPerMetre, static_cast<int>(shift_)); }
@@ -59,16 +63,19 @@ double HeightCounts::lowerEnd(std::int64_t bucket) const {
 }
 
 double HeightCounts::centre(std::int64_t bucket) const {
-  return 0.5 * (static_cast<double>(finestOfBucket(bucket) + finestOfBucket(bucket + 1)) - 1.0) / kPerMetre;
+  return 0.5 * (static_cast<double>(finestOfBucket(bucket) + finestOfBucket(bucket + 1)) - 1.0) /
+         kPerMetre;
 }
 
 std::int64_t HeightCounts::lowest() const {
-  const auto found = std::find_if(counts_.begin() + 1, counts_.end(), [](std::int64_t count) { return count > 0; });
+  const auto found = std::find_if(counts_.begin() + 1, counts_.end(),
+                                  [](std::int64_t count) { return count > 0; });
   return first_ + (found - counts_.begin()) - 1;
 }
 
 std::int64_t HeightCounts::highest() const {
-  const auto found = std::find_if(counts_.rbegin(), counts_.rend() - 1, [](std::int64_t count) { return count > 0; });
+  const auto found = std::find_if(counts_.rbegin(), counts_.rend() - 1,
+                                  [](std::int64_t count) { return count > 0; });
   return first_ + (counts_.rend() - found) - 2;
 }
 
@@ -79,7 +86,8 @@ std::int64_t HeightCounts::countOf(std::int64_t bucket) const {
 
 std::int64_t HeightCounts::countFrom(std::int64_t bucket) const {
   std::int64_t sum = 0;
-  for (std::int64_t slot = std::max<std::int64_t>(slotOf(bucket), 1); slot <= bucketCount(); ++slot) {
+  for (std::int64_t slot = std::max<std::int64_t>(slotOf(bucket), 1); slot <= bucketCount();
+       ++slot) {
     sum += counts_[static_cast<std::size_t>(slot)];
   }
   return sum;
@@ -100,7 +108,8 @@ template <typename Scalar>
 void HeightCounts::addRow(const Scalar* line, std::size_t size, std::int32_t* slots) {
   const auto find = [&] {
     return findSlots(line, size, static_cast<double>(finestOfBucket(first_)),
-                     std::ldexp(1.0, -static_cast<int>(shift_)), static_cast<double>(bucketCount()), slots);
+                     std::ldexp(1.0, -static_cast<int>(shift_)), static_cast<double>(bucketCount()),
+                     slots);
   };
   if (find()) {
     growToRow(line, size);
@@ -112,8 +121,12 @@ void HeightCounts::addRow(const Scalar* line, std::size_t size, std::int32_t* sl
   total_ += static_cast<std::int64_t>(size) - counts[0];
 }
 
-void HeightCounts::add(const float* line, std::size_t size, std::int32_t* slots) { addRow(line, size, slots); }
-void HeightCounts::add(const double* line, std::size_t size, std::int32_t* slots) { addRow(line, size, slots); }
+void HeightCounts::add(const float* line, std::size_t size, std::int32_t* slots) {
+  addRow(line, size, slots);
+}
+void HeightCounts::add(const double* line, std::size_t size, std::int32_t* slots) {
+  addRow(line, size, slots);
+}
 
 template <typename Scalar>
 void HeightCounts::growToRow(const Scalar* line, std::size_t size) {
@@ -123,7 +136,8 @@ void HeightCounts::growToRow(const Scalar* line, std::size_t size) {
     const double height = line[i];
     if (!std::isfinite(height)) continue;
     if (std::abs(height) > kLargestHeight) {
-      throw SurfaceError("a height of " + numberText(height) + " m is not allowed: heights must lie within " +
+      throw SurfaceError("a height of " + numberText(height) +
+                         " m is not allowed: heights must lie within " +
                          numberText(kLargestHeight) + " m of zero");
     }
     lowest_height = std::min(lowest_height, height);
@@ -187,7 +201,8 @@ void HeightCounts::appendTo(std::string& bytes) const {
 HeightCounts HeightCounts::takeFrom(std::string_view& bytes) {
   HeightCounts counts;
   std::int64_t size = 0;
-  bool is_whole = takeBytes(bytes, counts.shift_) && takeBytes(bytes, counts.first_) && takeBytes(bytes, size);
+  bool is_whole =
+      takeBytes(bytes, counts.shift_) && takeBytes(bytes, counts.first_) && takeBytes(bytes, size);
   is_whole = is_whole && counts.shift_ <= kMostShift && size >= 0 && size <= kMostBuckets;
   if (is_whole) counts.counts_.resize(static_cast<std::size_t>(size) + 1, 0);
   for (std::int64_t i = 1; is_whole && i <= size; ++i) {

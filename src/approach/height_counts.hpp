@@ -1,12 +1,13 @@
 #pragma once
 
 /// @file
-/// How many places of an area lie at which height: a histogram that holds for areas of any size, because it needs neither all
-/// heights at once nor to know beforehand where they lie.
+/// How many places of an area lie at which height: a histogram that holds for areas of any size,
+/// because it needs neither all heights at once nor to know beforehand where they lie.
 ///
-/// Its buckets lie at fixed heights, 2^-39 m (1.8 pm) apart, a hundredth of what forces between surfaces see. Where the heights
-/// span more than 2^20 of them (1.9 um), each two neighbours become one, as often as it takes. So what it counts depends on the
-/// heights alone, to the bit: not on their order, nor on how they come in tiles.
+/// Its buckets lie at fixed heights, 2^-39 m (1.8 pm) apart, a hundredth of what forces between
+/// surfaces see. Where the heights span more than 2^20 of them (1.9 um), each two neighbours become
+/// one, as often as it takes. So what it counts depends on the heights alone, to the bit: not on
+/// their order, nor on how they come in tiles.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +16,8 @@
 
 namespace mems_stiction {
 
-/// A bucket b of width w = 2^shift 2^-39 m holds the heights that are nearest to the finest buckets b 2^shift to (b + 1) 2^shift - 1.
+/// A bucket b of width w = 2^shift 2^-39 m holds the heights that are nearest to the finest buckets
+/// b 2^shift to (b + 1) 2^shift - 1.
 class HeightCounts {
  public:
   /// Largest height from zero that is taken [m].
@@ -38,8 +40,8 @@ class HeightCounts {
   std::int64_t countOf(std::int64_t bucket) const;
   /// Heights from a bucket on upwards.
   std::int64_t countFrom(std::int64_t bucket) const;
-  /// The lowest bucket that holds any height and from which on upwards there are no more than this many; one past the highest if
-  /// there is none.
+  /// The lowest bucket that holds any height and from which on upwards there are no more than this
+  /// many; one past the highest if there is none.
   std::int64_t lowestWithin(std::int64_t most_heights) const;
 
   double width() const;                        ///< [m]
@@ -51,7 +53,9 @@ class HeightCounts {
   static std::int64_t finestOf(double height);
   /// The lowest bucket that has no height below that of a finest one.
   std::int64_t bucketAbove(std::int64_t finest) const { return -(-finest >> shift_); }
-  std::int64_t finestOfBucket(std::int64_t bucket) const { return bucket * (std::int64_t{1} << shift_); }
+  std::int64_t finestOfBucket(std::int64_t bucket) const {
+    return bucket * (std::int64_t{1} << shift_);
+  }
   /// 1 and more upwards within what is counted now, until the next add().
   std::int64_t slotOf(std::int64_t bucket) const { return bucket - first_ + 1; }
 

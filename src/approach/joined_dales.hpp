@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Which dales have come together in one patch. Each patch bears the number of one of its dales; the dales of a patch
-/// form a ring, so that the fewer are renamed when two patches meet, and asking costs one look.
+/// Which dales have come together in one patch. Each patch bears the number of one of its dales;
+/// the dales of a patch form a ring, so that the fewer are renamed when two patches meet, and
+/// asking costs one look.
 
 #include <cstdint>
 #include <utility>

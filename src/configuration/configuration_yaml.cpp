@@ -21,22 +21,26 @@ Configuration configurationFromYaml(const YAML::Node& tree, const Configuration&
       readYaml(tree, [&configuration](OptionVisitor& visitor) { configuration.describe(visitor); });
   // Combinations of settings; ranges are found by both and named once.
   for (const std::string& line : configuration.validate()) {
-    if (std::find(violations.begin(), violations.end(), line) == violations.end()) violations.push_back(line);
+    if (std::find(violations.begin(), violations.end(), line) == violations.end())
+      violations.push_back(line);
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return configuration;
 }
 
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults) {
-  if (access(path.c_str(), R_OK) != 0) throw FileError(path + ": the configuration file cannot be opened");
+  if (access(path.c_str(), R_OK) != 0)
+    throw FileError(path + ": the configuration file cannot be opened");
   const YAML::Node tree = parseYaml(readInput(path, kSettingsInput), path);
   try {
     Configuration configuration = configurationFromYaml(tree, defaults);
     const std::filesystem::path here = std::filesystem::current_path();
-    placeNamedFiles(keysOf(tree), isOpenStream(path) ? here : here / std::filesystem::path(path).parent_path(),
+    placeNamedFiles(keysOf(tree),
+                    isOpenStream(path) ? here : here / std::filesystem::path(path).parent_path(),
                     configuration);
     if (path == "/dev/null") return configuration;  // whoever writes that means the defaults
-    for (const std::string& line : emptyPartsOf(tree)) configuration.remarks.push_back(path + ": " + line);
+    for (const std::string& line : emptyPartsOf(tree))
+      configuration.remarks.push_back(path + ": " + line);
     return configuration;
   } catch (const OptionsError& error) {
     std::vector<std::string> lines;

@@ -11,7 +11,8 @@ namespace {
 
 /// A line per setting, or group of them, that has no effect while another one is as it is.
 struct Idle {
-  const char* key;  ///< a whole one, or with its last slash or underscore what all of a group begin with
+  const char*
+      key;  ///< a whole one, or with its last slash or underscore what all of a group begin with
   bool (*is_idle)(const Configuration& configuration);
   const char* why;
 };
@@ -32,28 +33,36 @@ constexpr const char* kNoFile = "counter_surface/type is not file";
 
 constexpr Idle kIdle[] = {
     {"preprocessing/lines/degree",
-     [](const Configuration& all) { return all.preprocessing.lines.method != LineAlignment::kPolynomial; },
+     [](const Configuration& all) {
+       return all.preprocessing.lines.method != LineAlignment::kPolynomial;
+     },
      "preprocessing/lines/method is not polynomial"},
-    {"preprocessing/spikes/", [](const Configuration& all) { return !all.preprocessing.spikes.enabled; },
+    {"preprocessing/spikes/",
+     [](const Configuration& all) { return !all.preprocessing.spikes.enabled; },
      "preprocessing/spikes/enabled is false"},
-    {"preprocessing/fill/", [](const Configuration& all) { return !all.preprocessing.fill.enabled; },
+    {"preprocessing/fill/",
+     [](const Configuration& all) { return !all.preprocessing.fill.enabled; },
      "preprocessing/fill/enabled is false"},
-    {"preprocessing/tip/half_angle", [](const Configuration& all) { return all.preprocessing.tip.radius == 0.0; },
+    {"preprocessing/tip/half_angle",
+     [](const Configuration& all) { return all.preprocessing.tip.radius == 0.0; },
      "preprocessing/tip/radius is 0"},
     {"preprocessing/level_robust",
      [](const Configuration& all) { return all.preprocessing.level.shape == LevelShape::kNone; },
      "preprocessing/level is none"},
     {"preprocessing/refine/interpolation",
-     [](const Configuration& all) { return all.preprocessing.refine.factor == 1; }, "preprocessing/refine/factor is 1"},
+     [](const Configuration& all) { return all.preprocessing.refine.factor == 1; },
+     "preprocessing/refine/factor is 1"},
     {"counter_surface/file", isNotOfType<CounterSurfaceType::kFile>, kNoFile},
     {"counter_surface/channel", isNotOfType<CounterSurfaceType::kFile>, kNoFile},
-    {"counter_surface/seed", [](const Configuration& all) { return !all.counter_surface.isGenerated(); },
+    {"counter_surface/seed",
+     [](const Configuration& all) { return !all.counter_surface.isGenerated(); },
      "counter_surface/type is neither gaussian nor self_affine"},
     {"counter_surface/gaussian/", isNotOfType<CounterSurfaceType::kGaussian>, kNotGaussian},
     {"counter_surface/self_affine/", isNotOfType<CounterSurfaceType::kSelfAffine>, kNotSelfAffine},
     {"output/hurst_", [](const Configuration& all) { return !all.spatial_roughness.enabled; },
      "output/spatial_roughness is false"},
-    {"device/guidance", [](const Configuration& all) { return !skillsOf(all.model.formulation).tilts_plates; },
+    {"device/guidance",
+     [](const Configuration& all) { return !skillsOf(all.model.formulation).tilts_plates; },
      "the separation curve alone lets a part tilt"},
     {"device/contacts", [](const Configuration& all) { return all.device.contact_area == 0.0; },
      "device/contact_area is 0"},
@@ -68,9 +77,10 @@ constexpr Idle kIdle[] = {
     {"device/electrode_length",
      [](const Configuration& all) { return all.device.hasBeam() && all.device.beam_width == 0.0; },
      "device/beam_width is 0"},
-    {"device/beam_", [](const Configuration& all) { return !all.device.hasBeam(); }, "device/beam_type is none"},
-    {"device/apparent_work_of_adhesion", [](const Configuration& all) { return !all.device.hasBeam(); },
+    {"device/beam_", [](const Configuration& all) { return !all.device.hasBeam(); },
      "device/beam_type is none"},
+    {"device/apparent_work_of_adhesion",
+     [](const Configuration& all) { return !all.device.hasBeam(); }, "device/beam_type is none"},
     {"device/beam_residual_stress",
      [](const Configuration& all) { return all.device.beam_type == BeamType::kCantilever; },
      "device/beam_type cantilever has none"},
@@ -84,7 +94,9 @@ bool isMeant(const std::string& pattern, const std::string& key) {
 /// Every setting as text.
 std::map<std::string, std::string> textsOf(const Configuration& configuration) {
   std::map<std::string, std::string> texts;
-  visitValues(configuration, [&texts](const std::string& key, const auto& value) { texts[key] = valueText(value); });
+  visitValues(configuration, [&texts](const std::string& key, const auto& value) {
+    texts[key] = valueText(value);
+  });
   return texts;
 }
 
@@ -100,7 +112,8 @@ std::vector<std::string> idleSettings(const Configuration& configuration) {
       lines.push_back(key + (" " + text) + " has no effect: " + why);
     }
   };
-  for (const IgnoredSetting& ignored : ignoredSettings(configuration.model.formulation, configuration.model)) {
+  for (const IgnoredSetting& ignored :
+       ignoredSettings(configuration.model.formulation, configuration.model)) {
     addAll(ignored.key, ignored.why);
   }
   for (const Idle& idle : kIdle) {

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Settings that are stated and do nothing: those of another solver, of a step that is off, of a surface of another type.
+/// Settings that are stated and do nothing: those of another solver, of a step that is off, of a
+/// surface of another type.
 
 #include <string>
 #include <vector>

@@ -18,7 +18,9 @@ std::vector<std::pair<std::string, std::string>> filesNamedBy(const Configuratio
   std::vector<std::pair<std::string, std::string>> files;
   visitValues(configuration, [&](const std::string& key, const auto& value) {
     if constexpr (std::is_same_v<decltype(value), const std::string&>) {
-      if (!namesFile(key) || value.empty() || (key == "counter_surface/file" && !has_counter_surface)) return;
+      if (!namesFile(key) || value.empty() ||
+          (key == "counter_surface/file" && !has_counter_surface))
+        return;
       files.emplace_back(key, value);
     }
   });
@@ -29,7 +31,9 @@ void placeNamedFiles(const std::vector<std::string>& keys, const std::filesystem
                      Configuration& configuration) {
   ValueVisitor visitor([&](const std::string& key, auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
-      if (!namesFile(key) || value.empty() || std::find(keys.begin(), keys.end(), key) == keys.end()) return;
+      if (!namesFile(key) || value.empty() ||
+          std::find(keys.begin(), keys.end(), key) == keys.end())
+        return;
       value = (folder / value).string();  // a whole one stays as it is
     }
   });
@@ -41,7 +45,8 @@ std::string settingsFilesChecksum(const Configuration& configuration) {
   std::string states;
   for (const auto& [key, path] : filesNamedBy(configuration)) {
     const std::string sidecar = sidecarOf(path);
-    states += key + " " + fileState(path).checksum + " " + (sidecar.empty() ? "" : fileState(sidecar).checksum) + "\n";
+    states += key + " " + fileState(path).checksum + " " +
+              (sidecar.empty() ? "" : fileState(sidecar).checksum) + "\n";
   }
   return states.empty() ? "" : contentHash(states);
 }

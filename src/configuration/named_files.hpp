@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The files that settings name: where a relative path leads, and which content figures follow from.
+/// The files that settings name: where a relative path leads, and which content figures follow
+/// from.
 
 #include <filesystem>
 #include <string>
@@ -25,8 +26,8 @@ std::vector<std::pair<std::string, std::string>> filesNamedBy(const Configuratio
 void placeNamedFiles(const std::vector<std::string>& keys, const std::filesystem::path& folder,
                      Configuration& configuration);
 
-/// Of the content of filesNamedBy() and of their sidecars: configuration.files_checksum, or that of now.
-/// Empty if the settings name none.
+/// Of the content of filesNamedBy() and of their sidecars: configuration.files_checksum, or that of
+/// now. Empty if the settings name none.
 std::string settingsFilesChecksum(const Configuration& configuration);
 
 /// The same settings with the checksum of the files of now. To be called before the files are read.

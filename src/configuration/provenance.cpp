@@ -21,7 +21,8 @@ bool counts(const std::string& key) {
 }  // namespace
 
 void PartOptions::describe(OptionVisitor& visitor) {
-  visitor.text("part/id", id, "part that scans belong to, where they do not say so; goes into every prediction");
+  visitor.text("part/id", id,
+               "part that scans belong to, where they do not say so; goes into every prediction");
   visitor.text("part/serial", serial, "serial number of the part, where the scan does not say so");
   visitor.text("part/lot", lot, "lot that the wafer is of, where the scan does not say so");
   visitor.text("part/wafer", wafer, "wafer that the part is of, where the scan does not say so");
@@ -30,9 +31,11 @@ void PartOptions::describe(OptionVisitor& visitor) {
 const char* packageVersion() { return MEMS_STICTION_VERSION; }
 
 std::string settingsHash(const Configuration& configuration) {
-  std::uint64_t state = 0xcbf29ce484222325ULL;  // FNV-1a over "key=value" of each setting that counts
+  std::uint64_t state =
+      0xcbf29ce484222325ULL;  // FNV-1a over "key=value" of each setting that counts
   const auto add = [&state](const std::string& line) {
-    for (const char character : line) state = (state ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
+    for (const char character : line)
+      state = (state ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
   };
   visitValues(configuration, [&add](const std::string& key, const auto& value) {
     if (counts(key)) add(key + "=" + (namesFile(key) ? "" : valueText(value)) + "\n");

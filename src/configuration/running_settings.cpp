@@ -32,7 +32,8 @@ void RunningSettings::describe(OptionVisitor& visitor) {
   describeOwnSettings(solver, visitor);
 }
 
-SettingsOwner::SettingsOwner(const Configuration& configuration) : configuration_(checked(configuration)) {}
+SettingsOwner::SettingsOwner(const Configuration& configuration)
+    : configuration_(checked(configuration)) {}
 
 SettingsOwner::Snapshot SettingsOwner::snapshot() const {
   const std::lock_guard<std::mutex> lock(mutex_);

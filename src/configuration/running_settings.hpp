@@ -3,9 +3,10 @@
 /// @file
 /// The settings that may change while a node runs, and the one place where they are.
 ///
-/// Whoever needs a setting asks the owner, and works with that snapshot until one piece of work is done. So what is
-/// predicted, judged and published belongs together, whatever changes meanwhile. What prepares a scan
-/// (prepared_scan.hpp) is not among these settings: a change never makes a prepared scan stale.
+/// Whoever needs a setting asks the owner, and works with that snapshot until one piece of work is
+/// done. So what is predicted, judged and published belongs together, whatever changes meanwhile.
+/// What prepares a scan (prepared_scan.hpp) is not among these settings: a change never makes a
+/// prepared scan stale.
 
 #include <memory>
 #include <mutex>
@@ -41,7 +42,8 @@ class SettingsOwner {
   /// The part of it that may change.
   RunningSettings current() const { return RunningSettings(*snapshot()); }
 
-  /// All of them at once. @throw OptionsError naming each refused value and combination; then nothing changes.
+  /// All of them at once. @throw OptionsError naming each refused value and combination; then
+  /// nothing changes.
   void change(const RunningSettings& settings);
 
  private:

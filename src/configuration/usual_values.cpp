@@ -34,14 +34,18 @@ struct Usual {
   double highest() const { return most > 0.0 ? most : upper * kBeyond; }
   bool isImplausible(double value) const {
     constexpr double kRoundOff = 1e-9;
-    return std::abs(value) < (1.0 - kRoundOff) * lowest() || std::abs(value) > (1.0 + kRoundOff) * highest();
+    return std::abs(value) < (1.0 - kRoundOff) * lowest() ||
+           std::abs(value) > (1.0 + kRoundOff) * highest();
   }
 };
 
 const std::map<std::string, Usual>& usualValues() {
   static const Usual modulus{1e6, 2e12, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}, 1e6, 2e12};
-  static const Usual hardness{
-      1e5, 2e11, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}, 0.0, 1e300};  // a body that shall not flow
+  static const Usual hardness{1e5,
+                              2e11,
+                              {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}},
+                              0.0,
+                              1e300};  // a body that shall not flow
   static const Usual atomic{3e-11, 5e-9, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"pm", 1e-12}}};
   static const Usual layer{3e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
   static const Usual layer_or_part{3e-10, 1e-2, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
@@ -113,8 +117,10 @@ const std::map<std::string, Usual>& usualValues() {
   return values;
 }
 
-/// Sections of numbers that are chosen for the program, and no constants of nature: they may be odd, but are not implausible.
-constexpr const char* kChosen[] = {"paper/", "device_force/", "output/", "preprocessing/", "half_space/"};
+/// Sections of numbers that are chosen for the program, and no constants of nature: they may be
+/// odd, but are not implausible.
+constexpr const char* kChosen[] = {"paper/", "device_force/", "output/", "preprocessing/",
+                                   "half_space/"};
 
 bool isChosen(const std::string& key) {
   return std::any_of(std::begin(kChosen), std::end(kChosen),
@@ -130,7 +136,8 @@ class UsualCheck : public OptionVisitor {
               const std::string&) override {
     if (key == "interface/temperature") {
       if (value < kColdest) {
-        remarks_.unusual.push_back(key + " " + fourDigits(value) + " K is unusual: probably degrees Celsius; write " +
+        remarks_.unusual.push_back(key + " " + fourDigits(value) +
+                                   " K is unusual: probably degrees Celsius; write " +
                                    fourDigits(value + kIcePoint));
       }
       return;
@@ -142,17 +149,20 @@ class UsualCheck : public OptionVisitor {
     if (!is_implausible && usual.contains(value)) return;
     const std::string line = key + " " + fourDigits(value) + " " + unit;
     if (is_implausible) {
-      remarks_.implausible.push_back(line + " is implausible (" + fourDigits(usual.lowest()) + " to " +
-                                     fourDigits(usual.highest()) + " " + unit + " are taken): " + meant(usual, value));
+      remarks_.implausible.push_back(line + " is implausible (" + fourDigits(usual.lowest()) +
+                                     " to " + fourDigits(usual.highest()) + " " + unit +
+                                     " are taken): " + meant(usual, value));
     } else {
-      remarks_.unusual.push_back(line + " is outside the usual " + fourDigits(usual.lower) + " to " +
-                                 fourDigits(usual.upper) + " " + unit + ": " + meant(usual, value));
+      remarks_.unusual.push_back(line + " is outside the usual " + fourDigits(usual.lower) +
+                                 " to " + fourDigits(usual.upper) + " " + unit + ": " +
+                                 meant(usual, value));
     }
   }
   void integer(const std::string&, int&, const Range&, const std::string&) override {}
   void flag(const std::string&, bool&, const std::string&) override {}
   void text(const std::string&, std::string&, const std::string&) override {}
-  void choice(const std::string&, std::string&, const std::vector<std::string>&, const std::string&) override {}
+  void choice(const std::string&, std::string&, const std::vector<std::string>&,
+              const std::string&) override {}
 
   const SettingRemarks& remarks() const { return remarks_; }
 

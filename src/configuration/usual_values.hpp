@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Which constants are likely? What no material, device or instrument is likely to have is a slip of a unit: a modulus
-/// of 169 is 169 GPa, a hundred metres of insulator are 100 nm.
+/// Which constants are likely? What no material, device or instrument is likely to have is a slip
+/// of a unit: a modulus of 169 is 169 GPa, a hundred metres of insulator are 100 nm.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@ namespace mems_stiction {
 
 struct Configuration;
 
-/// One sentence, without commas, for each stated constant that is not usual, with the unit that was probably meant.
-/// Zeros say "not stated".
+/// One sentence, without commas, for each stated constant that is not usual, with the unit that was
+/// probably meant. Zeros say "not stated".
 struct SettingRemarks {
   std::vector<std::string> implausible;  ///< refused unless limits/accept_implausible is true
   std::vector<std::string> unusual;      ///< warned of

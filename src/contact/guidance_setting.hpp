@@ -9,8 +9,9 @@
 namespace mems_stiction {
 
 inline void describeGuidance(OptionVisitor& visitor, Guidance& guidance) {
-  visitor.enumeration("device/guidance", guidance, {{"guided", Guidance::kGuided}, {"free", Guidance::kFree}},
-                      "whether the part stays level as it touches, or tilts until it rests on three contacts");
+  visitor.enumeration(
+      "device/guidance", guidance, {{"guided", Guidance::kGuided}, {"free", Guidance::kFree}},
+      "whether the part stays level as it touches, or tilts until it rests on three contacts");
 }
 
 }  // namespace mems_stiction

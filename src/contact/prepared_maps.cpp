@@ -11,7 +11,8 @@ void prepareMaps(const ContactProblem& problem, ContactSolution& solution) {
   const int cols = problem.gap.cols();
   if (problem.settings.output.contact_map) {
     makeWritable(solution.contact_map, rows, cols, CV_8UC1);
-    std::fill_n(solution.contact_map.ptr<std::uint8_t>(), solution.contact_map.total(), std::uint8_t{0});
+    std::fill_n(solution.contact_map.ptr<std::uint8_t>(), solution.contact_map.total(),
+                std::uint8_t{0});
   } else {
     solution.contact_map.release();
   }

@@ -8,8 +8,8 @@
 
 namespace mems_stiction {
 
-/// Those maps that output asks for, as of surfaces apart: no cell in contact, both surfaces as they were, a plane level
-/// at 0. The others are released.
+/// Those maps that output asks for, as of surfaces apart: no cell in contact, both surfaces as they
+/// were, a plane level at 0. The others are released.
 void prepareMaps(const ContactProblem& problem, ContactSolution& solution);
 
 }  // namespace mems_stiction

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The load that presses a part of a surface, or a larger one of the same surface, with the same pressure.
+/// The load that presses a part of a surface, or a larger one of the same surface, with the same
+/// pressure.
 
 #include <algorithm>
 
@@ -14,7 +15,8 @@ namespace mems_stiction {
 inline Options loadedOn(const Options& model, double loaded_area, double area) {
   Options options = model;
   options.load.setMechanicalLoad(model.load.mechanical_load * area / loaded_area);
-  options.load.max_mechanical_load = std::max(options.load.max_mechanical_load, options.load.mechanical_load);
+  options.load.max_mechanical_load =
+      std::max(options.load.max_mechanical_load, options.load.mechanical_load);
   return options;
 }
 

@@ -87,26 +87,29 @@ cv::Mat frameOf(DeviceSurface& surface) {
 /// @throw SurfaceError if it needs cells that lie deeper than those that were
 void checkDepth(const AreaCells& cells, const AreaAdhesion& found) {
   const std::int64_t all = cells.counts().lowestWithin(cells.limits().most_cells);
-  if (cells.levelBucket() <= all || (found.reach == AreaReach::kEnough && !found.took_all_cells)) return;
+  if (cells.levelBucket() <= all || (found.reach == AreaReach::kEnough && !found.took_all_cells))
+    return;
   const double least = cells.highest() - cells.counts().lowerEnd(all);
-  throw SurfaceError("the cells of the surface were collected down to " +
-                     shortNumber((cells.highest() - cells.level()) * 1e9, 3) +
-                     " nm below its highest place, and contacts may reach further: collect them with a depth of " +
-                     numberText(roundedUp(least)) + " m");
+  throw SurfaceError(
+      "the cells of the surface were collected down to " +
+      shortNumber((cells.highest() - cells.level()) * 1e9, 3) +
+      " nm below its highest place, and contacts may reach further: collect them with a depth of " +
+      numberText(roundedUp(least)) + " m");
 }
 
 }  // namespace
 
 std::string whyLevel(const DevicePieces& pieces) {
   if (pieces.count > 1 || pieces.area_ratio > 1.5) {
-    return "device/guidance: free: the plate of a device of several contacts, or of more pixels than are made, stays "
+    return "device/guidance: free: the plate of a device of several contacts, or of more pixels "
+           "than are made, stays "
            "level "
            "here: where its contacts lie is not known";
   }
   if (pieces.size.rows <= kTiltedSide) return "";
   return "device/guidance: free: a plate of " + std::to_string(pieces.size.cols) + " x " +
-         std::to_string(pieces.size.rows) + " pixels stays level here, " + std::to_string(kTiltedSide) + " x " +
-         std::to_string(kTiltedSide) + " can be tilted";
+         std::to_string(pieces.size.rows) + " pixels stays level here, " +
+         std::to_string(kTiltedSide) + " x " + std::to_string(kTiltedSide) + " can be tilted";
 }
 
 std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row) {
@@ -137,9 +140,9 @@ class DeviceAreaSolver::Gatherer {
     cells_.add(at, col, relief);
     if (!goes_on_) return;
     // tiles are small against the surface: their first pixel says in which quarter they lie
-    const int quarter = pieces_.count >= kQuarters
-                            ? piece % kQuarters
-                            : (2 * row >= pieces_.size.rows ? 2 : 0) + (2 * col >= pieces_.size.cols ? 1 : 0);
+    const int quarter = pieces_.count >= kQuarters ? piece % kQuarters
+                                                   : (2 * row >= pieces_.size.rows ? 2 : 0) +
+                                                         (2 * col >= pieces_.size.cols ? 1 : 0);
     quarters_[static_cast<std::size_t>(quarter)].add(at, col, relief);
   }
 
@@ -155,14 +158,18 @@ class DeviceAreaSolver::Gatherer {
   std::vector<AreaCells> quarters_;
 };
 
-DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces)
+DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area,
+                                   const DevicePieces& pieces)
     : model_(model), loaded_area_(loaded_area), pieces_(pieces) {}
 
 void DeviceAreaSolver::warnOnce(const std::string& warning) {
-  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+    warnings_.push_back(warning);
 }
 
-Realisation DeviceAreaSolver::realise(DeviceSurface& surface) { return realise({this}, surface).front(); }
+Realisation DeviceAreaSolver::realise(DeviceSurface& surface) {
+  return realise({this}, surface).front();
+}
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
                                                    DeviceSurface& surface) {
@@ -170,7 +177,8 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   std::optional<ShownSurface> shown;
   if (solvers.front()->made_surface_.empty()) shown.emplace(pieces.size);
   std::vector<Realisation> found;
-  if (std::all_of(solvers.begin(), solvers.end(), [](const auto* solver) { return solver->tilts(); })) {
+  if (std::all_of(solvers.begin(), solvers.end(),
+                  [](const auto* solver) { return solver->tilts(); })) {
     const cv::Mat frame = frameOf(surface);
     if (shown) shown->add(0, 0, frame);
     for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame));
@@ -178,24 +186,27 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     AreaCellLimits few_cells;
     few_cells.most_cells = kFewCells;
     Gatherer few(pieces, few_cells);
-    surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-      few.add(piece, row, col, tile);
-      if (shown && piece == 0) shown->add(row, col, tile);
-    });
+    surface.visitTiles(0, surface.rows(),
+                       [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                         few.add(piece, row, col, tile);
+                         if (shown && piece == 0) shown->add(row, col, tile);
+                       });
     std::optional<Gatherer> all;
     const auto frame = [&] { return frameOf(surface); };
     for (DeviceAreaSolver* solver : solvers) {
       std::optional<Realisation> by_few;
-      if (!few.keepsAll() && !solver->tilts()) by_few = solver->followCells(few.cells(), few.quarters(), false);
+      if (!few.keepsAll() && !solver->tilts())
+        by_few = solver->followCells(few.cells(), few.quarters(), false);
       if (by_few) {
         found.push_back(*by_few);
         continue;
       }
       if (!few.keepsAll() && !all) {
         all.emplace(pieces);
-        surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-          all->add(piece, row, col, tile);
-        });
+        surface.visitTiles(0, surface.rows(),
+                           [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                             all->add(piece, row, col, tile);
+                           });
       }
       const Gatherer& gatherer = all ? *all : few;
       found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), frame));
@@ -213,15 +224,18 @@ Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& sur
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
                                                    const std::vector<HeightMap>& lower,
-                                                   const std::vector<HeightMap>& upper, std::uint64_t seed) {
+                                                   const std::vector<HeightMap>& upper,
+                                                   std::uint64_t seed) {
   const DevicePieces& pieces = solvers.front()->pieces_;
   std::mt19937_64 engine(seed);
   const auto drawnPart = [&](const std::vector<HeightMap>& scans) {
-    const HeightMap& scan = scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
+    const HeightMap& scan =
+        scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
     const int rows = static_cast<int>(pieces.size.rows);
     const int cols = static_cast<int>(pieces.size.cols);
     const cv::Rect part(std::uniform_int_distribution<int>(0, scan.cols() - cols)(engine),
-                        std::uniform_int_distribution<int>(0, scan.rows() - rows)(engine), cols, rows);
+                        std::uniform_int_distribution<int>(0, scan.rows() - rows)(engine), cols,
+                        rows);
     cv::Mat heights;
     scan.heights()(part).convertTo(heights, CV_64F);
     return heights;
@@ -229,12 +243,14 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   const auto partOf = [&](const std::vector<HeightMap>& scans) {
     for (int draw = 0; draw < kMostDraws; ++draw) {
       cv::Mat heights = drawnPart(scans);
-      if (cv::countNonZero(validMask(heights)) >= kLeastMeasuredShare * static_cast<double>(heights.total()))
+      if (cv::countNonZero(validMask(heights)) >=
+          kLeastMeasuredShare * static_cast<double>(heights.total()))
         return heights;
     }
     throw SurfaceError("the scans have no place of the size of a contact, " +
                        shortNumber(pieces.size.sideX() * 1e6, 2) +
-                       " um, of which half was measured: scans with fewer missing pixels, or preprocessing/fill, help");
+                       " um, of which half was measured: scans with fewer missing pixels, or "
+                       "preprocessing/fill, help");
   };
   Gatherer gatherer(pieces);
   cv::Mat relief;
@@ -258,7 +274,8 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
   return found ? *found : followFrame(frame());
 }
 
-std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells, const std::vector<AreaCells>& quarters,
+std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
+                                                         const std::vector<AreaCells>& quarters,
                                                          bool are_all) {
   const auto isEnough = [&](const AreaAdhesion& found) {
     return found.reach == AreaReach::kEnough && (are_all || !found.took_all_cells);
@@ -278,7 +295,8 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   const bool is_pressed = model_.load.mechanical_load > 0.0 || model_.load.voltage != 0.0;
   if (found.flows && is_pressed) {
     warnOnce(
-        "the load makes contacts flow, and of the device's own they flow as whole contacts: a scan's prediction, by "
+        "the load makes contacts flow, and of the device's own they flow as whole contacts: a "
+        "scan's prediction, by "
         "places, tells better what the load does");
   }
   force_exponents_ = found.pull_off_exponents;
@@ -290,8 +308,10 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   realisation.contacts = found.pull_off_contact_count;
   realisation.separation_at_rest = found.separation_at_rest;
   if (quarters.empty()) return realisation;
-  force_growths_.push_back(std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters));
-  work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters));
+  force_growths_.push_back(std::log(realisation.pull_off_force / force) /
+                           std::log(1.0 * kQuarters));
+  work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) /
+                          std::log(1.0 * kQuarters));
   return realisation;
 }
 
@@ -314,8 +334,8 @@ Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
     work_growths_.push_back(0.0);
   }
   if (scale > kGoesOn) {
-    warnOnce("contacts are so many that their force was found on " + std::to_string(frame.cols()) + " x " +
-             std::to_string(frame.rows()) + " pixels, and goes with area from there");
+    warnOnce("contacts are so many that their force was found on " + std::to_string(frame.cols()) +
+             " x " + std::to_string(frame.rows()) + " pixels, and goes with area from there");
   }
   return realisation;
 }
@@ -327,7 +347,8 @@ AreaGrowth DeviceAreaSolver::growth() {
   growth.force = std::pow(pieces_.area_ratio, std::clamp(medianOf(force_growths_), 0.0, 1.0));
   growth.work = std::pow(pieces_.area_ratio, std::clamp(medianOf(work_growths_), -1.0, 0.0));
   warnOnce("the device has " + shortNumber(pieces_.area_ratio, 2) +
-           " times the area that device_force/max_cells makes: its force is continued from how it grows up to there");
+           " times the area that device_force/max_cells makes: its force is continued from how it "
+           "grows up to there");
   return growth;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The force of one made surface of a device: all its contacts at one height of the counter-surface.
+/// The force of one made surface of a device: all its contacts at one height of the
+/// counter-surface.
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +18,8 @@
 
 namespace mems_stiction {
 
-/// The row of the area in which a piece's row lies: pieces are so far from each other that no contact reaches over.
+/// The row of the area in which a piece's row lies: pieces are so far from each other that no
+/// contact reaches over.
 std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row);
 
 /// Whether scans have room for all pieces: then they need not be made.
@@ -29,32 +31,36 @@ struct AreaGrowth {
   double work = 1.0;
 };
 
-/// Why a plate that may tilt cannot do so over a device, as a sentence: where its contacts lie is not known, or it is not made whole.
-/// Empty if it can.
+/// Why a plate that may tilt cannot do so over a device, as a sentence: where its contacts lie is
+/// not known, or it is not made whole. Empty if it can.
 std::string whyLevel(const DevicePieces& pieces);
 
 /// Brings made surfaces to contact.
 class DeviceAreaSolver {
  public:
-  /// - @p model its mechanical load presses an area of `loaded_area` [m^2]; where its plate may tilt, the pieces are one
+  /// - @p model its mechanical load presses an area of `loaded_area` [m^2]; where its plate may
+  /// tilt, the pieces are one
   ///   contact that is made whole (whyLevel()), which is a frame then
   DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces);
 
   /// On a surface that is made.
   Realisation realise(DeviceSurface& surface);
-  /// Each of them on one surface, which is made once. They differ in their models alone; there is one at least.
-  static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers, DeviceSurface& surface);
+  /// Each of them on one surface, which is made once. They differ in their models alone; there is
+  /// one at least.
+  static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers,
+                                          DeviceSurface& surface);
   /// The same on parts of scans that are chosen at random.
   static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers,
-                                          const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper,
-                                          std::uint64_t seed);
+                                          const std::vector<HeightMap>& lower,
+                                          const std::vector<HeightMap>& upper, std::uint64_t seed);
 
-  /// On a surface whose cells have been collected, all of them. Where too many are in reach, a frame of it is made.
+  /// On a surface whose cells have been collected, all of them. Where too many are in reach, a
+  /// frame of it is made.
   /// @throw SurfaceError if they do not reach deep enough
   Realisation realise(const AreaCells& cells, DeviceSurface& surface);
 
-  /// How figures go on from the area that is made to that of the device, by all realisations so far: neither falling nor faster
-  /// than area.
+  /// How figures go on from the area that is made to that of the device, by all realisations so
+  /// far: neither falling nor faster than area.
   AreaGrowth growth();
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
@@ -70,9 +76,11 @@ class DeviceAreaSolver {
 
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
-  /// - @p are_all whether they are all cells of the surface: of fewer, those that are deep enough to say so count alone
+  /// - @p are_all whether they are all cells of the surface: of fewer, those that are deep enough
+  /// to say so count alone
   /// @return nothing where they do not suffice
-  std::optional<Realisation> followCells(const AreaCells& cells, const std::vector<AreaCells>& quarters, bool are_all);
+  std::optional<Realisation> followCells(const AreaCells& cells,
+                                         const std::vector<AreaCells>& quarters, bool are_all);
   Realisation followFrame(const cv::Mat& relief);
   bool tilts() const { return model_.guidance != Guidance::kGuided; }
   void warnOnce(const std::string& warning);

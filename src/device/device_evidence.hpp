@@ -10,8 +10,8 @@
 
 namespace mems_stiction {
 
-/// Whether the verdict on this device rests on its own force: it states a contact area and what is to open it, and
-/// device_force/enabled.
+/// Whether the verdict on this device rests on its own force: it states a contact area and what is
+/// to open it, and device_force/enabled.
 bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& options);
 
 /// The figures of the force that a verdict needs.

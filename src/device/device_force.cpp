@@ -64,7 +64,9 @@ class Surfaces {
   }
 
   /// Realisations take one form of the tail after the other.
-  const DeviceLaws& laws(int realisation) const { return laws_[static_cast<std::size_t>(realisation) % laws_.size()]; }
+  const DeviceLaws& laws(int realisation) const {
+    return laws_[static_cast<std::size_t>(realisation) % laws_.size()];
+  }
 
   /// Scans like those that there are, made by the laws of a realisation.
   struct MadeScans {
@@ -83,7 +85,8 @@ class Surfaces {
     const TailForm form = realisation / 2 % 2 == 0 ? TailForm::kExponential : TailForm::kPower;
     DeviceLaws laws;
     laws.lower = lawOf(SurfaceStudy(made.lower, &of_lower_), options_, form);
-    if (!made.upper.empty()) laws.upper = lawOf(SurfaceStudy(made.upper, &*of_upper_), options_, form);
+    if (!made.upper.empty())
+      laws.upper = lawOf(SurfaceStudy(made.upper, &*of_upper_), options_, form);
     return laws;
   }
 
@@ -91,7 +94,8 @@ class Surfaces {
   const std::vector<HeightMap>& upper() const { return upper_; }
 
  private:
-  std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, std::uint64_t seed) {
+  std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans,
+                               std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
     return makers_.try_emplace(&law, law, scans, side_).first->second.make(continuation, engine);
@@ -107,11 +111,13 @@ class Surfaces {
   std::map<const SurfaceLaw*, ScanMaker> makers_;
 };
 
-/// Surfaces of the device's size by what the scans say; one for each law, which goes on from seed to seed.
+/// Surfaces of the device's size by what the scans say; one for each law, which goes on from seed
+/// to seed.
 class StatedSurfaces {
  public:
   /// - @p known outlives the object
-  StatedSurfaces(const Surfaces& known, const DevicePieces& pieces) : known_(known), pieces_(pieces) {}
+  StatedSurfaces(const Surfaces& known, const DevicePieces& pieces)
+      : known_(known), pieces_(pieces) {}
 
   DeviceSurface& surface(int realisation, std::uint64_t seed) {
     std::optional<DeviceSurface>& surface = surfaces_[&known_.laws(realisation)];
@@ -135,21 +141,27 @@ struct Logs {
   std::vector<double> work;
 
   void add(const Realisation& realisation) {
-    force.push_back(std::log(std::max(realisation.pull_off_force, std::numeric_limits<double>::min())));
-    work.push_back(std::log(std::max(realisation.apparent_work_of_adhesion, std::numeric_limits<double>::min())));
+    force.push_back(
+        std::log(std::max(realisation.pull_off_force, std::numeric_limits<double>::min())));
+    work.push_back(std::log(
+        std::max(realisation.apparent_work_of_adhesion, std::numeric_limits<double>::min())));
   }
 };
 
-/// Samples of a figure over its median: constants and model as they are, surfaces by Student's distribution.
-std::vector<double> factorsOf(std::vector<double> of_constants, int samples, const FactorRange& of_surfaces) {
-  if (of_constants.empty()) of_constants.assign(static_cast<std::size_t>(samples), 1.0);  // none is uncertain
+/// Samples of a figure over its median: constants and model as they are, surfaces by Student's
+/// distribution.
+std::vector<double> factorsOf(std::vector<double> of_constants, int samples,
+                              const FactorRange& of_surfaces) {
+  if (of_constants.empty())
+    of_constants.assign(static_cast<std::size_t>(samples), 1.0);  // none is uncertain
   const double median = quantile(of_constants, 0.5);
   for (double& factor : of_constants) factor /= median;
   widen(of_constants, of_surfaces);
   return of_constants;
 }
 
-/// By how much more a place may hold than the surfaces that are alike everywhere, of ln F and ln w; >= 0 [-].
+/// By how much more a place may hold than the surfaces that are alike everywhere, of ln F and ln w;
+/// >= 0 [-].
 struct PlaceExcess {
   double force = 0.0;
   double work = 0.0;
@@ -166,8 +178,9 @@ FactorRange surfaceRange(double reach, double excess) {
 
 /// - @p like a prediction whose figures move with the constants as the device's do
 /// - @p student standard deviations of the surfaces to either side
-void takeIntervals(const Prediction& like, const Options& model, const UncertaintyOptions& constants, double student,
-                   const PlaceExcess& places, DeviceForce& force) {
+void takeIntervals(const Prediction& like, const Options& model,
+                   const UncertaintyOptions& constants, double student, const PlaceExcess& places,
+                   DeviceForce& force) {
   AdhesionSpread spread = adhesionSpread(like, model, constants);
   force.force_factors = factorsOf(std::move(spread.pull_off), constants.samples,
                                   surfaceRange(student * force.force_deviation, places.force));
@@ -175,8 +188,10 @@ void takeIntervals(const Prediction& like, const Options& model, const Uncertain
                                  surfaceRange(student * force.work_deviation, places.work));
   force.pull_off_force_lower = force.pull_off_force * quantile(force.force_factors, kLowerShare);
   force.pull_off_force_upper = force.pull_off_force * quantile(force.force_factors, kUpperShare);
-  force.apparent_work_of_adhesion_lower = force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
-  force.apparent_work_of_adhesion_upper = force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
+  force.apparent_work_of_adhesion_lower =
+      force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
+  force.apparent_work_of_adhesion_upper =
+      force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
 }
 
 /// What chi^2/freedom is not below, or above, in 2.5 % of cases (Wilson and Hilferty).
@@ -185,22 +200,26 @@ double chiSquareFactor(double freedom, double normal) {
   return std::pow(std::max(1.0 - term + normal * std::sqrt(term), 0.0), 3);
 }
 
-/// Waves between the longest that the scans show and those as long as the device, by what is drawn of them: the slope goes on up
-/// to a roll-off anywhere.
+/// Waves between the longest that the scans show and those as long as the device, by what is drawn
+/// of them: the slope goes on up to a roll-off anywhere.
 std::vector<BandOfWaves> continuedBands(const SurfaceLaw& law, double side) {
   if (!lacksLongWaves(law, side)) return {};
   constexpr double kBandsPerOctave = 2.0;
   const SpectrumBand& first = law.heights.bands.front();
   const double last = 2.0 * kPi / side;
-  const int count = static_cast<int>(std::ceil(kBandsPerOctave * std::log2(first.wave_number / last)));
-  const auto slopeAt = [&](double normal) { return std::clamp(law.slope + normal * law.slope_deviation, 0.0, 4.0); };
+  const int count =
+      static_cast<int>(std::ceil(kBandsPerOctave * std::log2(first.wave_number / last)));
+  const auto slopeAt = [&](double normal) {
+    return std::clamp(law.slope + normal * law.slope_deviation, 0.0, 4.0);
+  };
   std::vector<BandOfWaves> bands;
   for (int i = count; i >= 1; --i) {
     const double distance = std::log(first.wave_number / last) * i / count;
     BandOfWaves band;
     band.wavelength = law.longestWave() * std::exp(distance);
     band.density =
-        first.density * std::exp(slopeAt(0.0) * std::min(distance, 0.5 * std::log(first.wave_number / last)));
+        first.density *
+        std::exp(slopeAt(0.0) * std::min(distance, 0.5 * std::log(first.wave_number / last)));
     band.density_lower = first.density;
     band.density_upper = first.density * std::exp(slopeAt(1.96) * distance);
     band.is_measured = false;
@@ -220,7 +239,9 @@ void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
     force.spectrum.push_back(shown);
   }
   std::stable_sort(force.spectrum.begin(), force.spectrum.end(),
-                   [](const BandOfWaves& one, const BandOfWaves& other) { return one.wavelength > other.wavelength; });
+                   [](const BandOfWaves& one, const BandOfWaves& other) {
+                     return one.wavelength > other.wavelength;
+                   });
   MergedSpectrum spectrum = law.heights;  // with the continued bands
   spectrum.bands.clear();
   for (const BandOfWaves& shown : force.spectrum) {
@@ -246,7 +267,8 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
   if (std::abs(of_force.shift()) < std::log(kToldMisfit)) return;
   force.warnings.push_back(
       "the scans hold " + shortNumber(std::exp(of_force.difference), 2) +
-      " times as strongly as scans of the surfaces that were made by their spectrum and heights: their summits "
+      " times as strongly as scans of the surfaces that were made by their spectrum and heights: "
+      "their summits "
       "are others. The force was taken " +
       shortNumber(std::exp(of_force.shift()), 2) +
       " times as large for that, and the interval holds what of it may not go for the device");
@@ -258,32 +280,37 @@ PlaceExcess excessOf(const PlaceAlone& place, int contacts, const DeviceForce& f
   const auto over = [](double figure, double median) {
     return figure > 0.0 && median > 0.0 ? std::log(figure / median) : 0.0;
   };
-  return {over(contacts * place.force * std::min(contact_area / place.area, 1.0), force.pull_off_force),
-          over(place.work * std::min(place.area / contact_area, 1.0), force.apparent_work_of_adhesion)};
+  return {
+      over(contacts * place.force * std::min(contact_area / place.area, 1.0), force.pull_off_force),
+      over(place.work * std::min(place.area / contact_area, 1.0), force.apparent_work_of_adhesion)};
 }
 
-/// Places that differ, in words: the upper end of the interval reaches what the one that holds most may do.
+/// Places that differ, in words: the upper end of the interval reaches what the one that holds most
+/// may do.
 /// - @p checks of both surfaces
 /// - @p contacts that share the area
-PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawCheck& scans, int contacts,
-                               DeviceForce& force) {
+PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawCheck& scans,
+                               int contacts, DeviceForce& force) {
   PlaceExcess largest;
   for (const PlaceCheck& places : checks) {
     if (!places.isUneven()) continue;
     const PlaceExcess alone = excessOf(places.alone(), contacts, force);
-    const PlaceExcess with_others = places.closes()
-                                        ? PlaceExcess{places.forceExcess(), places.workExcess()}
-                                        : PlaceExcess{scans.largestForceExcess(), scans.largestWorkExcess()};
+    const PlaceExcess with_others =
+        places.closes() ? PlaceExcess{places.forceExcess(), places.workExcess()}
+                        : PlaceExcess{scans.largestForceExcess(), scans.largestWorkExcess()};
     const double force_excess = std::max(alone.force, with_others.force);
     largest.force = std::max(largest.force, force_excess);
     largest.work = std::max({largest.work, alone.work, with_others.work});
     std::string sentence = places.sentence();
     if (force_excess > std::log(kToldMisfit)) {
-      sentence += places.closes() ? ". By itself it bonds all over: if it does so in the device, that holds up to "
-                  : alone.force > with_others.force
-                      ? ". If the device rests on such a place alone, it holds up to "
-                      : ". If the device is like the scan that holds most, it holds up to ";
-      sentence += shortNumber(std::exp(force_excess), 2) + " times as much, which the interval contains";
+      sentence +=
+          places.closes()
+              ? ". By itself it bonds all over: if it does so in the device, that holds up to "
+          : alone.force > with_others.force
+              ? ". If the device rests on such a place alone, it holds up to "
+              : ". If the device is like the scan that holds most, it holds up to ";
+      sentence +=
+          shortNumber(std::exp(force_excess), 2) + " times as much, which the interval contains";
     }
     force.warnings.push_back(sentence);
   }
@@ -317,12 +344,14 @@ struct ModelRun {
   std::vector<double> counts;
   std::vector<double> gaps;
   std::optional<LawCheck> check;
-  std::vector<PlaceCheck> places;  ///< of the lower surface, and of the upper one if that is no plane
+  std::vector<PlaceCheck>
+      places;  ///< of the lower surface, and of the upper one if that is no plane
   std::optional<DeviceAreaSolver> solver;
 
   bool isConforming() const {
-    const auto conforming = std::count_if(predictions.begin(), predictions.end(),
-                                          [](const Prediction& prediction) { return prediction.is_conforming; });
+    const auto conforming =
+        std::count_if(predictions.begin(), predictions.end(),
+                      [](const Prediction& prediction) { return prediction.is_conforming; });
     return 2 * conforming > static_cast<std::ptrdiff_t>(predictions.size());
   }
 
@@ -335,7 +364,8 @@ struct ModelRun {
 };
 
 /// The scans as frames, each under what lies over it.
-ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model) {
+ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                        const Options& model) {
   ModelRun run;
   run.level = stiffModel(model);
   run.level.output = figuresAlone();
@@ -354,7 +384,8 @@ ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     run.force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
     run.force.contacts_of_scans += prediction.pull_off_contact_count;
   }
-  run.force.linear_pull_off_force = force_per_area / static_cast<double>(run.predictions.size()) * area.area;
+  run.force.linear_pull_off_force =
+      force_per_area / static_cast<double>(run.predictions.size()) * area.area;
   return run;
 }
 
@@ -366,8 +397,8 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
   std::vector<double> works;
   for (const Prediction& prediction : predictions) {
     const double of_area = prediction.pull_off_force * force.area / prediction.nominal_area;
-    force.realisations.push_back(
-        {of_area, prediction.apparent_work_of_adhesion, prediction.pull_off_contact_count, prediction.mean_gap});
+    force.realisations.push_back({of_area, prediction.apparent_work_of_adhesion,
+                                  prediction.pull_off_contact_count, prediction.mean_gap});
     forces.push_back(std::log(of_area));
     works.push_back(std::log(prediction.apparent_work_of_adhesion));
   }
@@ -384,12 +415,14 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
     student = studentQuantile(static_cast<double>(forces.size()) - 1.0);
   }
   takeIntervals(predictions.back(), model, uncertainty, student, {}, force);
-  force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
+  force.warnings.emplace_back(
+      "the scans' surfaces conform and bond all over: force and work go with area");
 }
 
 /// Medians and intervals of all realisations.
 /// - @p contacts that share the area
-void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, int contacts, ModelRun& run) {
+void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, int contacts,
+                      ModelRun& run) {
   DeviceForce& force = run.force;
   const AreaGrowth growth = run.solver->growth();
   for (Realisation& realisation : force.realisations) {
@@ -401,8 +434,10 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
   force.contacts = medianOf(run.counts);
   force.separation_at_rest = medianOf(run.gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / realisations);
-  const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
-    return once_more * std::hypot(std::max(deviationOf(of_stated), deviationOf(of_others)), kOwnError);
+  const auto scatter = [&](const std::vector<double>& of_stated,
+                           const std::vector<double>& of_others) {
+    return once_more *
+           std::hypot(std::max(deviationOf(of_stated), deviationOf(of_others)), kOwnError);
   };
   force.force_deviation = scatter(run.stated.force, run.others.force);
   force.work_deviation = scatter(run.stated.work, run.others.work);
@@ -421,9 +456,10 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
   for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);
 }
 
-/// Places of scans that differ by more than chance: where one bonds all over, the scans that were made are made once more and
-/// its strength is compared with theirs.
-void comparePlaces(const std::vector<ModelRun*>& runs, const DeviceForceOptions& options, Surfaces& known) {
+/// Places of scans that differ by more than chance: where one bonds all over, the scans that were
+/// made are made once more and its strength is compared with theirs.
+void comparePlaces(const std::vector<ModelRun*>& runs, const DeviceForceOptions& options,
+                   Surfaces& known) {
   std::vector<std::pair<PlaceCheck*, bool>> closing;  // and whether it is of the upper surface
   for (ModelRun* run : runs) {
     for (PlaceCheck& places : run->places) {
@@ -431,7 +467,8 @@ void comparePlaces(const std::vector<ModelRun*>& runs, const DeviceForceOptions&
     }
   }
   for (int number = 0; !closing.empty() && number < options.realisations; ++number) {
-    const Surfaces::MadeScans scans = known.scansAgain(number, realisationSeed(options, number) + 1);
+    const Surfaces::MadeScans scans =
+        known.scansAgain(number, realisationSeed(options, number) + 1);
     for (const auto& [places, is_upper] : closing) {
       if (!is_upper) {
         places->compare(scans.lower, scans.upper);
@@ -443,18 +480,20 @@ void comparePlaces(const std::vector<ModelRun*>& runs, const DeviceForceOptions&
 }
 
 /// Of all models, the surfaces of which are made once.
-void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std::vector<ModelRun*>& runs,
-               const std::vector<Guidance>& guidances, const UncertaintyOptions& uncertainty,
-               const DeviceForceOptions& options, const std::function<void(double)>& progress) {
+void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
+               const std::vector<ModelRun*>& runs, const std::vector<Guidance>& guidances,
+               const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+               const std::function<void(double)>& progress) {
   const DevicePieces pieces = piecesOf(area, madePitch(surfaces, options), options.max_cells);
   const double loaded_area = areaOf(surfaces.scans.front().surface);
   const std::vector<HeightMap> parts_lower = fineMapsOf(surfaces.scans);
   const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
-  const bool has_parts =
-      options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
+  const bool has_parts = options.pitch == 0.0 && haveRoom(parts_lower, pieces) &&
+                         (parts_upper.empty() || haveRoom(parts_upper, pieces));
   Surfaces known(surfaces, pieces.side(), options);
   std::vector<std::string> warnings;
-  if (!has_parts) warnings = missingLongWaves(surfaces, known.laws(0), std::sqrt(area.area / area.contacts));
+  if (!has_parts)
+    warnings = missingLongWaves(surfaces, known.laws(0), std::sqrt(area.area / area.contacts));
   for (const std::string& warning : contradictions(surfaces)) warnings.push_back(warning);
 
   std::vector<DeviceAreaSolver*> solvers;
@@ -477,7 +516,8 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
       run.check.emplace(run.level, known.lower(), known.upper());
       run.places.emplace_back(run.level, loaded_area, surfaces.scans, known.upper());
       if (!known.upper().empty()) {
-        run.places.emplace_back(run.level, loaded_area, turned(surfaces.counter_surface), turned(known.lower()));
+        run.places.emplace_back(run.level, loaded_area, turned(surfaces.counter_surface),
+                                turned(known.lower()));
       }
     }
   }
@@ -487,14 +527,14 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
   };
   for (int number = 0; number < options.realisations; ++number) {
     const std::uint64_t seed = realisationSeed(options, number);
-    const std::vector<Realisation> found = has_parts
-                                               ? DeviceAreaSolver::realise(solvers, parts_lower, parts_upper, seed)
-                                               : DeviceAreaSolver::realise(solvers, made.surface(number, seed));
+    const std::vector<Realisation> found =
+        has_parts ? DeviceAreaSolver::realise(solvers, parts_lower, parts_upper, seed)
+                  : DeviceAreaSolver::realise(solvers, made.surface(number, seed));
     progress((number + 0.5) / options.realisations);
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->add(found[i]);
     if (has_parts) {
-      addOthers(DeviceAreaSolver::realise(solvers, drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2),
-                                          seed + 3));
+      addOthers(DeviceAreaSolver::realise(solvers, drawnAgain(parts_lower, seed + 1),
+                                          drawnAgain(parts_upper, seed + 2), seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
       const bool has_upper = !scans.upper.empty();
@@ -503,7 +543,8 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
         const ModelRun* first = run == runs.front() ? nullptr : runs.front();
         run->check->add(scans.lower, scans.upper);
         run->places.front().add(scans.lower, first != nullptr ? &first->places.front() : nullptr);
-        if (has_upper) run->places.back().add(from_above, first != nullptr ? &first->places.back() : nullptr);
+        if (has_upper)
+          run->places.back().add(from_above, first != nullptr ? &first->places.back() : nullptr);
       }
       const DeviceLaws again = known.lawsAgain(number, scans);
       DeviceSurface surface(again, pieces, seed + 2);
@@ -512,17 +553,21 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
     progress((number + 1.0) / options.realisations);
   }
   comparePlaces(runs, options, known);
-  for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, area.contacts, *run);
+  for (ModelRun* run : runs)
+    takeRealisations(uncertainty, options.realisations, area.contacts, *run);
 }
 
 /// deviceForces() of usable scans.
 std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceArea& area,
-                                  const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
-                                  const DeviceForceOptions& options, const std::function<void(double)>& on_progress);
+                                  const std::vector<Options>& models,
+                                  const UncertaintyOptions& uncertainty,
+                                  const DeviceForceOptions& options,
+                                  const std::function<void(double)>& on_progress);
 
 /// Of a part whose bodies are thin.
-DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
-                              const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                              const Options& model, const UncertaintyOptions& uncertainty,
+                              const DeviceForceOptions& options,
                               const std::function<void(double)>& on_progress) {
   const auto ofStiff = [&](const DeviceArea& part, const Options& stiff) {
     return std::move(forcesOf(surfaces, part, {stiff}, uncertainty, options, on_progress).front());
@@ -532,21 +577,25 @@ DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& 
   if (!std::isfinite(length)) {
     stiff.guidance = model.guidance;
     DeviceForce force = ofStiff(area, stiff);
-    force.warnings.emplace_back("bodies of this thickness are stiff over the whole contact: no wave of it bends them");
+    force.warnings.emplace_back(
+        "bodies of this thickness are stiff over the whole contact: no wave of it bends them");
     return force;
   }
   DeviceForce force = ofStiff({length * length, 1}, stiff);
   takePlaces(area, length, force);
   if (model.guidance != Guidance::kGuided) {
     force.warnings.emplace_back(
-        "device/guidance: free changes nothing here: a thin body bends down to its contacts before it would tilt");
+        "device/guidance: free changes nothing here: a thin body bends down to its contacts before "
+        "it would tilt");
   }
   return force;
 }
 
 std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceArea& area,
-                                  const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
-                                  const DeviceForceOptions& options, const std::function<void(double)>& on_progress) {
+                                  const std::vector<Options>& models,
+                                  const UncertaintyOptions& uncertainty,
+                                  const DeviceForceOptions& options,
+                                  const std::function<void(double)>& on_progress) {
   const auto progress = [&](double share) {
     if (on_progress) on_progress(share);
   };
@@ -558,8 +607,9 @@ std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceAr
     if (model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
       // each has a mosaic of its own
       const double count = static_cast<double>(models.size());
-      forces[i] = forceOfThinBodies(surfaces, area, model, uncertainty, options,
-                                    [&](double share) { progress((static_cast<double>(i) + share) / count); });
+      forces[i] = forceOfThinBodies(surfaces, area, model, uncertainty, options, [&](double share) {
+        progress((static_cast<double>(i) + share) / count);
+      });
       continue;
     }
     if (runs.empty()) progress(0.0);
@@ -585,23 +635,28 @@ std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceAr
 
 }  // namespace
 
-DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
-                        const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                        const Options& model, const UncertaintyOptions& uncertainty,
+                        const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress) {
-  return std::move(deviceForces(surfaces, area, {model}, uncertainty, options, on_progress).front());
+  return std::move(
+      deviceForces(surfaces, area, {model}, uncertainty, options, on_progress).front());
 }
 
 std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const DeviceArea& area,
-                                      const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                      const std::vector<Options>& models,
+                                      const UncertaintyOptions& uncertainty,
                                       const DeviceForceOptions& options,
                                       const std::function<void(double)>& on_progress) {
   checkDevice(surfaces, area, options);
   const UsableScans usable = usableScans(surfaces);
-  std::vector<DeviceForce> forces = forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
+  std::vector<DeviceForce> forces =
+      forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     DeviceForce& force = forces[i];
     force.missing_scan = missingShortWaves(usable.surfaces, models[i]);
-    if (!force.missing_scan.empty()) force.warnings.insert(force.warnings.begin(), force.missing_scan);
+    if (!force.missing_scan.empty())
+      force.warnings.insert(force.warnings.begin(), force.missing_scan);
     force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());
   }
   return forces;

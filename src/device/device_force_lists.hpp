@@ -13,7 +13,8 @@ namespace mems_stiction {
 template <typename RealisationType, typename Visitor>
 void visitRealisationFields(RealisationType& realisation, Visitor&& visit) {
   visit({"pull_off_force", "N", "of the device"}, realisation.pull_off_force);
-  visit({"apparent_work_of_adhesion", "J/m^2", "per nominal area"}, realisation.apparent_work_of_adhesion);
+  visit({"apparent_work_of_adhesion", "J/m^2", "per nominal area"},
+        realisation.apparent_work_of_adhesion);
   visit({"contacts", "", "places that hold at the pull-off"}, realisation.contacts);
   visit({"separation_at_rest", "m", "mean gap"}, realisation.separation_at_rest);
 }
@@ -34,9 +35,11 @@ void visitBandFields(BandType& band, Visitor&& visit) {
   visit({"density", "m^4", "power spectral density, averaged over directions"}, band.density);
   visit({"density_lower", "m^4", "2.5 % quantile"}, band.density_lower);
   visit({"density_upper", "m^4", "97.5 % quantile"}, band.density_upper);
-  visit({"rms_height", "m", "of all waves shorter than this, with those of the band"}, band.rms_height);
+  visit({"rms_height", "m", "of all waves shorter than this, with those of the band"},
+        band.rms_height);
   visit({"rms_slope", "", "of all waves longer than this, with those of the band"}, band.rms_slope);
-  visit({"rms_curvature", "1/m", "of all waves longer than this, with those of the band"}, band.rms_curvature);
+  visit({"rms_curvature", "1/m", "of all waves longer than this, with those of the band"},
+        band.rms_curvature);
   visit({"is_measured", "", "false: continued beyond what the scans show"}, band.is_measured);
 }
 

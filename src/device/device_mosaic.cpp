@@ -48,11 +48,13 @@ double mosaicLength(const DeviceSurfaces& surfaces, const DeviceArea& area, cons
   const double pitch = madePitch(surfaces, options);
   const HeightMap& scan = surfaces.scans.front().surface;
   const double scanned_area = scan.rows() * scan.cols() * scan.cellArea();
-  // how much softer the wave of this length is than the contact, as a logarithm: from the mean of some surfaces.
+  // how much softer the wave of this length is than the contact, as a logarithm: from the mean of
+  // some surfaces.
   const auto softness = [&](double length) {
     const double compliance = bendingCompliance(model, length);
     if (compliance == 0.0) return -std::numeric_limits<double>::infinity();
-    const DevicePieces pieces = piecesOf({length * length, 1}, pitch, std::min(options.max_cells, kMostCells));
+    const DevicePieces pieces =
+        piecesOf({length * length, 1}, pitch, std::min(options.max_cells, kMostCells));
     DeviceAreaSolver solver(stiff, scanned_area, pieces);
     DeviceSurface surface(laws, pieces, realisationSeed(options, 0));
     double sum = 0.0;
@@ -80,8 +82,9 @@ double mosaicLength(const DeviceSurfaces& surfaces, const DeviceArea& area, cons
 
 void takePlaces(const DeviceArea& area, double length, DeviceForce& force) {
   const double places = area.area / force.area;
-  for (double* figure : {&force.pull_off_force, &force.pull_off_force_lower, &force.pull_off_force_upper,
-                         &force.linear_pull_off_force, &force.contacts}) {
+  for (double* figure :
+       {&force.pull_off_force, &force.pull_off_force_lower, &force.pull_off_force_upper,
+        &force.linear_pull_off_force, &force.contacts}) {
     *figure *= places;
   }
   for (Realisation& realisation : force.realisations) {
@@ -89,9 +92,10 @@ void takePlaces(const DeviceArea& area, double length, DeviceForce& force) {
     realisation.contacts = static_cast<int>(std::min(realisation.contacts * places, 2e9));
   }
   force.area = area.area;
-  force.warnings.push_back("bodies so thin give way to waves longer than " + shortNumber(length * 1e6, 2) +
-                           " um: the device is a mosaic of " + shortNumber(places, 2) +
-                           " places that rest each on their own summits, and its force goes with area from there");
+  force.warnings.push_back(
+      "bodies so thin give way to waves longer than " + shortNumber(length * 1e6, 2) +
+      " um: the device is a mosaic of " + shortNumber(places, 2) +
+      " places that rest each on their own summits, and its force goes with area from there");
 }
 
 }  // namespace mems_stiction

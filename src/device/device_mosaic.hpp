@@ -1,12 +1,15 @@
 #pragma once
 
 /// @file
-/// From which length on is the contact of thin bodies a mosaic of places that rest each on their own summits?
+/// From which length on is the contact of thin bodies a mosaic of places that rest each on their
+/// own summits?
 ///
-/// Bodies give way to a wave that is softer than the contact, K < k: from the length of the wave with K = k on, what is next to each
-/// other does not know of each other's heights, and force goes with area. K is what bending resists beyond the half-space,
-/// 1/K = 1/K_body - 2/(E q); k = -(dF/dD)/A at rest of a made surface as large as that wave is long, with stiff bodies. A larger
-/// one has a smaller k, but K falls with the fourth power of the length: found by going from short lengths to longer ones.
+/// Bodies give way to a wave that is softer than the contact, K < k: from the length of the wave
+/// with K = k on, what is next to each other does not know of each other's heights, and force goes
+/// with area. K is what bending resists beyond the half-space, 1/K = 1/K_body - 2/(E q); k =
+/// -(dF/dD)/A at rest of a made surface as large as that wave is long, with stiff bodies. A larger
+/// one has a smaller k, but K falls with the fourth power of the length: found by going from short
+/// lengths to longer ones.
 
 #include "mems_stiction/device/device_force.hpp"
 

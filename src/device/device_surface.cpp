@@ -18,22 +18,27 @@ constexpr std::int64_t kCorner = 32;
 
 }  // namespace
 
-void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
+void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                 const DeviceForceOptions& options) {
   std::vector<std::string> violations = rangeViolations(options);
   if (!Range::positive().contains(area.area)) {
-    violations.push_back("device/contact_area: " + numberText(area.area) + " m^2 is not allowed, must be > 0 m^2");
+    violations.push_back("device/contact_area: " + numberText(area.area) +
+                         " m^2 is not allowed, must be > 0 m^2");
   }
   if (area.contacts < 1) {
-    violations.push_back("device/contacts: " + std::to_string(area.contacts) + " is not allowed, must be >= 1");
+    violations.push_back("device/contacts: " + std::to_string(area.contacts) +
+                         " is not allowed, must be >= 1");
   }
-  if (surfaces.scans.empty()) violations.emplace_back("the force of a device needs at least one scan of its surface");
+  if (surfaces.scans.empty())
+    violations.emplace_back("the force of a device needs at least one scan of its surface");
   if (!violations.empty()) throw OptionsError(std::move(violations));
   constexpr int kLeastPixels = 8;
   for (const std::vector<NamedScan>* scans : {&surfaces.scans, &surfaces.counter_surface}) {
     for (const NamedScan& scan : *scans) {
       if (std::min(scan.surface.rows(), scan.surface.cols()) >= kLeastPixels) continue;
       throw SurfaceError(scan.name + ": " + std::to_string(scan.surface.cols()) + " x " +
-                         std::to_string(scan.surface.rows()) + " pixels say nothing of a device; at least 8 x 8 do");
+                         std::to_string(scan.surface.rows()) +
+                         " pixels say nothing of a device; at least 8 x 8 do");
     }
   }
 }
@@ -51,7 +56,8 @@ DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
   }
   const double side = std::sqrt(std::min(piece_area, most_area));
   pieces.size.pitch_x = pieces.size.pitch_y = pitch;
-  pieces.size.rows = pieces.size.cols = std::max(kLeastSide, static_cast<std::int64_t>(std::llround(side / pitch)));
+  pieces.size.rows = pieces.size.cols =
+      std::max(kLeastSide, static_cast<std::int64_t>(std::llround(side / pitch)));
   pieces.area_ratio = area.area / pieces.area();
   return pieces;
 }
@@ -61,7 +67,8 @@ double madePitch(const DeviceSurfaces& surfaces, const DeviceForceOptions& optio
 }
 
 std::uint64_t realisationSeed(const DeviceForceOptions& options, int number) {
-  return static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(number) * 1009;
+  return static_cast<std::uint64_t>(options.seed) * 1000003 +
+         static_cast<std::uint64_t>(number) * 1009;
 }
 
 SurfaceLaw lawOf(const SurfaceStudy& study, const DeviceForceOptions& options, TailForm form) {
@@ -70,7 +77,8 @@ SurfaceLaw lawOf(const SurfaceStudy& study, const DeviceForceOptions& options, T
   return law;
 }
 
-DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& options, TailForm form) {
+DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& options,
+                  TailForm form) {
   const auto of = [&](const std::vector<NamedScan>& scans) {
     return lawOf(SurfaceStudy(mapsOf(scans)), options, form);
   };
@@ -104,9 +112,11 @@ void DeviceSurface::reseed(std::uint64_t seed) {
     return;
   }
   ends_ = ends;
-  lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below, blocksOf(pieces_.size));
+  lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below,
+                 blocksOf(pieces_.size));
   if (laws_->upper)
-    upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above, blocksOf(pieces_.size));
+    upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above,
+                   blocksOf(pieces_.size));
 }
 
 void DeviceSurface::goTo(int piece) {
@@ -128,7 +138,8 @@ void DeviceSurface::pieceHeights(std::int64_t row, std::int64_t col, cv::Mat& ti
 void DeviceSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
   for (int done = 0; done < tile.rows;) {
     const std::int64_t at = (row + done) % pieces_.size.rows;
-    const int rows = static_cast<int>(std::min<std::int64_t>(tile.rows - done, pieces_.size.rows - at));
+    const int rows =
+        static_cast<int>(std::min<std::int64_t>(tile.rows - done, pieces_.size.rows - at));
     cv::Mat part = tile.rowRange(done, done + rows);
     goTo(static_cast<int>((row + done) / pieces_.size.rows));
     pieceHeights(at, col, part);
@@ -143,12 +154,14 @@ void DeviceSurface::visitTiles(std::int64_t first_row, std::int64_t rows, const 
     const int piece = static_cast<int>(row / pieces_.size.rows);
     const std::int64_t at = row % pieces_.size.rows;
     // to the end of the tile, the piece and the rows that are asked for
-    const std::int64_t end = std::min(at / whole.height * whole.height + whole.height, pieces_.size.rows);
+    const std::int64_t end =
+        std::min(at / whole.height * whole.height + whole.height, pieces_.size.rows);
     const int height = static_cast<int>(std::min(end - at, first_row + rows - row));
     goTo(piece);
     for (std::int64_t col = 0; col < cols(); col += whole.width) {
       TimeLimit::check();
-      relief.create(height, static_cast<int>(std::min<std::int64_t>(whole.width, cols() - col)), CV_32FC1);
+      relief.create(height, static_cast<int>(std::min<std::int64_t>(whole.width, cols() - col)),
+                    CV_32FC1);
       pieceHeights(at, col, relief);
       visit(piece, at, col, relief);
     }
@@ -159,7 +172,8 @@ void DeviceSurface::visitTiles(std::int64_t first_row, std::int64_t rows, const 
 std::string DeviceSurface::identity() {
   if (!identity_.empty()) return identity_;
   std::string bytes;
-  for (const std::int64_t number : {std::int64_t{pieces_.count}, pieces_.size.rows, pieces_.size.cols}) {
+  for (const std::int64_t number :
+       {std::int64_t{pieces_.count}, pieces_.size.rows, pieces_.size.cols}) {
     appendBytes(bytes, number);
   }
   appendBytes(bytes, pieces_.size.pitch_x);
@@ -167,8 +181,8 @@ std::string DeviceSurface::identity() {
     appendBytes(bytes, below);
     appendBytes(bytes, above);
   }
-  cv::Mat corner(static_cast<int>(std::min(pieces_.size.rows, kCorner)), static_cast<int>(std::min(cols(), kCorner)),
-                 CV_32FC1);
+  cv::Mat corner(static_cast<int>(std::min(pieces_.size.rows, kCorner)),
+                 static_cast<int>(std::min(cols(), kCorner)), CV_32FC1);
   heights(0, 0, corner);
   for (int row = 0; row < corner.rows; ++row) {
     for (int col = 0; col < corner.cols; ++col) appendBytes(bytes, corner.at<float>(row, col));

@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// One surface of a device as it is made: all its contacts, each a square of its own, under their counter-surface. A place's
-/// relief depends on the laws, the size and the seed alone, so any part of it may be made anywhere.
+/// One surface of a device as it is made: all its contacts, each a square of its own, under their
+/// counter-surface. A place's relief depends on the laws, the size and the seed alone, so any part
+/// of it may be made anywhere.
 ///
 ///     DeviceSurface surface(laws, pieces, realisationSeed(options, 0));
-///     surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) { ... });
+///     surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col,
+///     const cv::Mat& tile) { ... });
 
 #include <cstdint>
 #include <functional>
@@ -22,16 +24,18 @@ namespace mems_stiction {
 /// The contacts of a device as squares of one size, each on a surface of its own.
 struct DevicePieces {
   int count = 1;
-  MadeSize size;            ///< of each
-  double area_ratio = 1.0;  ///< of the device over what is made: not 1 where that has no room, or has whole pixels
-  bool is_part = false;     ///< the device has no room
+  MadeSize size;  ///< of each
+  double area_ratio =
+      1.0;  ///< of the device over what is made: not 1 where that has no room, or has whole pixels
+  bool is_part = false;  ///< the device has no room
 
   double side() const { return size.sideX(); }
   double area() const { return count * size.sideX() * size.sideY(); }  ///< that is made [m^2]
 };
 
 /// @throw OptionsError if there is no scan or no area, or options are out of range
-void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options);
+void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                 const DeviceForceOptions& options);
 
 /// - @p most_cells of all pieces together
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells);
@@ -54,7 +58,8 @@ DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& opti
 /// Contacts lie one after another, along the columns. One object serves one thread at a time.
 class DeviceSurface {
  public:
-  using Visit = std::function<void(int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile)>;
+  using Visit =
+      std::function<void(int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile)>;
 
   /// - @p laws must outlive the object
   DeviceSurface(const DeviceLaws& laws, const DevicePieces& pieces, std::uint64_t seed);
@@ -67,12 +72,14 @@ class DeviceSurface {
   /// Tiles of this size are made fastest.
   cv::Size tile() const { return lower_->tile(); }
 
-  /// Relief [m], lower minus upper, of the tile whose first pixel is (row, col), CV_32FC1; all of it lies in the surface.
+  /// Relief [m], lower minus upper, of the tile whose first pixel is (row, col), CV_32FC1; all of
+  /// it lies in the surface.
   void heights(std::int64_t row, std::int64_t col, cv::Mat& tile);
   /// Calls visit(piece, row in the piece, col, relief) for tiles that fill these rows.
   void visitTiles(std::int64_t first_row, std::int64_t rows, const Visit& visit);
 
-  /// The same for the same surface, on any machine that makes it to the bit; another one for any other.
+  /// The same for the same surface, on any machine that makes it to the bit; another one for any
+  /// other.
   std::string identity();
 
  private:
@@ -82,7 +89,7 @@ class DeviceSurface {
   const DeviceLaws* laws_;
   DevicePieces pieces_;
   std::optional<std::pair<SpectrumContinuation, SpectrumContinuation>> ends_;  ///< below and above
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> seeds_;                 ///< of each piece, below and above
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> seeds_;  ///< of each piece, below and above
   std::optional<MadeSurface> lower_;
   std::optional<MadeSurface> upper_;
   int piece_ = 0;

@@ -15,8 +15,8 @@ namespace {
 
 /// The square of a difference over its standard error that is no evidence yet: two standard errors.
 constexpr double kByChance = 4.0;
-/// Share of a misfit at the size of the scans that is found at that of the device; the rest of it is its uncertainty
-/// (doc/device.md says on which surfaces it was set).
+/// Share of a misfit at the size of the scans that is found at that of the device; the rest of it
+/// is its uncertainty (doc/device.md says on which surfaces it was set).
 constexpr double kCarried = 0.7;
 /// Of many scans, so many are made and predicted in each round.
 constexpr std::size_t kScansOfRound = 4;
@@ -35,15 +35,19 @@ HeightMap withHoles(const HeightMap& made, const cv::Mat& missing) {
   return {heights, made.pitchX(), made.pitchY()};
 }
 
-double logOf(double figure) { return std::log(std::max(figure, std::numeric_limits<double>::min())); }
+double logOf(double figure) {
+  return std::log(std::max(figure, std::numeric_limits<double>::min()));
+}
 
 }  // namespace
 
-SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<HeightMap>& counter_surface) {
+SurfacePair underCounterSurface(const HeightMap& scan,
+                                const std::vector<HeightMap>& counter_surface) {
   for (const HeightMap& upper : counter_surface) {
-    if (upper.rows() >= scan.rows() && upper.cols() >= scan.cols() && upper.pitchX() == scan.pitchX() &&
-        upper.pitchY() == scan.pitchY()) {
-      return {scan, HeightMap(upper.heights()(cv::Rect(0, 0, scan.cols(), scan.rows())), scan.pitchX(), scan.pitchY())};
+    if (upper.rows() >= scan.rows() && upper.cols() >= scan.cols() &&
+        upper.pitchX() == scan.pitchX() && upper.pitchY() == scan.pitchY()) {
+      return {scan, HeightMap(upper.heights()(cv::Rect(0, 0, scan.cols(), scan.rows())),
+                              scan.pitchX(), scan.pitchY())};
     }
   }
   return scan;
@@ -74,7 +78,8 @@ LawCheck::LawCheck(const Options& model, const std::vector<HeightMap>& scans,
   }
 }
 
-void LawCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
+void LawCheck::add(const std::vector<HeightMap>& made,
+                   const std::vector<HeightMap>& made_counter_surface) {
   const std::size_t every = (checked_.size() + kScansOfRound - 1) / kScansOfRound;
   std::vector<HeightMap> above;
   for (std::size_t i = 0; i < made_counter_surface.size(); ++i) {
@@ -88,7 +93,8 @@ void LawCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightM
   ++rounds_;
 }
 
-void LawCheck::predict(const HeightMap& scan, const std::vector<HeightMap>& counter_surface, Logs& logs) {
+void LawCheck::predict(const HeightMap& scan, const std::vector<HeightMap>& counter_surface,
+                       Logs& logs) {
   adhesion_.setOptions(loadedOn(options_, loaded_area_, areaOf(scan)));
   // made scans are not levelled yet, and all are to be alike
   const Prediction found = adhesion_.predict(underCounterSurface(levelled(scan), counter_surface));

@@ -3,10 +3,11 @@
 /// @file
 /// Do scans of the surfaces that a law makes hold as strongly as the scans that it was found from?
 ///
-/// Domes of grains keep their curvature up to the top, the summits of a translated Gaussian field do not: a law may have the
-/// spectrum and the heights of the scans, and other summits. Scans like the given ones, made by the law, tell it by their
-/// forces (a posterior predictive check: Gelman et al., Bayesian Data Analysis). What of the difference is beyond chance is a
-/// misfit of the law, and its surfaces of the device's size have a part of it.
+/// Domes of grains keep their curvature up to the top, the summits of a translated Gaussian field
+/// do not: a law may have the spectrum and the heights of the scans, and other summits. Scans like
+/// the given ones, made by the law, tell it by their forces (a posterior predictive check: Gelman
+/// et al., Bayesian Data Analysis). What of the difference is beyond chance is a misfit of the law,
+/// and its surfaces of the device's size have a part of it.
 ///
 ///     LawCheck check(model, scans, counter_surface);
 ///     check.add(made_scans, made_counter_surface);  // of each realisation
@@ -21,8 +22,10 @@
 
 namespace mems_stiction {
 
-/// The scan under the first part of the counter-surface that has its grid; under a plane if none has.
-SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<HeightMap>& counter_surface);
+/// The scan under the first part of the counter-surface that has its grid; under a plane if none
+/// has.
+SurfacePair underCounterSurface(const HeightMap& scan,
+                                const std::vector<HeightMap>& counter_surface);
 
 /// Of the logarithm of a figure: scans against scans of the law.
 struct LawMisfit {
@@ -42,12 +45,14 @@ class LawCheck {
  public:
   /// - @p model its load is that of a frame as large as the first of the scans
   /// - @p scans only those with the finest pixels are looked at
-  LawCheck(const Options& model, const std::vector<HeightMap>& scans, const std::vector<HeightMap>& counter_surface);
+  LawCheck(const Options& model, const std::vector<HeightMap>& scans,
+           const std::vector<HeightMap>& counter_surface);
 
   /// - @p made like the scans, in their order
   void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
 
-  /// By how much the scan that holds most holds more than those that were made like it, of ln F and ln w; >= 0 [-].
+  /// By how much the scan that holds most holds more than those that were made like it, of ln F and
+  /// ln w; >= 0 [-].
   double largestForceExcess() const { return largestExcess(&Logs::force); }
   double largestWorkExcess() const { return largestExcess(&Logs::work); }
   LawMisfit force() const { return misfit(&Logs::force); }

@@ -18,12 +18,13 @@ constexpr double kAsWide = 0.99;
 /// The spectrum of what is left to chance, as a table.
 /// - @p pass of a wave number: share of the density
 template <typename Pass>
-SurfaceSpectrum tableOf(const MergedSpectrum& merged, const SpectrumContinuation& continuation, double longest_wave,
-                        const Pass& pass) {
+SurfaceSpectrum tableOf(const MergedSpectrum& merged, const SpectrumContinuation& continuation,
+                        double longest_wave, const Pass& pass) {
   const double first = merged.bands.front().wave_number;
   const auto densityAt = [&](double q) {
     double density = merged.densityAt(q);
-    if (q < first) density *= std::pow(first / std::max(q, continuation.rolloff), continuation.slope);
+    if (q < first)
+      density *= std::pow(first / std::max(q, continuation.rolloff), continuation.slope);
     return density;
   };
   SurfaceSpectrum spectrum;
@@ -76,16 +77,17 @@ bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
          own.heights.rows * own.pitch_y >= kWholeShare * size.sideY();
 }
 
-TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-                     double longest_wave, bool has_own, std::uint64_t seed, BlockChoice blocks) {
+TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation,
+                     const MadeSize& size, double longest_wave, bool has_own, std::uint64_t seed,
+                     BlockChoice blocks) {
   const bool is_short = law.non_gaussian_share > 0.0 && law.split_wave_number > 0.0;
   const MergedSpectrum& merged = law.non_gaussian_share > 0.0 ? law.numbers : law.heights;
   const auto pass = [&](double q) {
     if (is_short) return std::pow(highPass(q, law.split_wave_number), 2);
     return has_own ? law.own->openShare(q) : 1.0;
   };
-  return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                      size.pitch_y, seed, std::nullopt, blocks);
+  return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols,
+                      size.pitch_x, size.pitch_y, seed, std::nullopt, blocks);
 }
 
 }  // namespace
@@ -100,7 +102,8 @@ bool lacksLongWaves(const SurfaceLaw& law, double side) {
   return side > kLonger * law.longestWave();
 }
 
-SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine) {
+SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side,
+                                       std::mt19937_64& engine) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   const double first = law.heights.bands.front().wave_number;
@@ -111,11 +114,13 @@ SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::
   return continuation;
 }
 
-MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-                         double longest_wave, std::uint64_t seed, BlockChoice blocks)
+MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation,
+                         const MadeSize& size, double longest_wave, std::uint64_t seed,
+                         BlockChoice blocks)
     : law_(&law),
       size_(size),
-      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own), 2 * seed, blocks)),
+      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own),
+                     2 * seed, blocks)),
       has_own_(law.own && fitsIn(size, *law.own)) {
   if (law.non_gaussian_share > 0.0) {
     translation_.emplace([&](double g) { return law.marginal.heightOf(g); });
@@ -124,8 +129,9 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
         const double high = highPass(q, law.split_wave_number);
         return (1.0 - high * high) * (has_own_ ? law.own->openShare(q) : 1.0);
       };
-      long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                          size.pitch_y, 2 * seed + 1, std::nullopt, blocks);
+      long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows,
+                          size.cols, size.pitch_x, size.pitch_y, 2 * seed + 1, std::nullopt,
+                          blocks);
     }
   }
   drawPlace(seed);
@@ -156,7 +162,8 @@ void MadeSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
   if (translation_) {
     for (int i = 0; i < tile.rows; ++i) {
       float* line = tile.ptr<float>(i);
-      for (int j = 0; j < tile.cols; ++j) line[j] = static_cast<float>((*translation_)(static_cast<double>(line[j])));
+      for (int j = 0; j < tile.cols; ++j)
+        line[j] = static_cast<float>((*translation_)(static_cast<double>(line[j])));
     }
   }
   if (long_waves_) {
@@ -190,8 +197,9 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
     for (int at = first; at <= last; ++at) {
       double sum = 0.0;
       for (int k = 0; k < 4; ++k) {
-        sum += place.weights[k] *
-               own.heights.at<double>(reflected(place.first + k, own.heights.rows), reflected(at, own.heights.cols));
+        sum +=
+            place.weights[k] * own.heights.at<double>(reflected(place.first + k, own.heights.rows),
+                                                      reflected(at, own.heights.cols));
       }
       across[static_cast<std::size_t>(at - first)] = sum;
     }
@@ -211,17 +219,20 @@ ScanMaker::ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, 
   without_own_.own.reset();
   for (const HeightMap& scan : like) {
     const MadeSize size{scan.rows(), scan.cols(), scan.pitchX(), scan.pitchY()};
-    const auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.size == size; });
+    const auto known = std::find_if(kinds_.begin(), kinds_.end(),
+                                    [&](const Kind& kind) { return kind.size == size; });
     kind_of_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
     if (known != kinds_.end()) continue;
     kinds_.emplace_back();
     kinds_.back().size = size;
-    kinds_.back().has_own = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
+    kinds_.back().has_own = law.own &&
+                            size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
                             size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
   }
 }
 
-std::vector<HeightMap> ScanMaker::make(const SpectrumContinuation& continuation, std::mt19937_64& engine) {
+std::vector<HeightMap> ScanMaker::make(const SpectrumContinuation& continuation,
+                                       std::mt19937_64& engine) {
   if (!(continuation_ == continuation)) {
     for (Kind& kind : kinds_) kind.surface.reset();
     continuation_ = continuation;
@@ -235,7 +246,8 @@ std::vector<HeightMap> ScanMaker::make(const SpectrumContinuation& continuation,
       kind.surface->reseed(seed);
     } else {
       kind.surface.emplace(kind.has_own ? *law_ : without_own_, continuation, kind.size,
-                           std::max({longest_wave_, kind.size.sideX(), kind.size.sideY()}), seed, blocksOf(kind.size));
+                           std::max({longest_wave_, kind.size.sideX(), kind.size.sideY()}), seed,
+                           blocksOf(kind.size));
     }
     cv::Mat heights(static_cast<int>(kind.size.rows), static_cast<int>(kind.size.cols), CV_32FC1);
     kind.surface->heights(0, 0, heights);

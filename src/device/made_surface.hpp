@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// One surface of the device's size, as the scans may have been cut from it: made tile by tile, by the law of the scans
-/// (surface_law.hpp) and what is drawn of what that leaves open.
+/// One surface of the device's size, as the scans may have been cut from it: made tile by tile, by
+/// the law of the scans (surface_law.hpp) and what is drawn of what that leaves open.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,18 +18,22 @@
 
 namespace mems_stiction {
 
-/// How the spectrum goes on to waves longer than those that are believed: as steeply as at its end, up to a roll-off.
+/// How the spectrum goes on to waves longer than those that are believed: as steeply as at its end,
+/// up to a roll-off.
 struct SpectrumContinuation {
   double slope = 0.0;    ///< -d ln C/d ln q [-]
   double rolloff = 0.0;  ///< wave number from which on downwards it is flat [rad/m]
 
-  bool operator==(const SpectrumContinuation& other) const { return slope == other.slope && rolloff == other.rolloff; }
+  bool operator==(const SpectrumContinuation& other) const {
+    return slope == other.slope && rolloff == other.rolloff;
+  }
 };
-/// Whether a contact is so much longer than the longest waves that the scans show that it needs longer ones.
+/// Whether a contact is so much longer than the longest waves that the scans show that it needs
+/// longer ones.
 /// - @p side of the device [m]
 bool lacksLongWaves(const SurfaceLaw& law, double side);
-/// One that the scans leave open: the slope by its standard error, the roll-off anywhere up to waves as long as the device. Flat
-/// where the device needs no longer waves.
+/// One that the scans leave open: the slope by its standard error, the roll-off anywhere up to
+/// waves as long as the device. Flat where the device needs no longer waves.
 SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine);
 
 /// The size of a surface that is made.
@@ -42,12 +46,13 @@ struct MadeSize {
   double sideX() const { return static_cast<double>(cols) * pitch_x; }
   double sideY() const { return static_cast<double>(rows) * pitch_y; }
   bool operator==(const MadeSize& other) const {
-    return rows == other.rows && cols == other.cols && pitch_x == other.pitch_x && pitch_y == other.pitch_y;
+    return rows == other.rows && cols == other.cols && pitch_x == other.pitch_x &&
+           pitch_y == other.pitch_y;
   }
 };
 
-/// How a surface of this size is made soonest: by one transform up to a million pixels, which costs two to three times as much
-/// for each pixel as blocks do and needs no kernel; else by blocks.
+/// How a surface of this size is made soonest: by one transform up to a million pixels, which costs
+/// two to three times as much for each pixel as blocks do and needs no kernel; else by blocks.
 BlockChoice blocksOf(const MadeSize& size);
 
 /// Heights by tile; one object serves one thread at a time.
@@ -63,7 +68,8 @@ class MadeSurface {
 
   /// Tiles of this size are made fastest.
   cv::Size tile() const { return field_.tile(); }
-  /// Heights [m] of the tile whose first pixel is (row, col), CV_32FC1; all of it lies in the surface.
+  /// Heights [m] of the tile whose first pixel is (row, col), CV_32FC1; all of it lies in the
+  /// surface.
   void heights(std::int64_t row, std::int64_t col, cv::Mat& tile);
 
  private:
@@ -84,8 +90,8 @@ class MadeSurface {
   cv::Mat spare_;
 };
 
-/// Makes scans of surfaces of one law, with the pixels and sizes of other scans. Those as large as the widest have its long
-/// waves.
+/// Makes scans of surfaces of one law, with the pixels and sizes of other scans. Those as large as
+/// the widest have its long waves.
 class ScanMaker {
  public:
   /// - @p law must outlive the object

@@ -11,12 +11,15 @@ namespace mems_stiction {
 namespace {
 
 /// Rms heights of the planes (along x, along y) that levelling takes off a scan of these sides.
-std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double side_x, double side_y) {
+std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double side_x,
+                                         double side_y) {
   constexpr int kReach = 6;
   constexpr double kStep = 0.25;
   constexpr double kLeast = 0.9;  // waves along the side: longer ones are the device's tilt
   // |sum of the wave u with the constant and with the slope|^2 over a side of length 1
-  const auto constantOf = [](double u) { return u == 0.0 ? 1.0 : std::pow(std::sin(kPi * u) / (kPi * u), 2); };
+  const auto constantOf = [](double u) {
+    return u == 0.0 ? 1.0 : std::pow(std::sin(kPi * u) / (kPi * u), 2);
+  };
   const auto slopeOf = [](double u) {
     if (u == 0.0) return 0.0;
     const double part = (std::sin(kPi * u) / (kPi * u) - std::cos(kPi * u)) / (2.0 * kPi * u);
@@ -27,8 +30,8 @@ std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double 
   for (double uy = -kReach; uy <= kReach; uy += kStep) {
     for (double ux = -kReach; ux <= kReach; ux += kStep) {
       if (std::hypot(ux, uy) < kLeast) continue;
-      const double density =
-          spectrum.densityAt(spectrum.stretch.roundWave(2.0 * kPi * ux / side_x, 2.0 * kPi * uy / side_y));
+      const double density = spectrum.densityAt(
+          spectrum.stretch.roundWave(2.0 * kPi * ux / side_x, 2.0 * kPi * uy / side_y));
       along_x += density * constantOf(uy) * slopeOf(ux);
       along_y += density * constantOf(ux) * slopeOf(uy);
     }
@@ -71,7 +74,9 @@ class Samples {
   }
 
  private:
-  double densityAt(double q_x, double q_y) const { return spectrum_.densityAt(spectrum_.stretch.roundWave(q_x, q_y)); }
+  double densityAt(double q_x, double q_y) const {
+    return spectrum_.densityAt(spectrum_.stretch.roundWave(q_x, q_y));
+  }
   double passed(double q_x, double q_y) const {
     return are_means_ ? sinc(0.5 * q_x * pitch_x_) * sinc(0.5 * q_y * pitch_y_) : 1.0;
   }
@@ -83,7 +88,8 @@ class Samples {
   bool are_means_;
 };
 
-/// How much finer the pixels of own waves are: cubics between them then know the shortest ones to a percent.
+/// How much finer the pixels of own waves are: cubics between them then know the shortest ones to a
+/// percent.
 int finerPixels(const cv::Mat& values) {
   constexpr std::size_t kMost = std::size_t{1} << 22U;
   return 16 * values.total() <= kMost ? 4 : 4 * values.total() <= kMost ? 2 : 1;
@@ -107,18 +113,22 @@ bool areMeans(const HeightMap& scan, const ScanWaves& waves, const MergedSpectru
     waves.visit([&](const FrameWave& wave, double power, double weight) {
       if (wave.count() < kFirst * pixels || wave.count() > kLast * pixels) return;
       const double expected = samples.power(waves.waveNumberX(wave.x), waves.waveNumberY(wave.y));
-      if (expected > 0.0) unlikeliness[are_means ? 1 : 0] += weight * (power / expected + std::log(expected));
+      if (expected > 0.0)
+        unlikeliness[are_means ? 1 : 0] += weight * (power / expected + std::log(expected));
     });
   }
   return unlikeliness[1] < unlikeliness[0];
 }
 
-OwnLongWaves ownLongWaves(const HeightMap& scan, const MergedSpectrum& spectrum, double split, bool are_means) {
+OwnLongWaves ownLongWaves(const HeightMap& scan, const MergedSpectrum& spectrum, double split,
+                          bool are_means) {
   constexpr int kSteps = 128;
   constexpr int kDirections = 8;
   const Samples samples(spectrum, scan.pitchX(), scan.pitchY(), are_means);
   const double shortest = kPi / std::max(scan.pitchX(), scan.pitchY());
-  const auto longPass = [&](double q) { return split > 0.0 ? std::exp(-std::pow(q / split, 4)) : 1.0; };
+  const auto longPass = [&](double q) {
+    return split > 0.0 ? std::exp(-std::pow(q / split, 4)) : 1.0;
+  };
   const cv::Mat values = scan.heights()(cv::Rect(0, 0, scan.cols() & ~1, scan.rows() & ~1));
   cv::Mat waves;
   cv::dct(values, waves);
@@ -152,7 +162,8 @@ OwnLongWaves ownLongWaves(const HeightMap& scan, const MergedSpectrum& spectrum,
     }
     own.open_shares.push_back(open);
   }
-  std::tie(own.tilt_x, own.tilt_y) = tiltDeviations(spectrum, scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
+  std::tie(own.tilt_x, own.tilt_y) =
+      tiltDeviations(spectrum, scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
   return own;
 }
 

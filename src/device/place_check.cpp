@@ -22,14 +22,15 @@ namespace {
 constexpr int kBlocks = 4;
 constexpr int kLeastBlock = 24;
 constexpr double kLeastMeasuredOfBlock = 0.5;
-/// Places differ by more than chance from so many standard deviations on (of a few made scans more, by Student's
-/// distribution), and from so many times what the most uneven made scan has: the largest of sixteen logarithms has a long
-/// tail.
+/// Places differ by more than chance from so many standard deviations on (of a few made scans more,
+/// by Student's distribution), and from so many times what the most uneven made scan has: the
+/// largest of sixteen logarithms has a long tail.
 constexpr double kBeyondChance = 5.0;
 constexpr double kBeyondMost = 1.25;
 constexpr double kNormalQuantile = 1.96;
 
-/// Variance of the differences of neighbours, over both directions: the mean squared gradient about its mean.
+/// Variance of the differences of neighbours, over both directions: the mean squared gradient about
+/// its mean.
 double gradientVariance(const HeightMap& block) {
   const cv::Mat heights = block.asDouble().heights();
   double total = 0.0;
@@ -41,7 +42,8 @@ double gradientVariance(const HeightMap& block) {
     double squares = 0.0;
     for (int row = 0; row + step.y < heights.rows; ++row) {
       for (int col = 0; col + step.x < heights.cols; ++col) {
-        const double slope = (heights.at<double>(row + step.y, col + step.x) - heights.at<double>(row, col)) / pitch;
+        const double slope =
+            (heights.at<double>(row + step.y, col + step.x) - heights.at<double>(row, col)) / pitch;
         if (!std::isfinite(slope)) continue;
         count += 1.0;
         sum += slope;
@@ -57,7 +59,9 @@ HeightMap blockOf(const HeightMap& scan, const cv::Rect& place) {
   return {scan.heights()(place).clone(), scan.pitchX(), scan.pitchY()};
 }
 
-double logarithm(double figure) { return std::log(std::max(figure, std::numeric_limits<double>::min())); }
+double logarithm(double figure) {
+  return std::log(std::max(figure, std::numeric_limits<double>::min()));
+}
 
 void overMedian(double PlaceTexture::*figure, std::vector<PlaceTexture>& textures) {
   std::vector<double> values;
@@ -90,9 +94,14 @@ std::vector<PlaceTexture> placeTextures(const HeightMap& scan) {
   return textures;
 }
 
-PlaceCheck::PlaceCheck(const Options& model, double loaded_area, const std::vector<NamedScan>& scans,
+PlaceCheck::PlaceCheck(const Options& model, double loaded_area,
+                       const std::vector<NamedScan>& scans,
                        const std::vector<HeightMap>& counter_surface)
-    : model_(model), loaded_area_(loaded_area), adhesion_(model), scans_(scans), counter_surface_(counter_surface) {
+    : model_(model),
+      loaded_area_(loaded_area),
+      adhesion_(model),
+      scans_(scans),
+      counter_surface_(counter_surface) {
   const double finest = finestPitch(mapsOf(scans));
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!showsSummits(scans[i].surface, finest)) continue;
@@ -115,19 +124,22 @@ PlaceCheck::Range PlaceCheck::rangeOf(const std::vector<PlaceTexture>& textures)
 
 void PlaceCheck::add(const std::vector<HeightMap>& made, const PlaceCheck* same_scans) {
   for (std::size_t i = 0; i < checked_.size(); ++i) {
-    checked_[i].made.push_back(same_scans != nullptr ? same_scans->checked_[i].made.back()
-                                                     : rangeOf(placeTextures(made[checked_[i].scan])));
+    checked_[i].made.push_back(same_scans != nullptr
+                                   ? same_scans->checked_[i].made.back()
+                                   : rangeOf(placeTextures(made[checked_[i].scan])));
   }
 }
 
 bool PlaceCheck::find() {
   for (Checked& checked : checked_) {
-    if (isBeyond(checked)) checked.strongest = strongestOf(scans_[checked.scan].surface, counter_surface_);
+    if (isBeyond(checked))
+      checked.strongest = strongestOf(scans_[checked.scan].surface, counter_surface_);
   }
   return closes();
 }
 
-void PlaceCheck::compare(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
+void PlaceCheck::compare(const std::vector<HeightMap>& made,
+                         const std::vector<HeightMap>& made_counter_surface) {
   for (const Checked& checked : checked_) {
     if (!checked.strongest || !checked.strongest->is_conforming) continue;
     made_.push_back(strongestOf(made[checked.scan], made_counter_surface));
@@ -148,19 +160,22 @@ bool PlaceCheck::isBeyond(const Checked& checked) const {
   const auto isMore = [&](double Range::*figure) {
     const std::vector<double> made = madeLike(checked, figure);
     const auto count = static_cast<double>(made.size());
-    const double deviations =
-        kBeyondChance * studentQuantile(count - 1.0) / kNormalQuantile * std::sqrt(1.0 + 1.0 / count);
+    const double deviations = kBeyondChance * studentQuantile(count - 1.0) / kNormalQuantile *
+                              std::sqrt(1.0 + 1.0 / count);
     const double most = *std::max_element(made.begin(), made.end());
-    return checked.own.*figure > std::max(kBeyondMost * most, meanOf(made) + deviations * deviationOf(made));
+    return checked.own.*figure >
+           std::max(kBeyondMost * most, meanOf(made) + deviations * deviationOf(made));
   };
   return checked.made.size() > 1 && (isMore(&Range::gradient) || isMore(&Range::height));
 }
 
-PlaceCheck::Strongest PlaceCheck::strongestOf(const HeightMap& scan, const std::vector<HeightMap>& counter_surface) {
+PlaceCheck::Strongest PlaceCheck::strongestOf(const HeightMap& scan,
+                                              const std::vector<HeightMap>& counter_surface) {
   Strongest strongest;
   strongest.force = -std::numeric_limits<double>::infinity();
   for (const PlaceTexture& texture : placeTextures(scan)) {
-    SurfacePair block = underCounterSurface(levelled(blockOf(scan, texture.place)), counter_surface);
+    SurfacePair block =
+        underCounterSurface(levelled(blockOf(scan, texture.place)), counter_surface);
     if (!block.upperIsPlane()) block.upper = levelled(block.upper);
     adhesion_.setOptions(loadedOn(model_, loaded_area_, areaOf(block.lower)));
     const Prediction found = adhesion_.predict(block);
@@ -214,9 +229,10 @@ std::string PlaceCheck::sentence() const {
          shortNumber(texture.place.width * scan.pitchX() * 1e6, 2) + " x " +
          shortNumber(texture.place.height * scan.pitchY() * 1e6, 2) +
          " um about x = " + middle(texture.place.x, texture.place.width, scan.pitchX()) +
-         " um, y = " + middle(texture.place.y, texture.place.height, scan.pitchY()) + " um hold most, with " +
-         shortNumber(std::exp(0.5 * texture.gradient), 2) + " times the rms gradient and " +
-         shortNumber(std::exp(0.5 * texture.height), 2) + " times the rms height of the scan's other places";
+         " um, y = " + middle(texture.place.y, texture.place.height, scan.pitchY()) +
+         " um hold most, with " + shortNumber(std::exp(0.5 * texture.gradient), 2) +
+         " times the rms gradient and " + shortNumber(std::exp(0.5 * texture.height), 2) +
+         " times the rms height of the scan's other places";
 }
 
 }  // namespace mems_stiction

@@ -3,16 +3,18 @@
 /// @file
 /// Are the scans alike everywhere, and if not, which place holds most?
 ///
-/// Made surfaces are alike everywhere: their law is that of all scans together. Each scan is divided into kBlocks x kBlocks
-/// blocks. Mean squared gradient and variance of a block's levelled heights, as the logarithm of their ratio to the scan's
-/// median block, say how far places differ; scans that were made by the law say how far they differ by chance. Of a scan
-/// that goes beyond that, blocks are predicted as frames by themselves, and the one that holds most is the place.
+/// Made surfaces are alike everywhere: their law is that of all scans together. Each scan is
+/// divided into kBlocks x kBlocks blocks. Mean squared gradient and variance of a block's levelled
+/// heights, as the logarithm of their ratio to the scan's median block, say how far places differ;
+/// scans that were made by the law say how far they differ by chance. Of a scan that goes beyond
+/// that, blocks are predicted as frames by themselves, and the one that holds most is the place.
 ///
-/// What such a place may do to the device: if it bonds all over by itself, it may close in the device, too, and then holds
-/// as much more as it does beyond the strongest blocks of made scans. If not, rougher places keep the surfaces apart there
-/// as they do in the scan, and the scan that holds most says how much more (LawCheck). In either case the device may rest
-/// on such a place alone, where it lies higher than in the scan. Blocks lie under a part of the counter-surface of their
-/// size, without its tilt; without one that is as large, under a plane.
+/// What such a place may do to the device: if it bonds all over by itself, it may close in the
+/// device, too, and then holds as much more as it does beyond the strongest blocks of made scans.
+/// If not, rougher places keep the surfaces apart there as they do in the scan, and the scan that
+/// holds most says how much more (LawCheck). In either case the device may rest on such a place
+/// alone, where it lies higher than in the scan. Blocks lie under a part of the counter-surface of
+/// their size, without its tilt; without one that is as large, under a plane.
 
 #include <optional>
 #include <string>
@@ -42,7 +44,8 @@ struct PlaceAlone {
   double area = 0.0;   ///< [m^2]
 };
 
-/// Compares the places of scans with those of scans that were made like them. One object serves one thread.
+/// Compares the places of scans with those of scans that were made like them. One object serves one
+/// thread.
 class PlaceCheck {
  public:
   /// - @p scans of the lower surface
@@ -51,23 +54,28 @@ class PlaceCheck {
              const std::vector<HeightMap>& counter_surface);
 
   /// - @p made like the scans, in their order
-  /// - @p same_scans a check of the same scans under another model, to which @p made has been added: they differ as there; may
+  /// - @p same_scans a check of the same scans under another model, to which @p made has been
+  /// added: they differ as there; may
   ///   be null
   void add(const std::vector<HeightMap>& made, const PlaceCheck* same_scans = nullptr);
-  /// After the last of them: looks for the place that holds most where places differ, and nowhere else, since to predict
-  /// blocks takes longer than all the rest.
-  /// @return whether that place bonds all over, so that compare() is to get all made scans once more
+  /// After the last of them: looks for the place that holds most where places differ, and nowhere
+  /// else, since to predict blocks takes longer than all the rest.
+  /// @return whether that place bonds all over, so that compare() is to get all made scans once
+  /// more
   bool find();
-  void compare(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
+  void compare(const std::vector<HeightMap>& made,
+               const std::vector<HeightMap>& made_counter_surface);
 
   bool isUneven() const { return place() != nullptr; }
-  /// Which scan has the place that holds most, where, and what it is like; empty if the scans are even.
+  /// Which scan has the place that holds most, where, and what it is like; empty if the scans are
+  /// even.
   std::string sentence() const;
   /// Whether the place that holds most bonds all over by itself.
   bool closes() const;
   /// That place as a frame; all 0 if the scans are even.
   PlaceAlone alone() const;
-  /// Of ln F and ln w, by how much that place holds more than the strongest ones of made scans, where it closes; else 0 [-].
+  /// Of ln F and ln w, by how much that place holds more than the strongest ones of made scans,
+  /// where it closes; else 0 [-].
   double forceExcess() const { return excess(&Strongest::force); }
   double workExcess() const { return excess(&Strongest::work); }
 

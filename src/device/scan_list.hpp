@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What the scans of a surface are as a list: their maps, their finest pixels, the ones that have those.
+/// What the scans of a surface are as a list: their maps, their finest pixels, the ones that have
+/// those.
 
 #include <algorithm>
 #include <vector>
@@ -14,7 +15,9 @@ namespace mems_stiction {
 inline double areaOf(const HeightMap& surface) {
   return surface.rows() * surface.cols() * surface.cellArea();
 }  // [m^2]
-inline double longerPitch(const HeightMap& surface) { return std::max(surface.pitchX(), surface.pitchY()); }
+inline double longerPitch(const HeightMap& surface) {
+  return std::max(surface.pitchX(), surface.pitchY());
+}
 
 /// Without their names; the pixels are shared.
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans);

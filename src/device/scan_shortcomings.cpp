@@ -10,9 +10,11 @@
 namespace mems_stiction {
 namespace {
 
-/// The spectrum still rises towards its longest waves from this slope on, by more than two standard errors [-].
+/// The spectrum still rises towards its longest waves from this slope on, by more than two standard
+/// errors [-].
 constexpr double kRising = 1.0;
-/// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
+/// Scans contradict each other from this ratio of powers on, if it is so many standard errors
+/// from 1.
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
 /// Of the finest scans, that which leaves out least.
@@ -21,7 +23,8 @@ UnresolvedWaves leastUnresolved(const std::vector<NamedScan>& scans) {
   UnresolvedWaves least;
   for (const NamedScan& scan : scans) {
     if (!showsSummits(scan.surface, finest)) continue;
-    const UnresolvedWaves waves = scan.short_waves ? *scan.short_waves : unresolvedWaves(scan.surface, {}, 0.0);
+    const UnresolvedWaves waves =
+        scan.short_waves ? *scan.short_waves : unresolvedWaves(scan.surface, {}, 0.0);
     if (!(least.rms_height <= waves.rms_height)) least = waves;
   }
   return least;
@@ -30,16 +33,19 @@ UnresolvedWaves leastUnresolved(const std::vector<NamedScan>& scans) {
 void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side,
                      std::vector<std::string>& warnings) {
   const double longest = law.longestWave();
-  if (!lacksLongWaves(law, side) || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
+  if (!lacksLongWaves(law, side) || law.slope < kRising || law.slope < 2.0 * law.slope_deviation)
+    return;
   const NamedScan* widest = &scans.front();
   for (const NamedScan& scan : scans) {
-    if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
+    if (scan.surface.cols() * scan.surface.pitchX() >
+        widest->surface.cols() * widest->surface.pitchX()) {
       widest = &scan;
     }
   }
   warnings.push_back("roughness still rises towards the longest waves that the scans show (" +
-                     shortNumber(longest * 1e6, 2) + " um, by " + widest->name + "): measure a field of at least " +
-                     shortNumber(side * 1e6, 2) + " um, pixels of " + shortNumber(longest / 16.0 * 1e9, 2) +
+                     shortNumber(longest * 1e6, 2) + " um, by " + widest->name +
+                     "): measure a field of at least " + shortNumber(side * 1e6, 2) +
+                     " um, pixels of " + shortNumber(longest / 16.0 * 1e9, 2) +
                      " nm will do. Until then the interval holds what longer waves may do");
 }
 
@@ -64,7 +70,8 @@ void warnOfContradictions(const std::vector<NamedScan>& scans, std::vector<std::
 
 }  // namespace
 
-std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws, double side) {
+std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws,
+                                          double side) {
   std::vector<std::string> warnings;
   warnOfLongWaves(laws.lower, surfaces.scans, side, warnings);
   if (laws.upper) warnOfLongWaves(*laws.upper, surfaces.counter_surface, side, warnings);

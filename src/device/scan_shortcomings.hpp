@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What scans leave open of a device, and where they contradict each other, in sentences that name the scan.
+/// What scans leave open of a device, and where they contradict each other, in sentences that name
+/// the scan.
 
 #include <string>
 #include <vector>
@@ -13,10 +14,11 @@ namespace mems_stiction {
 
 /// Long waves that no scan shows though the spectrum still rises towards them.
 /// - @p side of a contact [m]
-std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws, double side);
+std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws,
+                                          double side);
 
-/// The fine scan without which the force is not known, since none of the finest ones shows what holds (verdict/missing_scan.hpp);
-/// empty if one does.
+/// The fine scan without which the force is not known, since none of the finest ones shows what
+/// holds (verdict/missing_scan.hpp); empty if one does.
 std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model);
 
 /// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.

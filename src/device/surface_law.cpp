@@ -39,7 +39,8 @@ struct Scan {
   double sideY() const { return heights.rows * pitch_y; }
   double measuredShare() const {
     if (distances.empty()) return 1.0;
-    return 1.0 - static_cast<double>(cv::countNonZero(distances)) / static_cast<double>(distances.total());
+    return 1.0 - static_cast<double>(cv::countNonZero(distances)) /
+                     static_cast<double>(distances.total());
   }
   double area() const { return sideX() * sideY() * measuredShare(); }  ///< that was measured
   double longerSide() const { return std::max(sideX(), sideY()); }
@@ -86,7 +87,8 @@ struct SamplingVariance {
   double independent = 0.0;  ///< places: the area over the integral of rho^2 [-]
 };
 
-/// The power of a spectrum above a split, asked for by rising wave numbers: MergedSpectrum::densityAt() with its logarithms at hand.
+/// The power of a spectrum above a split, asked for by rising wave numbers:
+/// MergedSpectrum::densityAt() with its logarithms at hand.
 class RisingDensities {
  public:
   RisingDensities(const MergedSpectrum& spectrum, double longest, double split)
@@ -124,7 +126,8 @@ class RisingDensities {
   std::size_t place_ = 0;
 };
 
-SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, double longest, double area) {
+SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, double longest,
+                                  double area) {
   constexpr int kSide = 512;
   constexpr int kSteps = 2000;
   constexpr double kResolved = 0.97;  // of the variance, on the grid of the integral
@@ -239,7 +242,8 @@ cv::Mat levelledUnder(const HeightMarginal& marginal, const cv::Mat& heights) {
       const int col = place % found.cols;
       const double height = found.at<double>(row, col);
       const double number = marginal.numberOf(height);
-      double slope = (marginal.numberOf(height + step) - marginal.numberOf(height - step)) / (2.0 * step);
+      double slope =
+          (marginal.numberOf(height + step) - marginal.numberOf(height - step)) / (2.0 * step);
       slope = std::abs(number) > kMostNumber ? 0.0 : std::clamp(slope, 0.0, 10.0 / deviation[0]);
       const cv::Vec3d base(1.0, placeOf(col, found.cols), placeOf(row, found.rows));
       matrix += slope * (base * base.t());
@@ -250,7 +254,8 @@ cv::Mat levelledUnder(const HeightMarginal& marginal, const cv::Mat& heights) {
     for (int row = 0; row < found.rows; ++row) {
       double* line = found.ptr<double>(row);
       for (int col = 0; col < found.cols; ++col) {
-        line[col] -= plane[0] + plane[1] * placeOf(col, found.cols) + plane[2] * placeOf(row, found.rows);
+        line[col] -=
+            plane[0] + plane[1] * placeOf(col, found.cols) + plane[2] * placeOf(row, found.rows);
       }
     }
   }
@@ -313,8 +318,8 @@ struct Candidate {
   void take(const SamplingVariance& found) {
     variance = found;
     moments = momentsOf(sample);
-    chi_square =
-        moments.skewness * moments.skewness / variance.skewness + moments.excess * moments.excess / variance.excess;
+    chi_square = moments.skewness * moments.skewness / variance.skewness +
+                 moments.excess * moments.excess / variance.excess;
   }
 };
 
@@ -324,7 +329,8 @@ std::vector<double> allOf(const Scan& scan) {
   return sample;
 }
 
-Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& spectrum, double split, double side) {
+Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& spectrum,
+                        double split, double side) {
   Candidate candidate;
   candidate.split = split;
   const double waves = split * side / (2.0 * kPi);
@@ -335,7 +341,8 @@ Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& sp
     addSample(highPassed(scan, candidate.split), scan.distances, margin, 2, candidate.sample);
     area += scan.area() * (1.0 - 2.0 * margin) * (1.0 - 2.0 * margin);
   }
-  candidate.take(samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area));
+  candidate.take(
+      samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area));
   return candidate;
 }
 
@@ -351,11 +358,13 @@ Candidate widestCandidate(const Scan& widest, const MergedSpectrum& spectrum) {
   Candidate candidate;
   candidate.is_widest = true;
   candidate.sample = allOf(widest);
-  candidate.take(samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest.longerSide(), widest.area()));
+  candidate.take(samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest.longerSide(),
+                                  widest.area()));
   return candidate;
 }
 
-Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, const MergedSpectrum& spectrum) {
+Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest,
+                            const MergedSpectrum& spectrum) {
   const double side = fineSide(scans);
   std::optional<Candidate> first;
   const auto isDecisive = [&](const Candidate& candidate) {
@@ -363,7 +372,8 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
     return candidate.chi_square >= kDecisive;
   };
   if (widest != nullptr) {
-    const double total = spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
+    const double total =
+        spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
     const double deviation = momentsOf(allOf(*widest)).deviation;
     if (deviation * deviation > kMostVariance * total * total) {
       Candidate candidate = widestCandidate(*widest, spectrum);
@@ -439,13 +449,15 @@ void SurfaceStudy::Findings::translate(TailForm form, SurfaceLaw& translated) co
       for (cv::Mat& value : values) value = levelledUnder(marginal, value);
     }
   }
-  translated.marginal = marginal.mixed(law.non_gaussian_share, candidate.moments.mean, candidate.moments.deviation);
+  translated.marginal =
+      marginal.mixed(law.non_gaussian_share, candidate.moments.mean, candidate.moments.deviation);
   for (cv::Mat& value : values) value = numbersOf(translated.marginal, value);
   const std::vector<ScanWaves> waves = wavesOf(scans, values);
   translated.numbers = mergedSpectrum(waves, trustOf(waves), law.heights.stretch);
 }
 
-SpectrumStretch SurfaceStudy::stretchOf(const std::vector<ScanWaves>& waves, const std::vector<ScanTrust>& trust,
+SpectrumStretch SurfaceStudy::stretchOf(const std::vector<ScanWaves>& waves,
+                                        const std::vector<ScanTrust>& trust,
                                         const SurfaceStudy* like) {
   if (like != nullptr && like->findings_->law.heights.stretch.ratio == 1.0) return {};
   return mems_stiction::stretchOf(waves, trust);
@@ -479,7 +491,8 @@ SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces, const Surface
   law.non_gaussian_share = std::max(0.0, 1.0 - kShareByChance / findings->candidate.chi_square);
   if (findings->isTranslated()) {
     law.split_wave_number = findings->candidate.split;
-    for (const Scan& scan : scans) findings->passed.push_back(highPassed(scan, law.split_wave_number));
+    for (const Scan& scan : scans)
+      findings->passed.push_back(highPassed(scan, law.split_wave_number));
   }
   findings_ = std::move(findings);
 }
@@ -496,10 +509,11 @@ SurfaceLaw SurfaceStudy::law(TailForm form) const {
   if (findings_->widest == nullptr) return law;
   const Scan& widest = *findings_->widest;
   const bool are_numbers = findings_->isTranslated() && law.split_wave_number == 0.0;
-  const cv::Mat values =
-      are_numbers ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights)) : widest.heights;
-  law.own = ownLongWaves(widest.map(values), are_numbers ? law.numbers : law.heights, law.split_wave_number,
-                         findings_->has_mean_pixels);
+  const cv::Mat values = are_numbers
+                             ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights))
+                             : widest.heights;
+  law.own = ownLongWaves(widest.map(values), are_numbers ? law.numbers : law.heights,
+                         law.split_wave_number, findings_->has_mean_pixels);
   return law;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The force of one made surface whose rows are made in strips, here or on other machines, in any order and any cut: the same to
-/// the bit as that of the whole.
+/// The force of one made surface whose rows are made in strips, here or on other machines, in any
+/// order and any cut: the same to the bit as that of the whole.
 ///
 ///     DividedSurface surface(surfaces, area, model, options, 0);       // on each machine
 ///     const std::string part = surface.strip(first_row, rows);         // on any
@@ -26,24 +26,28 @@ namespace mems_stiction {
 
 class SurfaceStrips;
 
-/// A made surface of the device's whole size: device_force/max_cells has no say in it. One object serves one thread at a time.
+/// A made surface of the device's whole size: device_force/max_cells has no say in it. One object
+/// serves one thread at a time.
 class DividedSurface {
  public:
   /// - @p number of the surface among those that are made, from 0
-  /// - @p depth cells that far below the highest are collected one by one [m]; none: what suffices as a rule, or all of a small
+  /// - @p depth cells that far below the highest are collected one by one [m]; none: what suffices
+  /// as a rule, or all of a small
   ///   surface
   /// @throw OptionsError, SurfaceError
   DividedSurface(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                  const DeviceForceOptions& options, int number, std::optional<double> depth);
 
   DeviceSurface& surface() { return surface_; }
-  /// What a strip tells of the contacts of the whole: its highest cells, and the heights of all others.
+  /// What a strip tells of the contacts of the whole: its highest cells, and the heights of all
+  /// others.
   /// @throw SurfaceError if these are no rows of the surface
   std::string strip(std::int64_t first_row, std::int64_t rows);
   /// @throw SurfaceError if rows are missing, or the cells do not reach deep enough
   Realisation realise(const SurfaceStrips& strips);
   const std::vector<std::string>& warnings() const { return solver_.warnings(); }
-  /// What the scans lack, what of them was filled or left out, and where they contradict each other, in words.
+  /// What the scans lack, what of them was filled or left out, and where they contradict each
+  /// other, in words.
   const std::vector<std::string>& shortcomings() const { return shortcomings_; }
 
  private:

@@ -12,16 +12,18 @@
 namespace mems_stiction {
 namespace {
 
-/// Two copies of a scan differ by round-off of single precision or 16 bits, two scans of a place by their noise: the rms
-/// difference over the rms height [-].
+/// Two copies of a scan differ by round-off of single precision or 16 bits, two scans of a place by
+/// their noise: the rms difference over the rms height [-].
 constexpr double kCopyDifference = 1e-3;
 /// Pixels along each side that must have been measured.
 constexpr int kLeastMeasuredSide = 8;
 
 bool haveOneGrid(const HeightMap& one, const HeightMap& other) {
-  const auto isNear = [](double left, double right) { return std::abs(left - right) <= 1e-6 * right; };
-  return one.rows() == other.rows() && one.cols() == other.cols() && isNear(one.pitchX(), other.pitchX()) &&
-         isNear(one.pitchY(), other.pitchY());
+  const auto isNear = [](double left, double right) {
+    return std::abs(left - right) <= 1e-6 * right;
+  };
+  return one.rows() == other.rows() && one.cols() == other.cols() &&
+         isNear(one.pitchX(), other.pitchX()) && isNear(one.pitchY(), other.pitchY());
 }
 
 /// Whether both show the same heights but for round-off and a constant.
@@ -48,22 +50,27 @@ bool isCopy(const HeightMap& one, const HeightMap& other) {
 void checkMeasured(const NamedScan& scan) {
   const cv::Rect measured = cv::boundingRect(validMask(scan.surface.heights()));
   if (std::min(measured.width, measured.height) >= kLeastMeasuredSide) return;
-  throw SurfaceError(scan.name + ": its measured pixels lie within " + std::to_string(measured.width) + " x " +
-                     std::to_string(measured.height) + " of its " + std::to_string(scan.surface.cols()) + " x " +
+  throw SurfaceError(scan.name + ": its measured pixels lie within " +
+                     std::to_string(measured.width) + " x " + std::to_string(measured.height) +
+                     " of its " + std::to_string(scan.surface.cols()) + " x " +
                      std::to_string(scan.surface.rows()) +
-                     " pixels, which say nothing of a device; at least 8 x 8 do. Leave it out, or measure it again");
+                     " pixels, which say nothing of a device; at least 8 x 8 do. Leave it out, or "
+                     "measure it again");
 }
 
-std::vector<NamedScan> usable(const std::vector<NamedScan>& scans, std::vector<std::string>& remarks) {
+std::vector<NamedScan> usable(const std::vector<NamedScan>& scans,
+                              std::vector<std::string>& remarks) {
   std::vector<NamedScan> distinct;
   for (const NamedScan& scan : scans) {
     checkMeasured(scan);
-    const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                   [&](const NamedScan& other) { return isCopy(other.surface, scan.surface); });
+    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const NamedScan& other) {
+      return isCopy(other.surface, scan.surface);
+    });
     if (same != distinct.end()) {
       remarks.push_back(scan.name == same->name
                             ? scan.name + ": is given twice and counts once"
-                            : scan.name + ": shows the heights of " + same->name + " again; both count as one scan");
+                            : scan.name + ": shows the heights of " + same->name +
+                                  " again; both count as one scan");
       continue;
     }
     const std::string filled = filledSentence(scan.surface);

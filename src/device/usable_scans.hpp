@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// What of the scans that were given does the force of a device come from, and what is to be said about them?
+/// What of the scans that were given does the force of a device come from, and what is to be said
+/// about them?
 ///
-/// A scan that is there twice has been measured once. Pixels that are missing are filled where every pixel is needed
-/// (roughness/filled_surface.hpp); the frames themselves are predicted with their holes.
+/// A scan that is there twice has been measured once. Pixels that are missing are filled where
+/// every pixel is needed (roughness/filled_surface.hpp); the frames themselves are predicted with
+/// their holes.
 
 #include <string>
 #include <vector>

@@ -6,7 +6,8 @@
 namespace mems_stiction {
 namespace {
 
-/// More than there are settings: each of them may be wrong, but what has ten thousand wrong lines is another thing.
+/// More than there are settings: each of them may be wrong, but what has ten thousand wrong lines
+/// is another thing.
 constexpr std::size_t kMostLines = 400;
 
 std::vector<std::string> firstOf(std::vector<std::string> lines) {

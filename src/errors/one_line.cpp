@@ -8,7 +8,9 @@ namespace {
 
 /// How many bytes the letter of UTF-8 has that begins at `place`; 0: none begins there.
 std::size_t letterSize(const std::string& text, std::size_t place) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
   const unsigned first = byte(place);
   if (first < 0x80) return 1;
   if (first < 0xC2 || first > 0xF4) return 0;
@@ -43,7 +45,8 @@ std::string oneLine(const std::string& text) {
     } else {
       for (std::size_t i = place; i < end; ++i) {
         char escaped[8];
-        std::snprintf(escaped, sizeof escaped, "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(text[i])));
+        std::snprintf(escaped, sizeof escaped, "\\x%02x",
+                      static_cast<unsigned>(static_cast<unsigned char>(text[i])));
         line += escaped;
       }
     }

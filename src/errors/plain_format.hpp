@@ -1,9 +1,9 @@
 #pragma once
 
 /// @file
-/// Numbers as text and back with a decimal point, whatever locale the process runs in: Python programs and Qt set that of
-/// the user, where printf() and strtod() take a decimal comma. The compilers that are supported do not all have
-/// std::from_chars() and std::to_chars() for doubles.
+/// Numbers as text and back with a decimal point, whatever locale the process runs in: Python
+/// programs and Qt set that of the user, where printf() and strtod() take a decimal comma. The
+/// compilers that are supported do not all have std::from_chars() and std::to_chars() for doubles.
 
 #include <locale>
 #include <sstream>

@@ -23,7 +23,8 @@ std::string withInterval(double value, double lower, double upper, const std::st
   const std::string end = unit.empty() ? "" : " " + unit;
   std::string text = shortNumber(value, digits) + end;
   if (!std::isfinite(value) || std::isnan(lower) || std::isnan(upper)) return text;
-  return text + ", 95 % within " + shortNumber(lower, digits) + " to " + shortNumber(upper, digits) + end;
+  return text + ", 95 % within " + shortNumber(lower, digits) + " to " +
+         shortNumber(upper, digits) + end;
 }
 
 }  // namespace mems_stiction

@@ -13,23 +13,28 @@ constexpr double kNarrowGapStrength = 3e9;     // [V/m]
 constexpr double kWideGapStrength = 0.11e9;    // [V/m]
 constexpr double kNarrowestMeasured = 0.5e-6;  // [m]
 
-std::string sentence(double voltage, const std::string& over, double field, double strength, const std::string& what) {
-  return "load/voltage " + shortNumber(voltage) + " V over " + over + " is a field of " + shortNumber(field * 1e-9) +
-         " GV/m: " + what + " from about " + shortNumber(strength * 1e-9) + " GV/m on";
+std::string sentence(double voltage, const std::string& over, double field, double strength,
+                     const std::string& what) {
+  return "load/voltage " + shortNumber(voltage) + " V over " + over + " is a field of " +
+         shortNumber(field * 1e-9) + " GV/m: " + what + " from about " +
+         shortNumber(strength * 1e-9) + " GV/m on";
 }
 
 }  // namespace
 
-std::vector<std::string> breakdownWarnings(const Options& options, const DeviceOptions& device, double mean_gap) {
+std::vector<std::string> breakdownWarnings(const Options& options, const DeviceOptions& device,
+                                           double mean_gap) {
   std::vector<std::string> lines;
   const double voltage = std::abs(options.load.voltage);
   if (voltage == 0.0) return lines;
   const double thickness = options.interface.insulator_thickness;
   const double permittivity = options.interface.insulator_relative_permittivity;
-  const double in_contact = surface_forces::gapField(0.0, voltage, thickness, permittivity) / permittivity;
+  const double in_contact =
+      surface_forces::gapField(0.0, voltage, thickness, permittivity) / permittivity;
   if (in_contact > kInsulatorStrength) {
-    lines.push_back(sentence(voltage, "interface/insulator_thickness " + shortNumber(thickness) + " m", in_contact,
-                             kInsulatorStrength, "thermal SiO2 breaks down"));
+    lines.push_back(sentence(voltage,
+                             "interface/insulator_thickness " + shortNumber(thickness) + " m",
+                             in_contact, kInsulatorStrength, "thermal SiO2 breaks down"));
   }
   const auto check = [&](const std::string& name, double gap) {
     const double field = surface_forces::gapField(gap, voltage, thickness, permittivity);

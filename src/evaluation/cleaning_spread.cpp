@@ -22,10 +22,11 @@ struct Levelling {
   LevelShape shape;
 };
 
-constexpr Levelling kLevellings[] = {{"not levelled", LineAlignment::kNone, LevelShape::kNone},
-                                     {"plane", LineAlignment::kNone, LevelShape::kPlane},
-                                     {"parabola", LineAlignment::kNone, LevelShape::kPolynomial},
-                                     {"row medians and plane", LineAlignment::kMedian, LevelShape::kPlane}};
+constexpr Levelling kLevellings[] = {
+    {"not levelled", LineAlignment::kNone, LevelShape::kNone},
+    {"plane", LineAlignment::kNone, LevelShape::kPlane},
+    {"parabola", LineAlignment::kNone, LevelShape::kPolynomial},
+    {"row medians and plane", LineAlignment::kMedian, LevelShape::kPlane}};
 constexpr std::size_t kNotLevelled = 0;
 constexpr std::size_t kPlane = 1;
 
@@ -37,8 +38,8 @@ PipelineOptions cleaned(PipelineOptions options, const Levelling& levelling, boo
   return options;
 }
 
-CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Configuration& configuration,
-                  const std::optional<DeviceScale>& scale) {
+CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan,
+                  const Configuration& configuration, const std::optional<DeviceScale>& scale) {
   CleaningRow row;
   row.cleaning = cleaning;
   try {
@@ -53,8 +54,8 @@ CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Conf
     row.asperity_count = prediction.asperity_count;
     Evidence evidence;
     if (scale) evidence.device = scale->under(prediction);
-    const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, predictor.options(),
-                                      scan.cellArea(), evidence);
+    const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
+                                      predictor.options(), scan.cellArea(), evidence);
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;
     row.margin_upper = verdict.margin_upper;
@@ -93,8 +94,8 @@ std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configurati
     const std::size_t first = rows.size();
     for (const Levelling& levelling : kLevellings) {
       changed.preprocessing = cleaned(configuration.preprocessing, levelling, without_spikes);
-      rows.push_back(
-          rowOf(std::string(levelling.name) + (without_spikes ? ", spikes filled" : ""), scan, changed, scale));
+      rows.push_back(rowOf(std::string(levelling.name) + (without_spikes ? ", spikes filled" : ""),
+                           scan, changed, scale));
     }
     CleaningRow& not_levelled = rows[first + kNotLevelled];
     const Tilt tilt = {not_levelled.rms_height, rows[first + kPlane].rms_height};
@@ -126,26 +127,30 @@ CleaningReach reachOf(const std::vector<CleaningRow>& rows) {
   for (const CleaningRow& row : rows) {
     if (!row.is_reasonable) continue;
     include(row.pull_off_force, rows.front().pull_off_force, reach.pull_off);
-    include(row.apparent_work_of_adhesion, rows.front().apparent_work_of_adhesion, reach.apparent_work);
+    include(row.apparent_work_of_adhesion, rows.front().apparent_work_of_adhesion,
+            reach.apparent_work);
   }
   return reach;
 }
 
 std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::string& indent) {
-  std::string text =
-      indent +
-      "cleaning                                 rms [m]  pull-off [N]  contacts    margin     from       to  sticks\n";
+  std::string text = indent +
+                     "cleaning                                 rms [m]  pull-off [N]  contacts    "
+                     "margin     from       to  sticks\n";
   for (const CleaningRow& row : rows) {
     char line[240];
     if (row.reason.empty()) {
       const std::string note = row.is_reasonable ? "" : "  tilted: does not count";
-      const std::string status = row.status == Status::kEquilibrium ? "" : std::string("  ") + word(row.status);
+      const std::string status =
+          row.status == Status::kEquilibrium ? "" : std::string("  ") + word(row.status);
       const int digits = knownDigits(row.margin, row.margin_lower, row.margin_upper);
-      std::snprintf(line, sizeof line, "%-36s  %10s  %12s  %8d  %8s %8s %8s  %s%s%s\n", row.cleaning.c_str(),
-                    shortNumber(row.rms_height).c_str(), shortNumber(row.pull_off_force, digits).c_str(),
-                    row.asperity_count, shortNumber(row.margin, digits).c_str(),
-                    shortNumber(row.margin_lower, digits).c_str(), shortNumber(row.margin_upper, digits).c_str(),
-                    sticksText(row.sticks), status.c_str(), note.c_str());
+      std::snprintf(line, sizeof line, "%-36s  %10s  %12s  %8d  %8s %8s %8s  %s%s%s\n",
+                    row.cleaning.c_str(), shortNumber(row.rms_height).c_str(),
+                    shortNumber(row.pull_off_force, digits).c_str(), row.asperity_count,
+                    shortNumber(row.margin, digits).c_str(),
+                    shortNumber(row.margin_lower, digits).c_str(),
+                    shortNumber(row.margin_upper, digits).c_str(), sticksText(row.sticks),
+                    status.c_str(), note.c_str());
       text += indent + line;
     } else {
       text += indent + row.cleaning + ": " + row.reason + "\n";
@@ -153,7 +158,8 @@ std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::strin
   }
   const CleaningSpread spread = spreadOf(rows);
   if (spread.count == 0) return text;
-  text += indent + "Over " + std::to_string(spread.count) + " cleanings the pull-off force changes by a factor " +
+  text += indent + "Over " + std::to_string(spread.count) +
+          " cleanings the pull-off force changes by a factor " +
           shortNumber(spread.pull_off_factor) + ".\n";
   if (std::isnan(spread.margin_factor)) return text;
   text += indent + "The margin changes by a factor " + shortNumber(spread.margin_factor) +

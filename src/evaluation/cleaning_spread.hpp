@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Does the answer rest on how the scan was cleaned? The same scan under each cleaning that an operator could choose,
-/// beside the configured one, shows how far that choice moves the prediction.
+/// Does the answer rest on how the scan was cleaned? The same scan under each cleaning that an
+/// operator could choose, beside the configured one, shows how far that choice moves the
+/// prediction.
 ///
 ///     const std::vector<CleaningRow> rows = cleaningSpread(scan, configuration);
 ///     std::cout << cleaningTable(rows);
@@ -20,13 +21,15 @@
 
 namespace mems_stiction {
 
-/// The prediction under one cleaning. Figures are NaN if it failed, margins also if no device is stated.
+/// The prediction under one cleaning. Figures are NaN if it failed, margins also if no device is
+/// stated.
 struct CleaningRow {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  std::string cleaning;        ///< "as configured", "plane, without spikes"
-  std::string reason;          ///< why there is no prediction; empty if there is one
-  bool is_reasonable = false;  ///< counts for the spread; the others are of scans that are tilted and were left so
+  std::string cleaning;  ///< "as configured", "plane, without spikes"
+  std::string reason;    ///< why there is no prediction; empty if there is one
+  bool is_reasonable =
+      false;  ///< counts for the spread; the others are of scans that are tilted and were left so
   Status status = Status::kNoEquilibrium;
   double rms_height = kUnknown;                 ///< [m]
   double pull_off_force = kUnknown;             ///< [N]
@@ -44,7 +47,8 @@ struct CleaningSpread {
   int count = 0;                                   ///< rows that count
   double pull_off_factor = CleaningRow::kUnknown;  ///< largest over smallest pull-off force [-]
   double margin_factor = CleaningRow::kUnknown;    ///< largest over smallest margin [-]
-  double margin_lower = CleaningRow::kUnknown;  ///< the smallest lower end of an interval: 95 % with the cleaning [-]
+  double margin_lower =
+      CleaningRow::kUnknown;  ///< the smallest lower end of an interval: 95 % with the cleaning [-]
   double margin_upper = CleaningRow::kUnknown;  ///< the largest upper end [-]
 };
 
@@ -76,21 +80,22 @@ void visitSpreadFields(const CleaningSpread& spread, Visitor&& visit) {
   visit({"margin_upper"}, spread.margin_upper);
 }
 
-/// The scan as configured; then not levelled, less its plane, less its parabola (polynomial of degree 2), and with its
-/// rows at one median and less its plane; each of these as it is and with its spikes filled. The other steps are the
-/// configured ones. Not levelled counts where levelling by the plane takes less than half of the rms height away.
+/// The scan as configured; then not levelled, less its plane, less its parabola (polynomial of
+/// degree 2), and with its rows at one median and less its plane; each of these as it is and with
+/// its spikes filled. The other steps are the configured ones. Not levelled counts where levelling
+/// by the plane takes less than half of the rms height away.
 /// @throw OptionsError if the configuration is out of range
 std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration,
                                         const std::optional<DeviceScale>& scale = std::nullopt);
 
 CleaningSpread spreadOf(const std::vector<CleaningRow>& rows);
 
-/// What a verdict on the scan as configured, the first row, takes into account. Figures that a row does not have, or that
-/// are 0, do not count.
+/// What a verdict on the scan as configured, the first row, takes into account. Figures that a row
+/// does not have, or that are 0, do not count.
 CleaningReach reachOf(const std::vector<CleaningRow>& rows);
 
-/// The rows as a table of fixed width for people, a line each and sentences about the spread; every line ends in '\n'
-/// and begins with `indent`.
+/// The rows as a table of fixed width for people, a line each and sentences about the spread; every
+/// line ends in '\n' and begins with `indent`.
 std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::string& indent = {});
 
 }  // namespace mems_stiction

@@ -44,30 +44,33 @@ HeightMap decimated(const HeightMap& surface, int factor) {
           ++valid;
         }
       }
-      line[col] = 2 * valid >= factor * factor ? sum / valid : std::numeric_limits<double>::quiet_NaN();
+      line[col] =
+          2 * valid >= factor * factor ? sum / valid : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return {heights, factor * surface.pitchX(), factor * surface.pitchY()};
 }
 
 std::string convergenceTable(const std::vector<ConvergenceRow>& rows, const std::string& indent) {
-  std::string text =
-      indent + "resolution     pixels        pull-off [N]           contact area [m^2]     contacts  pixels/contact\n";
+  std::string text = indent +
+                     "resolution     pixels        pull-off [N]           contact area [m^2]     "
+                     "contacts  pixels/contact\n";
   for (const ConvergenceRow& row : rows) {
     const std::string size = std::to_string(row.cols) + " x " + std::to_string(row.rows);
     text += indent;
-    text += plainFormat("%-10s %13s  %10.3g %10s  %11.3g %10s  %8d  %14.3g%s\n", resolutionName(row.decimation),
-                        size.c_str(), row.pull_off_force,
-                        row.decimation == 1 ? "" : percent(row.pull_off_force_ratio).c_str(), row.contact_area,
-                        row.decimation == 1 ? "" : percent(row.contact_area_ratio).c_str(), row.asperity_count,
-                        row.median_contact_pixels,
-                        row.status == Status::kEquilibrium ? "" : (std::string("  ") + word(row.status)).c_str());
+    text += plainFormat(
+        "%-10s %13s  %10.3g %10s  %11.3g %10s  %8d  %14.3g%s\n", resolutionName(row.decimation),
+        size.c_str(), row.pull_off_force,
+        row.decimation == 1 ? "" : percent(row.pull_off_force_ratio).c_str(), row.contact_area,
+        row.decimation == 1 ? "" : percent(row.contact_area_ratio).c_str(), row.asperity_count,
+        row.median_contact_pixels,
+        row.status == Status::kEquilibrium ? "" : (std::string("  ") + word(row.status)).c_str());
   }
   if (rows.size() < 2) return text;
   const ConvergenceRow& half = rows[1];
   text += indent + "From half to full resolution the pull-off force moves by " +
-          percent(1.0 / half.pull_off_force_ratio) + ", the contact area by " + percent(1.0 / half.contact_area_ratio) +
-          ".\n";
+          percent(1.0 / half.pull_off_force_ratio) + ", the contact area by " +
+          percent(1.0 / half.contact_area_ratio) + ".\n";
   return text;
 }
 

@@ -14,9 +14,11 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kUsualShare = 0.9;  // of the scan under its counter-surface: what poses leave uncovered at the edges
+constexpr double kUsualShare =
+    0.9;  // of the scan under its counter-surface: what poses leave uncovered at the edges
 
-constexpr double kCopy = 0.01;  // of the rms height: less between two surfaces, and one was drawn from the other
+constexpr double kCopy =
+    0.01;  // of the rms height: less between two surfaces, and one was drawn from the other
 
 /// What looks wrong in a counter-surface as it was measured.
 std::vector<std::string> warningsAbout(const std::string& name, const HeightMap& measured) {
@@ -29,10 +31,13 @@ std::vector<std::string> warningsAbout(const std::string& name, const HeightMap&
 double coveredShare(const HeightMap& scan, const HeightMap& upper) {
   const cv::Mat valid = validMask(scan.heights());
   const int count = cv::countNonZero(valid);
-  return count > 0 ? static_cast<double>(cv::countNonZero(valid & validMask(upper.heights()))) / count : 1.0;
+  return count > 0
+             ? static_cast<double>(cv::countNonZero(valid & validMask(upper.heights()))) / count
+             : 1.0;
 }
 
-/// Rms of what is between both, but for its mean, over the rms height of the scan [-]; NaN of a flat one.
+/// Rms of what is between both, but for its mean, over the rms height of the scan [-]; NaN of a
+/// flat one.
 double misfit(const HeightMap& scan, const HeightMap& upper) {
   const cv::Mat heights = scan.asDouble().heights();
   const cv::Mat gap = upper.asDouble().heights() - heights;
@@ -45,8 +50,9 @@ double misfit(const HeightMap& scan, const HeightMap& upper) {
 
 }  // namespace
 
-CounterSurfaceSource::CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan,
-                                           const PipelineOptions& cleaning, const ScanLimits& limits)
+CounterSurfaceSource::CounterSurfaceSource(const CounterSurfaceOptions& options,
+                                           const ScanOptions& scan, const PipelineOptions& cleaning,
+                                           const ScanLimits& limits)
     : options_(options), scan_(scan), cleaner_(cleaning), limits_(limits) {}
 
 void CounterSurfaceSource::load() {
@@ -73,9 +79,11 @@ void CounterSurfaceSource::setPose(const SurfacePose& pose) {
 
 void CounterSurfaceSource::setMeasured(const HeightMap& measured) {
   if (measured.empty() && measured_.empty()) return;
-  if (!measured.empty() && options_.facing == CounterSurfaceFacing::kUnstated) throw OptionsError({facingComplaint()});
+  if (!measured.empty() && options_.facing == CounterSurfaceFacing::kUnstated)
+    throw OptionsError({facingComplaint()});
   measured_ = measured;
-  measured_warnings_ = measured.empty() ? std::vector<std::string>() : warningsAbout("the counter-surface", measured);
+  measured_warnings_ = measured.empty() ? std::vector<std::string>()
+                                        : warningsAbout("the counter-surface", measured);
   mounted_measured_ = HeightMap();
   placed_ = HeightMap();
 }
@@ -84,7 +92,8 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
   const SurfacePose& pose = options_.pose;
   const bool is_measured = !measured_.empty();
   if (options_.type == CounterSurfaceType::kTopic && !is_measured) {
-    throw SurfaceError("no counter-surface: counter_surface/type is topic, and no measured one was given");
+    throw SurfaceError(
+        "no counter-surface: counter_surface/type is topic, and no measured one was given");
   }
   const bool is_flat = options_.type == CounterSurfaceType::kFlat && !is_measured;
   if (is_flat && pose.tilt_x == 0.0 && pose.tilt_y == 0.0) return {};
@@ -96,7 +105,8 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
   const HeightMap& surface = unplaced(scan);
   const bool is_on_the_grid = haveSameGrid(surface, scan);
   if (is_measured && !is_on_the_grid) return surface;
-  const Beyond beyond = options_.isGenerated() && !is_measured ? Beyond::kPeriodic : Beyond::kInvalid;
+  const Beyond beyond =
+      options_.isGenerated() && !is_measured ? Beyond::kPeriodic : Beyond::kInvalid;
   placed_ = is_on_the_grid && isIdentity(pose) ? surface : alignedTo(scan, surface, pose, beyond);
   return placed_;
 }
@@ -108,12 +118,14 @@ std::vector<std::string> CounterSurfaceSource::warnings(const HeightMap& scan) c
   const double share = coveredShare(scan, placed_);
   if (share < kUsualShare) {
     lines.push_back("the counter-surface covers " + shortNumber(100.0 * share) +
-                    " % of the scan: over the rest it ends or was not measured and all figures are those of what it "
+                    " % of the scan: over the rest it ends or was not measured and all figures are "
+                    "those of what it "
                     "covers; are its pitch and counter_surface/pose right?");
   }
   if (misfit(scan, placed_) < kCopy) {
     lines.emplace_back(
-        "the counter-surface fits the scan as its cast does: were both read from one file? One with its asperities up "
+        "the counter-surface fits the scan as its cast does: were both read from one file? One "
+        "with its asperities up "
         "wants counter_surface/facing up");
   }
   return lines;
@@ -134,9 +146,11 @@ const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
 HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
   ++cleanings_;
   // A tip erodes from above: what is stated as mounted is cleaned as it was measured.
-  const bool is_upside_down = cleaner_.options().tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
-  const HeightMap cleaned =
-      is_upside_down ? turnedOver(cleaner_.clean(turnedOver(measured)).surface) : cleaner_.clean(measured).surface;
+  const bool is_upside_down =
+      cleaner_.options().tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
+  const HeightMap cleaned = is_upside_down
+                                ? turnedOver(cleaner_.clean(turnedOver(measured)).surface)
+                                : cleaner_.clean(measured).surface;
   cleaner_.letGo();
   limits_.checkPlausibility(cleaned, true);
   return mountedCounterSurface(cleaned, options_.facing);

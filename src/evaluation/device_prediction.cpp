@@ -19,7 +19,8 @@ Configuration forVerdict(Configuration configuration) {
   configuration.check();
   if (configuration.device.contact_area == 0.0) {
     throw OptionsError(
-        {"device/contact_area: is not stated; must be the nominal area of all contacts of the device "
+        {"device/contact_area: is not stated; must be the nominal area of all contacts of the "
+         "device "
          "together, > 0 m^2"});
   }
   return configuration;
@@ -36,7 +37,8 @@ auto named(const std::string& name, Work&& work) {
 }
 
 /// What all scans state alike, each with the settings' part where it names none.
-Provenance provenanceOfAll(const std::vector<ScanIdentity>& identities, const Configuration& stated) {
+Provenance provenanceOfAll(const std::vector<ScanIdentity>& identities,
+                           const Configuration& stated) {
   Provenance all = provenanceOf(identities.empty() ? ScanIdentity() : identities.front(), stated);
   for (std::size_t i = 1; i < identities.size(); ++i) {
     static_cast<ScanIdentity&>(all) = commonIdentity(all, provenanceOf(identities[i], stated));
@@ -61,14 +63,16 @@ DevicePredictor::DevicePredictor(const Configuration& configuration)
   prediction_.formulation = configuration_.model.formulation;
 }
 
-std::vector<std::string> DevicePredictor::noted(const std::string& name, std::vector<std::string> lines) {
+std::vector<std::string> DevicePredictor::noted(const std::string& name,
+                                                std::vector<std::string> lines) {
   for (std::string& line : lines) line.insert(0, name + ": ");
   prediction_.scan_warnings.insert(prediction_.scan_warnings.end(), lines.begin(), lines.end());
   return lines;
 }
 
 std::vector<std::string> DevicePredictor::add(const std::string& name, const HeightMap& scan,
-                                              const std::vector<std::string>& notes, const ScanIdentity& identity) {
+                                              const std::vector<std::string>& notes,
+                                              const ScanIdentity& identity) {
   prepared_.push_back(named(name, [&] { return predictor_.preparer().prepare(scan); }));
   scans_.add(name, prepared_.back());
   prediction_.scans.push_back(name);
@@ -78,7 +82,8 @@ std::vector<std::string> DevicePredictor::add(const std::string& name, const Hei
   return noted(name, std::move(lines));
 }
 
-std::vector<std::string> DevicePredictor::addCounterSurface(const std::string& name, const HeightMap& measured,
+std::vector<std::string> DevicePredictor::addCounterSurface(const std::string& name,
+                                                            const HeightMap& measured,
                                                             const std::vector<std::string>& notes) {
   std::vector<std::string> lines = notes;
   for (std::string& line : named(name, [&] { return scans_.addCounterSurface(name, measured); })) {
@@ -97,17 +102,18 @@ DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_
   if (!device.hasSpring() && !device.hasBeam()) return prediction;
   const std::size_t place = scans_.finest();
   const PreparedScan& finest = prepared_[place];
-  const Prediction of_scan = named(prediction.scans[place], [&] { return predictor_.predict(finest); });
+  const Prediction of_scan =
+      named(prediction.scans[place], [&] { return predictor_.predict(finest); });
   Evidence evidence;
   evidence.device = deviceEvidence(prediction.force);
   const Options options = onFrame(configuration_.model, device, finest.surfaces);
-  prediction.verdict =
-      verdictOf(of_scan, device, configuration_.uncertainty, options, finest.surfaces.lower.cellArea(), evidence);
+  prediction.verdict = verdictOf(of_scan, device, configuration_.uncertainty, options,
+                                 finest.surfaces.lower.cellArea(), evidence);
   return prediction;
 }
 
-std::vector<DeviceForce> DevicePredictor::forces(const std::vector<Options>& models,
-                                                 const std::function<void(double)>& on_progress) const {
+std::vector<DeviceForce> DevicePredictor::forces(
+    const std::vector<Options>& models, const std::function<void(double)>& on_progress) const {
   std::vector<Options> plain = models;
   for (Options& model : plain) model.output = figuresAlone();
   return scans_.forces(plain, on_progress);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// From scans as they were read to the record of a device's force: what predict_device and Python's predict_device share.
+/// From scans as they were read to the record of a device's force: what predict_device and Python's
+/// predict_device share.
 ///
 ///     DevicePredictor predictor(configuration);
 ///     for (const ScanFile& file : files) predictor.add(file.name, file.surface, file.notes);
@@ -29,8 +30,9 @@ struct DevicePrediction {
   std::vector<std::string> counter_surface;  ///< the same of the upper one
   std::string formulation;                   ///< that the made surfaces were brought to contact by
   std::optional<Verdict> verdict;            ///< on the device, where it states what is to open it
-  std::optional<Provenance> provenance;      ///< version, hash of the settings, what all scans state alike
-  std::vector<std::string> scan_warnings;    ///< what looks wrong in a scan, with its name
+  std::optional<Provenance>
+      provenance;  ///< version, hash of the settings, what all scans state alike
+  std::vector<std::string> scan_warnings;  ///< what looks wrong in a scan, with its name
   std::vector<std::string> settings_warnings;
 
   /// Both, and those of the force.
@@ -47,16 +49,19 @@ class DevicePredictor {
   /// - @p notes on how it was read
   /// @return what looks wrong in the scan, each with its name
   /// @throw SurfaceError with the name, if it cannot be used
-  std::vector<std::string> add(const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes,
+  std::vector<std::string> add(const std::string& name, const HeightMap& scan,
+                               const std::vector<std::string>& notes,
                                const ScanIdentity& identity = {});
-  /// Of the surface that meets it, in place of the configured one. @return, @throw as add(), and OptionsError if
-  /// counter_surface/facing does not say how it lies
+  /// Of the surface that meets it, in place of the configured one. @return, @throw as add(), and
+  /// OptionsError if counter_surface/facing does not say how it lies
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured,
                                              const std::vector<std::string>& notes);
 
   /// One of the surfaces that are made for the prediction, the whole of it.
   /// - @p number, @p depth as of DeviceScans::surface()
-  DividedSurface surface(int number, std::optional<double> depth) const { return scans_.surface(number, depth); }
+  DividedSurface surface(int number, std::optional<double> depth) const {
+    return scans_.surface(number, depth);
+  }
   /// What looks wrong in the scans, each with its name.
   const std::vector<std::string>& scanWarnings() const { return prediction_.scan_warnings; }
 
@@ -79,12 +84,13 @@ class DevicePredictor {
   DevicePrediction prediction_;
 };
 
-/// One YAML document, from its "---" to the end of its last line: figures, verdict, then the lists `realisations`,
-/// `parts_of_scans`, `spectrum` and `warnings`, which are there when empty, too. A comment at the end says force and
-/// interval for people.
+/// One YAML document, from its "---" to the end of its last line: figures, verdict, then the lists
+/// `realisations`, `parts_of_scans`, `spectrum` and `warnings`, which are there when empty, too. A
+/// comment at the end says force and interval for people.
 std::string deviceYamlRecord(const DevicePrediction& prediction);
 
-/// The same as one JSON object on one line, without a line end. Numbers that are not finite are null.
+/// The same as one JSON object on one line, without a line end. Numbers that are not finite are
+/// null.
 std::string deviceJsonRecord(const DevicePrediction& prediction);
 
 }  // namespace mems_stiction

@@ -15,16 +15,20 @@
 namespace mems_stiction {
 namespace {
 
-const auto kVisitRealisation = [](const auto& item, auto&& fields) { visitRealisationFields(item, fields); };
-const auto kVisitPart = [](const auto& item, auto&& fields) { visitPartOfScanFields(item, fields); };
+const auto kVisitRealisation = [](const auto& item, auto&& fields) {
+  visitRealisationFields(item, fields);
+};
+const auto kVisitPart = [](const auto& item, auto&& fields) {
+  visitPartOfScanFields(item, fields);
+};
 const auto kVisitBand = [](const auto& item, auto&& fields) { visitBandFields(item, fields); };
 
 /// The verdict's figures but for those that the force has by the same name.
 template <typename Fields>
 void addVerdict(const Verdict& verdict, Fields& fields) {
   visitVerdictFields(verdict, [&](const Figure& figure, const auto& value) {
-    const bool force_has_it =
-        std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 || startsWith(figure.name, "device_pull_off_force");
+    const bool force_has_it = std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 ||
+                              startsWith(figure.name, "device_pull_off_force");
     if (!force_has_it) fields(figure, value);
   });
   fields({"regime_flag_names"}, regimeFlagNames(verdict.regime_flags));
@@ -37,10 +41,12 @@ void addRecord(const DevicePrediction& prediction, Fields& fields) {
   fields.texts("scans", prediction.scans);
   std::vector<std::string> checksums;
   for (const ScanIdentity& identity : prediction.identities) checksums.push_back(identity.checksum);
-  if (std::any_of(checksums.begin(), checksums.end(), [](const std::string& text) { return !text.empty(); })) {
+  if (std::any_of(checksums.begin(), checksums.end(),
+                  [](const std::string& text) { return !text.empty(); })) {
     fields.texts("scan_checksums", checksums);
   }
-  if (!prediction.counter_surface.empty()) fields.texts("counter_surface", prediction.counter_surface);
+  if (!prediction.counter_surface.empty())
+    fields.texts("counter_surface", prediction.counter_surface);
   if (prediction.provenance) visitStatedProvenance(*prediction.provenance, fields);
   fields({"formulation"}, prediction.formulation);
   visitDeviceForceFields(force, fields);
@@ -55,8 +61,10 @@ void addRecord(const DevicePrediction& prediction, Fields& fields) {
 std::string summaryComment(const DevicePrediction& prediction) {
   const DeviceForce& force = prediction.force;
   std::string text = "# Pull-off force of " + shortNumber(force.area) + " m^2 " +
-                     withInterval(force.pull_off_force, force.pull_off_force_lower, force.pull_off_force_upper, "N") +
-                     "; the scans' force by area would say " + shortNumber(force.linear_pull_off_force, 2) + " N";
+                     withInterval(force.pull_off_force, force.pull_off_force_lower,
+                                  force.pull_off_force_upper, "N") +
+                     "; the scans' force by area would say " +
+                     shortNumber(force.linear_pull_off_force, 2) + " N";
   text += ".\n";
   if (prediction.verdict) text += "# " + verdictSentence(*prediction.verdict) + "\n";
   return text;

@@ -12,7 +12,9 @@
 namespace mems_stiction {
 namespace {
 
-double pixelOf(const NamedScan& scan) { return std::max(scan.surface.pitchX(), scan.surface.pitchY()); }
+double pixelOf(const NamedScan& scan) {
+  return std::max(scan.surface.pitchX(), scan.surface.pitchY());
+}
 
 /// For a counter-surface by itself, on its own grid.
 Configuration ofCounterSurface(Configuration configuration) {
@@ -32,15 +34,17 @@ void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
   if (upper.empty() || has_own_counter_surface_) return;
   const bool is_of_scan = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
   const std::vector<NamedScan>& before = surfaces_.counter_surface;
-  const bool is_there = std::any_of(before.begin(), before.end(),
-                                    [&](const NamedScan& other) { return haveSameGrid(other.surface, upper); });
+  const bool is_there = std::any_of(before.begin(), before.end(), [&](const NamedScan& other) {
+    return haveSameGrid(other.surface, upper);
+  });
   if (is_there && !is_of_scan) return;
   UnresolvedWaves with_scan = prepared.short_waves;  // of the relief, which has them already
   with_scan.rms_height = 0.0;
   surfaces_.counter_surface.push_back({"the counter-surface of " + name, upper, with_scan});
 }
 
-std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name, const HeightMap& measured) {
+std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name,
+                                                        const HeightMap& measured) {
   ScanPreparer preparer(ofCounterSurface(configuration_));
   preparer.setMeasuredCounterSurface(measured);
   const PreparedScan prepared = preparer.prepare(measured);
@@ -51,8 +55,9 @@ std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name,
 }
 
 std::size_t DeviceScans::finest() const {
-  const auto found = std::min_element(surfaces_.scans.begin(), surfaces_.scans.end(),
-                                      [](const auto& one, const auto& other) { return pixelOf(one) < pixelOf(other); });
+  const auto found = std::min_element(
+      surfaces_.scans.begin(), surfaces_.scans.end(),
+      [](const auto& one, const auto& other) { return pixelOf(one) < pixelOf(other); });
   return static_cast<std::size_t>(found - surfaces_.scans.begin());
 }
 
@@ -61,7 +66,8 @@ Options DeviceScans::loaded(const Options& model) const {
 }
 
 DividedSurface DeviceScans::surface(int number, std::optional<double> depth) const {
-  return {surfaces_, area(), loaded(configuration_.model), configuration_.device_force, number, depth};
+  return {surfaces_, area(), loaded(configuration_.model), configuration_.device_force,
+          number,    depth};
 }
 
 DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) const {
@@ -73,7 +79,8 @@ std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
   std::vector<Options> all;
   all.reserve(models.size());
   for (const Options& model : models) all.push_back(loaded(model));
-  return deviceForces(surfaces_, area(), all, configuration_.uncertainty, configuration_.device_force, on_progress);
+  return deviceForces(surfaces_, area(), all, configuration_.uncertainty,
+                      configuration_.device_force, on_progress);
 }
 
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
@@ -94,7 +101,8 @@ Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& confi
   return evidence;
 }
 
-std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared, const Configuration& configuration,
+std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared,
+                                       const Configuration& configuration,
                                        const std::function<void(double)>& on_progress) {
   const Evidence evidence = evidenceOfScan(prepared, configuration, on_progress);
   if (!evidence.device) return std::nullopt;

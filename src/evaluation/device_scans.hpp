@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The force of a device from scans as its settings have them: cleaned, under their counter-surface, with their load.
-/// What programs, Python and the node share.
+/// The force of a device from scans as its settings have them: cleaned, under their
+/// counter-surface, with their load. What programs, Python and the node share.
 ///
 ///     DeviceScans scans(configuration);
 ///     for (const auto& [name, scan] : files) scans.add(name, preparer.prepare(scan));
@@ -26,11 +26,13 @@ class DeviceScans {
  public:
   explicit DeviceScans(const Configuration& configuration) : configuration_(configuration) {}
 
-  /// Of the lower surface, with what lies over it: a counter-surface from a file or a generator counts once on each grid.
+  /// Of the lower surface, with what lies over it: a counter-surface from a file or a generator
+  /// counts once on each grid.
   void add(const std::string& name, const PreparedScan& prepared);
-  /// Of the upper surface, as it was measured: cleaned as the scans are, turned over if counter_surface/facing is up. The
-  /// first one takes the place of all that lay over the scans.
-  /// @throw OptionsError if counter_surface/facing does not say how it lies; SurfaceError if it cannot be used.
+  /// Of the upper surface, as it was measured: cleaned as the scans are, turned over if
+  /// counter_surface/facing is up. The first one takes the place of all that lay over the scans.
+  /// @throw OptionsError if counter_surface/facing does not say how it lies; SurfaceError if it
+  /// cannot be used.
   /// @return what looks wrong in it
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured);
 
@@ -42,7 +44,8 @@ class DeviceScans {
   /// - @p depth as of DividedSurface
   /// @throw as DividedSurface()
   DividedSurface surface(int number, std::optional<double> depth) const;
-  /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the first scan.
+  /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the
+  /// first scan.
   /// @throw as deviceForce()
   DeviceForce force(const std::function<void(double)>& on_progress = {}) const;
   /// The same by each of several models.
@@ -50,7 +53,9 @@ class DeviceScans {
                                   const std::function<void(double)>& on_progress = {}) const;
 
  private:
-  DeviceArea area() const { return {configuration_.device.contact_area, configuration_.device.contacts}; }
+  DeviceArea area() const {
+    return {configuration_.device.contact_area, configuration_.device.contacts};
+  }
   /// With the load on the first scan.
   Options loaded(const Options& model) const;
 
@@ -60,13 +65,18 @@ class DeviceScans {
   bool has_own_counter_surface_ = false;
 };
 
-/// What one scan by itself says of its device, if the verdict asks for it; where nothing was found, the reason.
-/// - @p extra gets the force too, unless null; where it was not found, one with nothing in it but a warning
+/// What one scan by itself says of its device, if the verdict asks for it; where nothing was found,
+/// the reason.
+/// - @p extra gets the force too, unless null; where it was not found, one with nothing in it but a
+/// warning
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
-                        const std::function<void(double)>& on_progress = {}, DeviceForce* extra = nullptr);
+                        const std::function<void(double)>& on_progress = {},
+                        DeviceForce* extra = nullptr);
 
-/// The same beside the figures of the scan, for sweeps and cycles of it; nothing if it was not asked for or not found.
-std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared, const Configuration& configuration,
+/// The same beside the figures of the scan, for sweeps and cycles of it; nothing if it was not
+/// asked for or not found.
+std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared,
+                                       const Configuration& configuration,
                                        const std::function<void(double)>& on_progress = {});
 
 }  // namespace mems_stiction

@@ -16,13 +16,15 @@ double nominalArea(const SurfacePair& surfaces) {
 Options onFrame(const Options& options, const DeviceOptions& device, const SurfacePair& surfaces) {
   const LoadOptions& stated = options.load;
   if (!stated.isPerArea()) return options;
-  const double pressure = stated.pressure > 0.0 ? stated.pressure : stated.device_force / device.contact_area;
+  const double pressure =
+      stated.pressure > 0.0 ? stated.pressure : stated.device_force / device.contact_area;
   const double load = pressure * nominalArea(surfaces);
   if (load > stated.max_mechanical_load) {
-    throw SurfaceError((stated.pressure > 0.0 ? "load/pressure of " + numberText(stated.pressure) + " Pa"
-                                              : "load/device_force of " + numberText(stated.device_force) + " N") +
-                       " is " + numberText(load) + " N on this frame; more than load/max_mechanical_load of " +
-                       numberText(stated.max_mechanical_load) + " N");
+    throw SurfaceError(
+        (stated.pressure > 0.0 ? "load/pressure of " + numberText(stated.pressure) + " Pa"
+                               : "load/device_force of " + numberText(stated.device_force) + " N") +
+        " is " + numberText(load) + " N on this frame; more than load/max_mechanical_load of " +
+        numberText(stated.max_mechanical_load) + " N");
   }
   Options scaled = options;
   scaled.load.setMechanicalLoad(load);

@@ -15,7 +15,8 @@ namespace mems_stiction {
 /// Cells that are valid in both surfaces [m^2].
 double nominalArea(const SurfacePair& surfaces);
 
-/// The options with the load of this frame as load.mechanical_load, and neither pressure nor device force.
+/// The options with the load of this frame as load.mechanical_load, and neither pressure nor device
+/// force.
 /// @throw SurfaceError if that is more than load/max_mechanical_load.
 Options onFrame(const Options& options, const DeviceOptions& device, const SurfacePair& surfaces);
 

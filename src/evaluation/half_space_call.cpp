@@ -17,23 +17,27 @@ bool isJudged(const DeviceOptions& device) {
   return (device.hasSpring() && device.contact_area > 0.0) || device.hasBeam();
 }
 
-std::int64_t pixelsOf(const HeightMap& frame) { return static_cast<std::int64_t>(frame.rows()) * frame.cols(); }
+std::int64_t pixelsOf(const HeightMap& frame) {
+  return static_cast<std::int64_t>(frame.rows()) * frame.cols();
+}
 
 std::string tooLarge(const HeightMap& frame, int most) {
   return "a frame of " + std::to_string(frame.rows()) + " x " + std::to_string(frame.cols()) +
          " pixels is larger than half_space/max_flagged_pixels = " + std::to_string(most) +
-         ": scan a smaller area, or ask for it (--half-space, half_space/enabled true, ~solve_half_space)";
+         ": scan a smaller area, or ask for it (--half-space, half_space/enabled true, "
+         "~solve_half_space)";
 }
 
 /// Of a smaller frame than the largest as many more as each takes less.
 std::int64_t mostProducts(std::int64_t pixels, const HalfSpaceOptions& options) {
-  return static_cast<std::int64_t>(static_cast<double>(options.max_flagged_products) * options.max_flagged_pixels /
-                                   static_cast<double>(pixels));
+  return static_cast<std::int64_t>(static_cast<double>(options.max_flagged_products) *
+                                   options.max_flagged_pixels / static_cast<double>(pixels));
 }
 
 std::string tooLong(std::int64_t pixels, const HalfSpaceOptions& options) {
   return "its solution takes more than " + std::to_string(mostProducts(pixels, options)) +
-         " products (half_space/max_flagged_products = " + std::to_string(options.max_flagged_products) +
+         " products (half_space/max_flagged_products = " +
+         std::to_string(options.max_flagged_products) +
          "): ask for it (--half-space, half_space/enabled true, ~solve_half_space)";
 }
 
@@ -41,7 +45,8 @@ std::string tooLong(std::int64_t pixels, const HalfSpaceOptions& options) {
 std::string objectionTo(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const HeightMap& frame = problem.surfaces.lower;
   if (options.path == HalfSpacePath::kRest) return kRestAlone;
-  if (pixelsOf(frame) > options.max_flagged_pixels) return tooLarge(frame, options.max_flagged_pixels);
+  if (pixelsOf(frame) > options.max_flagged_pixels)
+    return tooLarge(frame, options.max_flagged_pixels);
   try {
     return isResolved(problem, options) ? "" : kPixelsTooLarge;
   } catch (const Error& error) {
@@ -79,27 +84,30 @@ bool mayCallHalfSpace(const Configuration& configuration) {
     case HalfSpaceUse::kNever:
       return false;
     case HalfSpaceUse::kFlagged:
-      return isJudged(configuration.device) && skillsOf(configuration.model.formulation).calls_half_space;
+      return isJudged(configuration.device) &&
+             skillsOf(configuration.model.formulation).calls_half_space;
     case HalfSpaceUse::kAlways:
       break;
   }
   return true;
 }
 
-HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& prepared, const Options& options,
-                            const Configuration& configuration) {
+HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& prepared,
+                            const Options& options, const Configuration& configuration) {
   HalfSpaceCall call;
   if (!mayCallHalfSpace(configuration)) return call;
   call.is_made = true;
   if (configuration.half_space.enabled == HalfSpaceUse::kAlways) return call;
-  call.why = regimeFlagNames(flagsForHalfSpace(regimeFlags(prediction, prepared.surfaces.lower.cellArea())));
+  call.why = regimeFlagNames(
+      flagsForHalfSpace(regimeFlags(prediction, prepared.surfaces.lower.cellArea())));
   call.is_made = !call.why.empty();
-  if (call.is_made) call.objection = objectionTo(halfSpaceProblem(prepared, options), configuration.half_space);
+  if (call.is_made)
+    call.objection = objectionTo(halfSpaceProblem(prepared, options), configuration.half_space);
   return call;
 }
 
-SolvedHalfSpace answerOf(const HalfSpaceCall& call, const HalfSpaceSolver& solver, const HalfSpaceProblem& problem,
-                         const HalfSpaceControl& control) {
+SolvedHalfSpace answerOf(const HalfSpaceCall& call, const HalfSpaceSolver& solver,
+                         const HalfSpaceProblem& problem, const HalfSpaceControl& control) {
   if (call.why.empty()) return solver.solve(problem, control);
   if (!call.objection.empty()) return unsolvedHalfSpace(call.objection);
   const std::int64_t pixels = pixelsOf(problem.surfaces.lower);

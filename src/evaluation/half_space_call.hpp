@@ -1,9 +1,10 @@
 #pragma once
 
 /// @file
-/// half_space/enabled: which scans are solved as a half-space beside their prediction, and what that may cost. What the
-/// flags of a prediction ask for is bounded (half_space/max_flagged_...), and is not begun where it could not judge;
-/// why not is the answer then. What bounds it counts work, not time: the same scan has the same answer everywhere.
+/// half_space/enabled: which scans are solved as a half-space beside their prediction, and what
+/// that may cost. What the flags of a prediction ask for is bounded (half_space/max_flagged_...),
+/// and is not begun where it could not judge; why not is the answer then. What bounds it counts
+/// work, not time: the same scan has the same answer everywhere.
 ///
 ///     const HalfSpaceCall call = halfSpaceCall(prediction, prepared, options, configuration);
 ///     if (call.is_made) {
@@ -22,8 +23,8 @@
 
 namespace mems_stiction {
 
-/// Whether a scan with these settings may be solved, so that tables have columns for it. The flags of some
-/// formulations ask for nothing (SolverSkills): these are asked for what was published.
+/// Whether a scan with these settings may be solved, so that tables have columns for it. The flags
+/// of some formulations ask for nothing (SolverSkills): these are asked for what was published.
 bool mayCallHalfSpace(const Configuration& configuration);
 
 /// Whether one scan is solved.
@@ -35,12 +36,13 @@ struct HalfSpaceCall {
 
 /// - @p options the model's, with the load of the frame
 /// - @p configuration with the device; its model is not looked at
-HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& prepared, const Options& options,
-                            const Configuration& configuration);
+HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& prepared,
+                            const Options& options, const Configuration& configuration);
 
-/// Of a call that is made. What flags ask for and cannot be solved is an unsolved one with the reason.
+/// Of a call that is made. What flags ask for and cannot be solved is an unsolved one with the
+/// reason.
 /// - @p control, throws as of HalfSpaceSolver::solve()
-SolvedHalfSpace answerOf(const HalfSpaceCall& call, const HalfSpaceSolver& solver, const HalfSpaceProblem& problem,
-                         const HalfSpaceControl& control = {});
+SolvedHalfSpace answerOf(const HalfSpaceCall& call, const HalfSpaceSolver& solver,
+                         const HalfSpaceProblem& problem, const HalfSpaceControl& control = {});
 
 }  // namespace mems_stiction

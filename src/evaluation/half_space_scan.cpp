@@ -10,7 +10,8 @@
 namespace mems_stiction {
 namespace {
 
-/// Share of the hardness from which on a pressure is the hardness: balance of tractions and single precision.
+/// Share of the hardness from which on a pressure is the hardness: balance of tractions and single
+/// precision.
 constexpr double kAtHardness = 0.999;
 
 }  // namespace
@@ -26,8 +27,9 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
   return problem;
 }
 
-Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared, const Options& options,
-                         const Configuration& configuration, const Evidence& beside) {
+Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared,
+                         const Options& options, const Configuration& configuration,
+                         const Evidence& beside) {
   Configuration asked = configuration;
   asked.model = options;
   asked.counter_surface = {};  // the prepared scan has it
@@ -36,8 +38,8 @@ Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prep
   const Prediction prediction = predictor.predict(prepared);
   Evidence evidence = beside;
   evidence.half_space = &solved;
-  return verdictOf(prediction, asked.device, asked.uncertainty, asked.model, prepared.surfaces.lower.cellArea(),
-                   evidence);
+  return verdictOf(prediction, asked.device, asked.uncertainty, asked.model,
+                   prepared.surfaces.lower.cellArea(), evidence);
 }
 
 cv::Mat halfSpaceContactMap(const SolvedHalfSpace& solved, const HalfSpaceProblem& problem,
@@ -45,8 +47,10 @@ cv::Mat halfSpaceContactMap(const SolvedHalfSpace& solved, const HalfSpaceProble
   if (solved.pressure.empty()) return cv::Mat();
   cv::Mat map = cv::Mat::zeros(solved.pressure.size(), CV_8UC1);
   map.setTo(static_cast<int>(Regime::kElastic), solved.pressure > 0.0);  // NaN is not
-  const double hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
-  if (options.flow) map.setTo(static_cast<int>(Regime::kPlastic), solved.pressure > kAtHardness * hardness);
+  const double hardness =
+      std::min(problem.lower_material.hardness, problem.upper_material.hardness);
+  if (options.flow)
+    map.setTo(static_cast<int>(Regime::kPlastic), solved.pressure > kAtHardness * hardness);
   return refinement > 1 ? blockMaxima(map, refinement) : map;
 }
 

@@ -7,10 +7,13 @@
 namespace mems_stiction {
 namespace {
 
-std::size_t bytesOf(const HeightMap& surface) { return surface.heights().total() * surface.heights().elemSize(); }
+std::size_t bytesOf(const HeightMap& surface) {
+  return surface.heights().total() * surface.heights().elemSize();
+}
 
 bool haveSamePixels(const HeightMap& left, const HeightMap& right) {
-  return left.heights().data == right.heights().data && left.rows() == right.rows() && left.cols() == right.cols();
+  return left.heights().data == right.heights().data && left.rows() == right.rows() &&
+         left.cols() == right.cols();
 }
 
 bool haveSamePixels(const SurfacePair& left, const SurfacePair& right) {
@@ -38,9 +41,10 @@ std::vector<ScannedSurface>::iterator mostSpareable(std::vector<ScannedSurface>&
   auto found = scans.begin();
   std::ptrdiff_t most = 0;
   for (auto scan = scans.begin(); scan != scans.end(); ++scan) {
-    const std::ptrdiff_t alike = std::count_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
-      return haveSameGrid(scan->scan.surfaces.lower, other.scan.surfaces.lower);
-    });
+    const std::ptrdiff_t alike =
+        std::count_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
+          return haveSameGrid(scan->scan.surfaces.lower, other.scan.surfaces.lower);
+        });
     if (alike <= most) continue;
     most = alike;
     found = scan;
@@ -68,9 +72,10 @@ std::vector<ScanStatement> ScannedPart::statements() const {
   return statements;
 }
 
-std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan_id, ScanStatement statement,
-                                        const PreparedScan& scan) {
-  const auto entry = std::find_if(parts_.begin(), parts_.end(), [&](const Entry& other) { return other.name == part; });
+std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan_id,
+                                        ScanStatement statement, const PreparedScan& scan) {
+  const auto entry = std::find_if(parts_.begin(), parts_.end(),
+                                  [&](const Entry& other) { return other.name == part; });
   if (entry == parts_.end()) {
     parts_.push_back({part, {}});
   } else {
@@ -80,7 +85,8 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
   std::vector<ScannedSurface>& scans = own.scans;
   const bool is_alone = part.first.empty() && part.second.empty();
   const auto same = std::find_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
-    return scan_id != 0 ? other.id == scan_id : haveSamePixels(other.scan.surfaces.lower, scan.surfaces.lower);
+    return scan_id != 0 ? other.id == scan_id
+                        : haveSamePixels(other.scan.surfaces.lower, scan.surfaces.lower);
   });
   if (same != scans.end()) {
     statement.scan_name = same->statement.scan_name;
@@ -93,9 +99,11 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
     while (is_alone && !scans.empty()) drop(own, scans.begin());
     own.taken = is_alone ? 1 : own.taken + 1;
     std::string& name = statement.scan_name;
-    const bool is_named_before = std::any_of(
-        scans.begin(), scans.end(), [&](const ScannedSurface& other) { return other.statement.scan_name == name; });
-    if (is_named_before || name.empty()) name += (name.empty() ? "scan " : " ") + std::to_string(own.taken);
+    const bool is_named_before =
+        std::any_of(scans.begin(), scans.end(),
+                    [&](const ScannedSurface& other) { return other.statement.scan_name == name; });
+    if (is_named_before || name.empty())
+      name += (name.empty() ? "scan " : " ") + std::to_string(own.taken);
     scans.push_back({scan_id, ++numbers_, std::move(statement), surfacesAlone(scan)});
     bytes_ += bytesOf(scan);
     while (scans.size() > most_.scans) drop(own, mostSpareable(scans));
@@ -112,7 +120,8 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
 }
 
 std::optional<ScannedPart> PartSurfaces::of(const PartName& part) const {
-  const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const Entry& other) { return other.name == part; });
+  const auto found = std::find_if(parts_.begin(), parts_.end(),
+                                  [&](const Entry& other) { return other.name == part; });
   if (found == parts_.end()) return std::nullopt;
   return found->part;
 }

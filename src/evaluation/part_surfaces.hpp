@@ -3,10 +3,10 @@
 /// @file
 /// Which surfaces have been scanned of one part? Several parts at once, in bounded memory.
 ///
-/// Scans belong together that state the same part_id and the same serial_id, whatever they were predicted with: a load
-/// does not change what was scanned. A scan that states neither is a part of its own, and the next such scan takes its
-/// place. Where a part has more scans than are kept, the oldest of those with the commonest grid goes: one coarse wide
-/// scan among many fine ones stays.
+/// Scans belong together that state the same part_id and the same serial_id, whatever they were
+/// predicted with: a load does not change what was scanned. A scan that states neither is a part of
+/// its own, and the next such scan takes its place. Where a part has more scans than are kept, the
+/// oldest of those with the commonest grid goes: one coarse wide scan among many fine ones stays.
 ///
 ///     PartSurfaces parts({16, 1000000000});
 ///     parts.add({part_id, serial_id}, stamp, statement, prepared);
@@ -39,8 +39,9 @@ struct SurfaceLimits {
 struct ScannedSurface {
   std::uint64_t id = 0;      ///< of the scan; 0 = it has none
   std::uint64_t number = 0;  ///< no two surfaces have the same
-  ScanStatement statement;   ///< what it says by itself, newest; no two scans of a part have the same name
-  PreparedScan scan;         ///< its surfaces alone
+  ScanStatement
+      statement;      ///< what it says by itself, newest; no two scans of a part have the same name
+  PreparedScan scan;  ///< its surfaces alone
 };
 
 /// What is kept of one part.
@@ -61,7 +62,8 @@ class PartSurfaces {
  public:
   explicit PartSurfaces(const SurfaceLimits& most) : most_(most) {}
 
-  /// - @p scan_id a scan of the same part with the same number takes the place of the one before; one
+  /// - @p scan_id a scan of the same part with the same number takes the place of the one before;
+  /// one
   ///   without a number (0) is known by its pixels
   /// - @p statement what the scan says by itself, with its name
   /// @return parts that had to go for it

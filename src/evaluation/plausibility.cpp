@@ -20,27 +20,30 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   const auto checkBody = [&lines](const std::string& body, const Material& material) {
     const bool is_named = !isUsual(body + "/hardness", material.hardness);
     if (is_named || material.hardness >= kSoftestShare * material.youngs_modulus) return;
-    lines.push_back(body + "/hardness " + fourDigits(material.hardness) + " Pa beside " + body + "/youngs_modulus " +
-                    fourDigits(material.youngs_modulus) + " Pa is softer than any solid (" + fourDigits(kSoftestShare) +
+    lines.push_back(body + "/hardness " + fourDigits(material.hardness) + " Pa beside " + body +
+                    "/youngs_modulus " + fourDigits(material.youngs_modulus) +
+                    " Pa is softer than any solid (" + fourDigits(kSoftestShare) +
                     " of its modulus): are both units right?");
   };
   checkBody("lower", configuration.model.lower);
   checkBody("upper", configuration.model.upper);
   const auto checkPlate = [&](const std::string& body, const Material& material) {
     const LoadOptions& load = configuration.model.load;
-    if (load.voltage == 0.0 || !(material.thickness > 0.0) || material.backing != Backing::kFree) return;
-    lines.push_back(
-        "load/voltage " + fourDigits(load.voltage) + " V beside " + body + "/thickness " +
-        fourDigits(material.thickness) +
-        " m: the voltage presses the surfaces of the frame together and their plate bends onto the contacts; how it "
-        "bends the whole part between its anchors is left out");
+    if (load.voltage == 0.0 || !(material.thickness > 0.0) || material.backing != Backing::kFree)
+      return;
+    lines.push_back("load/voltage " + fourDigits(load.voltage) + " V beside " + body +
+                    "/thickness " + fourDigits(material.thickness) +
+                    " m: the voltage presses the surfaces of the frame together and their plate "
+                    "bends onto the contacts; how it "
+                    "bends the whole part between its anchors is left out");
   };
   checkPlate("lower", configuration.model.lower);
   checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;
   if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
-    lines.push_back("device/beam_length " + fourDigits(device.beam_length) + " m beside device/beam_thickness " +
-                    fourDigits(device.beam_thickness) + " m is no beam (at least " + fourDigits(kSlenderness) +
+    lines.push_back("device/beam_length " + fourDigits(device.beam_length) +
+                    " m beside device/beam_thickness " + fourDigits(device.beam_thickness) +
+                    " m is no beam (at least " + fourDigits(kSlenderness) +
                     " times as long as thick): were they swapped?");
   }
 }
@@ -64,11 +67,14 @@ std::vector<std::string> frameWarnings(const Prediction& prediction, const Optio
   const double pressure = prediction.mechanical_load / prediction.nominal_area;
   const double hardness = std::min(options.lower.hardness, options.upper.hardness);
   if (pressure > hardness) {
-    lines.push_back("the mechanical load of " + fourDigits(prediction.mechanical_load) + " N is " +
-                    fourDigits(pressure) + " Pa on this frame and more than the hardness of " + fourDigits(hardness) +
-                    " Pa: it is the load on the scanned area; load/device_force is that on the device");
+    lines.push_back(
+        "the mechanical load of " + fourDigits(prediction.mechanical_load) + " N is " +
+        fourDigits(pressure) + " Pa on this frame and more than the hardness of " +
+        fourDigits(hardness) +
+        " Pa: it is the load on the scanned area; load/device_force is that on the device");
   }
-  for (std::string& line : breakdownWarnings(options, device, prediction.mean_gap)) lines.push_back(std::move(line));
+  for (std::string& line : breakdownWarnings(options, device, prediction.mean_gap))
+    lines.push_back(std::move(line));
   return lines;
 }
 
@@ -78,13 +84,15 @@ std::vector<std::string> warningsOf(const PreparedScan& prepared) {
   return lines;
 }
 
-std::vector<std::string> predictionWarnings(const PreparedScan& prepared, const Configuration& configuration,
+std::vector<std::string> predictionWarnings(const PreparedScan& prepared,
+                                            const Configuration& configuration,
                                             const Prediction& prediction, const Options& options) {
   std::vector<std::string> lines = warningsOf(prepared);
   const std::string missing = whatIsMissing(prediction.short_waves, kTheScan);
   if (!missing.empty()) lines.push_back(missing);
   for (const std::vector<std::string>& more :
-       {settingsWarnings(configuration), frameWarnings(prediction, options, configuration.device)}) {
+       {settingsWarnings(configuration),
+        frameWarnings(prediction, options, configuration.device)}) {
     lines.insert(lines.end(), more.begin(), more.end());
   }
   return lines;

@@ -49,7 +49,8 @@ cv::Mat blockMeans(const cv::Mat& cells, int factor) {
   return means;
 }
 
-/// A refusal ends with what looks wrong in the scan, most likely its cause: lines that a stopped scan did not reach.
+/// A refusal ends with what looks wrong in the scan, most likely its cause: lines that a stopped
+/// scan did not reach.
 CleanedScan cleanedOrWhyNot(ScanCleaner& cleaner, const HeightMap& scan) {
   try {
     return cleaner.clean(scan);
@@ -80,7 +81,8 @@ void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, bool is_
 SurfacePair onScanGrid(const PreparedScan& prepared, const SurfacePair& after) {
   const int factor = prepared.refinement;
   const HeightMap& grid = prepared.surfaces.lower;
-  const auto onGrid = [&](const HeightMap& scan, const HeightMap& before, const HeightMap& now) -> HeightMap {
+  const auto onGrid = [&](const HeightMap& scan, const HeightMap& before,
+                          const HeightMap& now) -> HeightMap {
     if (now.empty()) return {};
     const cv::Mat heights = now.asDouble().heights();
     if (before.empty()) return {blockMeans(heights, factor), grid.pitchX(), grid.pitchY()};
@@ -90,7 +92,8 @@ SurfacePair onScanGrid(const PreparedScan& prepared, const SurfacePair& after) {
   };
   const SurfacePair& scan = prepared.surfaces;
   const SurfacePair& before = prepared.model_surfaces;
-  return {onGrid(scan.lower, before.lower, after.lower), onGrid(scan.upper, before.upper, after.upper)};
+  return {onGrid(scan.lower, before.lower, after.lower),
+          onGrid(scan.upper, before.upper, after.upper)};
 }
 
 ScanPreparer::ScanPreparer(const Configuration& configuration)
@@ -99,10 +102,12 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       limits_(configuration.limits),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
-      tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
-                                                            : configuration.preprocessing.tip.radius),
-      counter_surface_(std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
-                                                              withoutRegion(cleaner_.options()), limits_)) {
+      tip_radius_(configuration.resolution.tip_radius > 0.0
+                      ? configuration.resolution.tip_radius
+                      : configuration.preprocessing.tip.radius),
+      counter_surface_(
+          std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
+                                                 withoutRegion(cleaner_.options()), limits_)) {
   try {
     counter_surface_->load();
   } catch (const OptionsError&) {
@@ -131,13 +136,19 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 
 ScanPreparer::~ScanPreparer() = default;
 
-void ScanPreparer::setCounterSurfacePose(const SurfacePose& pose) { counter_surface_->setPose(pose); }
+void ScanPreparer::setCounterSurfacePose(const SurfacePose& pose) {
+  counter_surface_->setPose(pose);
+}
 
 const SurfacePose& ScanPreparer::counterSurfacePose() const { return counter_surface_->pose(); }
 
-void ScanPreparer::setMeasuredCounterSurface(const HeightMap& measured) { counter_surface_->setMeasured(measured); }
+void ScanPreparer::setMeasuredCounterSurface(const HeightMap& measured) {
+  counter_surface_->setMeasured(measured);
+}
 
-std::uint64_t ScanPreparer::cleanings() const { return scans_cleaned_ + counter_surface_->cleanings(); }
+std::uint64_t ScanPreparer::cleanings() const {
+  return scans_cleaned_ + counter_surface_->cleanings();
+}
 
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   const auto start = std::chrono::steady_clock::now();
@@ -150,7 +161,8 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   if (!remarks.implausible.empty()) limits_.checkPlausibility(cleaned.surface);
   PreparedScan prepared = ready({cleaned.surface, counter_surface_->over(cleaned.surface)});
   PreprocessRecord& record = cleaned.record;
-  record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
+  record.steps.insert(record.steps.end(), prepared.record.steps.begin(),
+                      prepared.record.steps.end());
   prepared.record = std::move(record);
   prepared.warnings = remarks.all();
   for (const std::string& warning : cleaningWarnings(scan, cleaned.surface, cleaner_.options())) {
@@ -167,12 +179,14 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   }
   if (tip_radius_ > 0.0) prepared.tip_limit = tipLimit(prepared.surfaces.lower, tip_radius_);
   addShortWaves(prepared);
-  prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  prepared.preparation_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
 }
 
 void ScanPreparer::addShortWaves(PreparedScan& prepared) {
-  prepared.short_waves = unresolvedWaves(prepared.surfaces.lower, prepared.surfaces.upper, prepared.tip_limit);
+  prepared.short_waves =
+      unresolvedWaves(prepared.surfaces.lower, prepared.surfaces.upper, prepared.tip_limit);
 }
 
 void ScanPreparer::addRoughness(PreparedScan& prepared) const {
@@ -186,7 +200,8 @@ PreparedScan ScanPreparer::worn(const PreparedScan& as_made, const Wear& wear) c
   if (wear.empty()) return as_made;
   PreparedScan prepared = as_made;
   prepared.model_surfaces = wear.on(as_made.model_surfaces);
-  prepared.surfaces = as_made.refinement > 1 ? onScanGrid(as_made, prepared.model_surfaces) : prepared.model_surfaces;
+  prepared.surfaces = as_made.refinement > 1 ? onScanGrid(as_made, prepared.model_surfaces)
+                                             : prepared.model_surfaces;
   addRoughness(prepared);
   return prepared;
 }

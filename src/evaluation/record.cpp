@@ -29,12 +29,13 @@ void visitScanFields(const HeightMap& scan, Visitor&& visit) {
 
 /// Figures of the prediction and of the verdict, and what limits both.
 template <typename Visitor>
-void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
-                       Visitor&& visit) {
+void visitResultFields(const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras, Visitor&& visit) {
   if (extras.provenance) visitStatedProvenance(*extras.provenance, visit);
   if (!extras.formulation.empty()) visit({"formulation"}, extras.formulation);
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-    const bool verdict_has_it = extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
+    const bool verdict_has_it =
+        extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
     if (!verdict_has_it) visit(figure, value);
   });
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
@@ -56,19 +57,32 @@ bool hasTipStep(const PreprocessRecord& record) {
 bool isComputed(const SpatialRoughness& roughness) { return !std::isnan(roughness.sal); }
 
 const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
-const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
-const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
-const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSeparationPointFields(item, fields); };
-const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
+const auto kVisitPoint = [](const auto& item, auto&& fields) {
+  visitEnergyPointFields(item, fields);
+};
+const auto kVisitCurvePoint = [](const auto& item, auto&& fields) {
+  visitCurvePointFields(item, fields);
+};
+const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) {
+  visitSeparationPointFields(item, fields);
+};
+const auto kVisitCleaning = [](const auto& item, auto&& fields) {
+  visitCleaningFields(item, fields);
+};
 const auto kVisitSweepRow = [](const auto& item, auto&& fields) { visitSweepFields(item, fields); };
-const auto kVisitSummary = [](const auto& item, auto&& fields) { visitSummaryFields(item, fields); };
-const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
+const auto kVisitSummary = [](const auto& item, auto&& fields) {
+  visitSummaryFields(item, fields);
+};
+const auto kVisitRow = [](const auto& item, auto&& fields) {
+  visitConvergenceFields(item, fields);
+};
 
 /// Pull-off force and verdict for people.
 std::string summaryComment(const Prediction& prediction, const RecordExtras& extras) {
   if (!extras.pull_off_interval) return "";
   const ForceInterval& interval = *extras.pull_off_interval;
-  std::string text = "# Pull-off force " + withInterval(prediction.pull_off_force, interval.lower, interval.upper, "N");
+  std::string text = "# Pull-off force " +
+                     withInterval(prediction.pull_off_force, interval.lower, interval.upper, "N");
   if (prediction.isLowerBound()) text += ", a lower bound";
   text += ".\n";
   if (extras.verdict) text += "# " + verdictSentence(*extras.verdict) + "\n";
@@ -77,9 +91,10 @@ std::string summaryComment(const Prediction& prediction, const RecordExtras& ext
 
 /// The record, in the order of its fields. @param fields of YAML or JSON
 template <typename Fields>
-void addRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
-               Fields& fields) {
-  const auto add_list = [](Fields& to, const char* name, const auto& items, const auto& visit_item) {
+void addRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+               const RecordExtras& extras, Fields& fields) {
+  const auto add_list = [](Fields& to, const char* name, const auto& items,
+                           const auto& visit_item) {
     if (!items.empty()) to.list(name, items, visit_item);
   };
   fields({"file"}, file);
@@ -88,10 +103,12 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
   visitResultFields(scan, prediction, extras, fields);
   fields.map("roughness", [&](Fields& roughness) {
     visitRoughnessFields(prediction.roughness, roughness);
-    if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, roughness);
+    if (isComputed(prediction.spatial_roughness))
+      visitSpatialRoughnessFields(prediction.spatial_roughness, roughness);
   });
   if (extras.device_force) {
-    fields.map("device_force", [&](Fields& force) { visitDeviceForceFields(*extras.device_force, force); });
+    fields.map("device_force",
+               [&](Fields& force) { visitDeviceForceFields(*extras.device_force, force); });
   }
   if (!extras.warnings.empty()) fields.texts("warnings", extras.warnings);
   add_list(fields, "preprocessing", extras.preprocessing.steps, kVisitStep);
@@ -101,7 +118,8 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
   add_list(fields, "convergence", extras.convergence, kVisitRow);
   add_list(fields, "cleanings", extras.cleanings, kVisitCleaning);
   if (!extras.cleanings.empty()) {
-    fields.map("cleaning_spread", [&](Fields& spread) { visitSpreadFields(spreadOf(extras.cleanings), spread); });
+    fields.map("cleaning_spread",
+               [&](Fields& spread) { visitSpreadFields(spreadOf(extras.cleanings), spread); });
   }
   add_list(fields, "energy_curve", prediction.energy_curve, kVisitPoint);
   if (extras.has_curve) add_list(fields, "curve", prediction.curve, kVisitSeparationPoint);
@@ -115,7 +133,8 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
   if (extras.sweep) {
     fields.map("sweep", [&](Fields& sweep) {
       sweep({"pull_in_voltage", "V"}, extras.sweep->pull_in_voltage);
-      if (!extras.sweep->pull_in_reason.empty()) sweep({"pull_in_reason"}, extras.sweep->pull_in_reason);
+      if (!extras.sweep->pull_in_reason.empty())
+        sweep({"pull_in_reason"}, extras.sweep->pull_in_reason);
       add_list(sweep, "summaries", extras.sweep->summaries, kVisitSummary);
       add_list(sweep, "points", extras.sweep->rows, kVisitSweepRow);
     });

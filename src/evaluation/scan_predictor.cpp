@@ -34,7 +34,8 @@ Options withoutFrameLoad(Options options) {
 
 HeightMap cropped(const HeightMap& surface, int multiple) {
   if (surface.empty()) return surface;
-  const cv::Rect frame(0, 0, surface.cols() / multiple * multiple, surface.rows() / multiple * multiple);
+  const cv::Rect frame(0, 0, surface.cols() / multiple * multiple,
+                       surface.rows() / multiple * multiple);
   return {surface.heights()(frame).clone(), surface.pitchX(), surface.pitchY()};
 }
 
@@ -44,12 +45,14 @@ void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
   const HeightMap& fine = prepared.model_surfaces.lower;
   prediction.median_contact_pixels /= factor * factor;
   for (auto* const contacts : {&prediction.asperities, &prediction.pull_off_contacts}) {
-    for (Asperity& contact : *contacts) {  // from the middle of the first fine pixel to that of the scan's
+    for (Asperity& contact :
+         *contacts) {  // from the middle of the first fine pixel to that of the scan's
       contact.x -= 0.5 * (factor - 1) * fine.pitchX();
       contact.y -= 0.5 * (factor - 1) * fine.pitchY();
     }
   }
-  if (!prediction.contact_map.empty()) prediction.contact_map = blockMaxima(prediction.contact_map, factor);
+  if (!prediction.contact_map.empty())
+    prediction.contact_map = blockMaxima(prediction.contact_map, factor);
   if (!prediction.deformed_lower.empty()) {
     const SurfacePair after =
         onScanGrid(prepared, {HeightMap(prediction.deformed_lower, fine.pitchX(), fine.pitchY()),
@@ -59,32 +62,39 @@ void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
   }
 }
 
-/// Contacts that reach pixels outside the region count as those at the frame's border: their summits may lie there.
-/// Pixels outside are no missing ones: invalid_fraction is that of the region.
+/// Contacts that reach pixels outside the region count as those at the frame's border: their
+/// summits may lie there. Pixels outside are no missing ones: invalid_fraction is that of the
+/// region.
 /// - @p prepared with a region
 void countRegionAlone(const PreparedScan& prepared, Prediction& prediction) {
   const HeightMap& scan = prepared.surfaces.lower;
   const double pixels = static_cast<double>(prepared.outside.total());
   const double left_out = cv::countNonZero(prepared.outside);
-  prediction.invalid_fraction = std::max(0.0, (prediction.invalid_fraction * pixels - left_out) / (pixels - left_out));
+  prediction.invalid_fraction =
+      std::max(0.0, (prediction.invalid_fraction * pixels - left_out) / (pixels - left_out));
 
-  // From the middle of each pixel to that of the nearest one outside, in pixels: exact along rows and columns.
+  // From the middle of each pixel to that of the nearest one outside, in pixels: exact along rows
+  // and columns.
   cv::Mat distance;
   cv::distanceTransform(prepared.outside == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   const double pitch = std::max(scan.pitchX(), scan.pitchY());
   const auto mark = [&](Asperity& asperity) {
-    const int col = std::clamp(static_cast<int>(std::lround(asperity.x / scan.pitchX())), 0, scan.cols() - 1);
-    const int row = std::clamp(static_cast<int>(std::lround(asperity.y / scan.pitchY())), 0, scan.rows() - 1);
+    const int col =
+        std::clamp(static_cast<int>(std::lround(asperity.x / scan.pitchX())), 0, scan.cols() - 1);
+    const int row =
+        std::clamp(static_cast<int>(std::lround(asperity.y / scan.pitchY())), 0, scan.rows() - 1);
     const double radius = std::sqrt(asperity.area / kPi);
     // A contact ends half a pixel before the middle of the first one outside.
-    if ((static_cast<double>(distance.at<float>(row, col)) - 1.0) * pitch <= radius) asperity.is_at_border = true;
+    if ((static_cast<double>(distance.at<float>(row, col)) - 1.0) * pitch <= radius)
+      asperity.is_at_border = true;
   };
   std::for_each(prediction.asperities.begin(), prediction.asperities.end(), mark);
   std::for_each(prediction.pull_off_contacts.begin(), prediction.pull_off_contacts.end(), mark);
 }
 
 SurfacePair decimated(const SurfacePair& surfaces, int factor) {
-  return {decimated(surfaces.lower, factor), surfaces.upperIsPlane() ? HeightMap() : decimated(surfaces.upper, factor)};
+  return {decimated(surfaces.lower, factor),
+          surfaces.upperIsPlane() ? HeightMap() : decimated(surfaces.upper, factor)};
 }
 
 }  // namespace
@@ -96,8 +106,9 @@ ScanPredictor::ScanPredictor(const Configuration& configuration)
       model_(withoutFrameLoad(options_)),
       limits_(configuration.limits),
       min_contact_pixels_(configuration.resolution.min_contact_pixels),
-      tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
-                                                            : configuration.preprocessing.tip.radius) {}
+      tip_radius_(configuration.resolution.tip_radius > 0.0
+                      ? configuration.resolution.tip_radius
+                      : configuration.preprocessing.tip.radius) {}
 
 void ScanPredictor::setOptions(const Options& options) {
   options.check();
@@ -135,7 +146,8 @@ Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& pr
   return std::move(prediction);
 }
 
-Prediction ScanPredictor::predict(const HeightMap& scan, const HeightMap& measured_counter_surface) {
+Prediction ScanPredictor::predict(const HeightMap& scan,
+                                  const HeightMap& measured_counter_surface) {
   preparer_.setMeasuredCounterSurface(measured_counter_surface);
   return predict(preparer_.prepare(scan));
 }
@@ -143,8 +155,10 @@ Prediction ScanPredictor::predict(const HeightMap& scan, const HeightMap& measur
 std::vector<ConvergenceRow> ScanPredictor::convergence(const PreparedScan& prepared) {
   const SurfacePair& whole = prepared.surfaces;
   if (std::min(whole.lower.rows(), whole.lower.cols()) < kSmallestSide) {
-    throw SurfaceError("a scan of " + std::to_string(whole.lower.cols()) + " x " + std::to_string(whole.lower.rows()) +
-                       " pixels has no quarter resolution to compare with; must have 16 x 16 or more");
+    throw SurfaceError(
+        "a scan of " + std::to_string(whole.lower.cols()) + " x " +
+        std::to_string(whole.lower.rows()) +
+        " pixels has no quarter resolution to compare with; must have 16 x 16 or more");
   }
   const SurfacePair surfaces(cropped(whole.lower, kCoarsest), cropped(whole.upper, kCoarsest));
   std::vector<ConvergenceRow> rows;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Which state of which files a row is of, so that a row is not kept for a file that was measured anew under its name.
+/// Which state of which files a row is of, so that a row is not kept for a file that was measured
+/// anew under its name.
 
 #include <string>
 
@@ -10,16 +11,19 @@
 
 namespace mems_stiction {
 
-/// What a scan's figures follow from beside the settings' values; checksums are empty where there is no such file.
+/// What a scan's figures follow from beside the settings' values; checksums are empty where there
+/// is no such file.
 struct ScanState {
   FileState file;                      ///< the scan, or the bag that it is in
   std::string sidecar_checksum;        ///< of the settings beside a scan
   std::string settings_file_checksum;  ///< settingsFilesChecksum() of named_files.hpp
 };
 
-/// Reads the whole file. To be called before the scan is read: what changes in between shows the next time.
+/// Reads the whole file. To be called before the scan is read: what changes in between shows the
+/// next time.
 /// - @p has_sidecar false for bags
-ScanState scanState(const std::string& path, bool has_sidecar, const std::string& settings_file_checksum);
+ScanState scanState(const std::string& path, bool has_sidecar,
+                    const std::string& settings_file_checksum);
 
 /// Calls visit(Figure, value) for each field, by the names of the columns.
 template <typename Source, typename Visitor>

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Numbers one after another in a string of bytes, for programs on machines of the same order of bytes.
+/// Numbers one after another in a string of bytes, for programs on machines of the same order of
+/// bytes.
 
 #include <cstring>
 #include <string>

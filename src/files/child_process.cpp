@@ -32,65 +32,74 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 /// Most memory that a child may map [bytes]: a damaged file must not take the machine's.
 constexpr rlim_t kChildMemory = rlim_t{8} << 30;
 
-/// A descriptor that can be read when the child has ended, closed with the object; invalid on old kernels.
+/// A descriptor that can be read when the child has ended, closed with the object; invalid on old
+/// kernels.
 class ChildEnd {
  public:
-  explicit ChildEnd(pid_t child) : descriptor_(static_cast<int>(syscall(SYS_pidfd_open, child, 0))) {}
+  explicit ChildEnd(pid_t child)
+      : descriptor_(static_cast<int>(syscall(SYS_pidfd_open, child, 0))) {}
   ~ChildEnd() {
     if (descriptor_ >= 0) close(descriptor_);
   }
   ChildEnd(const ChildEnd&) = delete;
   ChildEnd& operator=(const ChildEnd&) = delete;
 
-  /// Returns when the child has ended, or at the latest when the time is over; sooner without a descriptor.
+  /// Returns when the child has ended, or at the latest when the time is over; sooner without a
+  /// descriptor.
   void await(std::chrono::milliseconds left) const {
     pollfd entry{descriptor_, POLLIN, 0};
     const auto time = descriptor_ >= 0 ? left : std::min(left, std::chrono::milliseconds(5));
-    poll(&entry, descriptor_ >= 0 ? 1 : 0, static_cast<int>(std::clamp<std::int64_t>(time.count(), 0, 1 << 30)));
+    poll(&entry, descriptor_ >= 0 ? 1 : 0,
+         static_cast<int>(std::clamp<std::int64_t>(time.count(), 0, 1 << 30)));
   }
 
  private:
   int descriptor_;
 };
 
-/// Waits until the child has ended or the deadline has passed. @return true if it has ended; it is not reaped then
+/// Waits until the child has ended or the deadline has passed. @return true if it has ended; it is
+/// not reaped then
 bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline) {
   const ChildEnd end(child);
   for (;;) {
     siginfo_t information{};
-    const int state = waitid(P_PID, static_cast<id_t>(child), &information, WEXITED | WNOHANG | WNOWAIT);
+    const int state =
+        waitid(P_PID, static_cast<id_t>(child), &information, WEXITED | WNOHANG | WNOWAIT);
     if (state != 0 && errno != EINTR) return true;
     if (state == 0 && information.si_pid == child) return true;
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     if (left.count() <= 0) return false;
     end.await(left);
   }
 }
 
 /// While a RunningChild is made. @return the child's id, or -1 if it could not be started
-pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                 const std::string& log_path) {
+pid_t startChild(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment, const std::string& log_path) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_path.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  // A process group of its own, so that a timeout also ends what the child has started; and default signals, since
-  // the caller may block or ignore some.
+  // A process group of its own, so that a timeout also ends what the child has started; and default
+  // signals, since the caller may block or ignore some.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
   sigset_t all;
   sigemptyset(&none);
   sigfillset(&all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
 
   pid_t child = -1;
-  const int error = posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes, pointers(arguments).data(),
-                                 pointers(environment).data());
+  const int error = posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes,
+                                 pointers(arguments).data(), pointers(environment).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) return -1;
@@ -103,16 +112,17 @@ pid_t startChild(const std::vector<std::string>& arguments, const std::vector<st
 
 }  // namespace
 
-ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                     const std::string& log_path, double timeout) {
+ChildResult runChild(const std::vector<std::string>& arguments,
+                     const std::vector<std::string>& environment, const std::string& log_path,
+                     double timeout) {
   const RunningChild running([&] { return startChild(arguments, environment, log_path); });
   const pid_t child = running.id();
   ChildResult result;
   if (child < 0) return result;
   result.started = true;
-  const auto deadline =
-      std::chrono::steady_clock::now() +
-      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(timeout));
+  const auto deadline = std::chrono::steady_clock::now() +
+                        std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                            std::chrono::duration<double>(timeout));
   result.timed_out = !waitUntil(child, deadline);
   if (result.timed_out) kill(-child, SIGKILL);
   int status = 0;

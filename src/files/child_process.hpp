@@ -16,13 +16,15 @@ struct ChildResult {
   int signal = 0;          ///< the signal that ended it, else 0
 };
 
-/// No shell: the arguments reach the program as they are. Input is empty; output and error go to `log_path`. The program
-/// leads a process group of its own, with limited memory and without core files.
+/// No shell: the arguments reach the program as they are. Input is empty; output and error go to
+/// `log_path`. The program leads a process group of its own, with limited memory and without core
+/// files.
 /// - @p arguments the program (looked up in PATH) and its arguments
 /// - @p environment the whole environment, "NAME=value"
 /// - @p timeout [s]
-ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                     const std::string& log_path, double timeout);
+ChildResult runChild(const std::vector<std::string>& arguments,
+                     const std::vector<std::string>& environment, const std::string& log_path,
+                     double timeout);
 
 /// This process's environment without the named variables, then the given settings "NAME=value".
 std::vector<std::string> environmentWithout(const std::vector<std::string>& names,

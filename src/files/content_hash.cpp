@@ -32,7 +32,8 @@ void ContentHash::add(std::string_view bytes) {
     state_ = withWord(state_, rest_);
     rest_.clear();
   }
-  for (; bytes.size() >= kWord; bytes.remove_prefix(kWord)) state_ = withWord(state_, bytes.substr(0, kWord));
+  for (; bytes.size() >= kWord; bytes.remove_prefix(kWord))
+    state_ = withWord(state_, bytes.substr(0, kWord));
   rest_ = bytes;
 }
 

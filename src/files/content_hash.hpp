@@ -9,8 +9,8 @@
 
 namespace mems_stiction {
 
-/// Hash of 128 bits after FNV-1a (draft-eastlake-fnv), eight bytes at a time: content is told apart, not protected against
-/// forgers.
+/// Hash of 128 bits after FNV-1a (draft-eastlake-fnv), eight bytes at a time: content is told
+/// apart, not protected against forgers.
 class ContentHash {
  public:
   /// The next piece, in whatever pieces the content comes.

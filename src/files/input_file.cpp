@@ -34,14 +34,17 @@ class OpenFile {
       const int cause = errno;
       const bool is_missing = cause == ENOENT || cause == ENOTDIR;
       struct stat link {};
-      if (is_missing && lstat(path.c_str(), &link) == 0) throw FileError(path + ": is a link that leads nowhere");
-      throw FileError(
-          path + (is_missing ? ": there is no such file" : std::string(": cannot be opened: ") + std::strerror(cause)));
+      if (is_missing && lstat(path.c_str(), &link) == 0)
+        throw FileError(path + ": is a link that leads nowhere");
+      throw FileError(path + (is_missing
+                                  ? ": there is no such file"
+                                  : std::string(": cannot be opened: ") + std::strerror(cause)));
     }
     struct stat status {};
     const bool is_known = fstat(descriptor_, &status) == 0;
     size_ = static_cast<std::uint64_t>(status.st_size);
-    is_stream_ = kind.takes_open_streams && !S_ISREG(status.st_mode) && (isOpenStream(path) || path == "/dev/null");
+    is_stream_ = kind.takes_open_streams && !S_ISREG(status.st_mode) &&
+                 (isOpenStream(path) || path == "/dev/null");
     std::string fault;
     if (!is_known) {
       fault = "cannot be read";
@@ -49,12 +52,13 @@ class OpenFile {
       fault = std::string("is a folder, not ") + kind.name;
     } else if (is_stream_) {
       // Its writer is there, and may take its time.
-      if (fcntl(descriptor_, F_SETFL, O_RDONLY) != 0) fault = std::string("cannot be read: ") + std::strerror(errno);
+      if (fcntl(descriptor_, F_SETFL, O_RDONLY) != 0)
+        fault = std::string("cannot be read: ") + std::strerror(errno);
     } else if (!S_ISREG(status.st_mode)) {
       fault = "is a pipe, a socket or a device, not a file";
     } else if (size_ > kind.max_bytes) {
-      fault = "has " + std::to_string(size_) + " bytes, more than the " + std::to_string(kind.max_bytes) + " of " +
-              kind.name;
+      fault = "has " + std::to_string(size_) + " bytes, more than the " +
+              std::to_string(kind.max_bytes) + " of " + kind.name;
     }
     if (fault.empty()) return;
     close(descriptor_);
@@ -73,7 +77,8 @@ class OpenFile {
     strftime(day, sizeof day, "%Y-%m-%dT%H:%M:%S", gmtime_r(&status.st_mtim.tv_sec, &parts));
     std::snprintf(time, sizeof time, "%s.%09ldZ", day, status.st_mtim.tv_nsec);
     ContentHash hash;
-    for (std::string piece = bytes(kLargePiece); !piece.empty(); piece = bytes(kLargePiece)) hash.add(piece);
+    for (std::string piece = bytes(kLargePiece); !piece.empty(); piece = bytes(kLargePiece))
+      hash.add(piece);
     return {size_, time, hash.text()};
   }
 
@@ -111,7 +116,8 @@ bool isOpenStream(const std::string& path) {
 std::string readInput(const std::string& path, const InputKind& kind) {
   std::string text = OpenFile(path, kind).bytes(kind.max_bytes + 1);
   if (text.size() <= kind.max_bytes) return text;
-  throw FileError(path + ": has more than the " + std::to_string(kind.max_bytes) + " bytes of " + kind.name);
+  throw FileError(path + ": has more than the " + std::to_string(kind.max_bytes) + " bytes of " +
+                  kind.name);
 }
 
 std::string readInputStart(const std::string& path, const InputKind& kind, std::uint64_t count) {

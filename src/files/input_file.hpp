@@ -1,14 +1,16 @@
 #pragma once
 
 /// @file
-/// Files that a person names are read without waiting for anybody and without end: none too large, no device.
+/// Files that a person names are read without waiting for anybody and without end: none too large,
+/// no device.
 
 #include <cstdint>
 #include <string>
 
 namespace mems_stiction {
 
-/// The path of what the shell has opened, perhaps a pipe: /dev/stdin, /dev/stdout, /dev/fd/... and so on.
+/// The path of what the shell has opened, perhaps a pipe: /dev/stdin, /dev/stdout, /dev/fd/... and
+/// so on.
 bool isOpenStream(const std::string& path);
 
 /// What a file is read as.
@@ -21,7 +23,8 @@ struct InputKind {
 /// Settings: a configuration, or what stands beside a scan.
 constexpr InputKind kSettingsInput = {"a configuration file", 1'000'000, true};
 
-/// The whole file; may be empty. @throw FileError naming it: missing, a folder, a pipe or device, too large, unreadable.
+/// The whole file; may be empty. @throw FileError naming it: missing, a folder, a pipe or device,
+/// too large, unreadable.
 std::string readInput(const std::string& path, const InputKind& kind);
 
 /// At most the first `count` bytes. @throw FileError as readInput()

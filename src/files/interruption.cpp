@@ -37,7 +37,8 @@ void writeLine(const std::string& text) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, whole.data(), whole.size());
 }
 
-/// Until no process of the child's group is left that could still write, on a busy machine, too; 2 s at most.
+/// Until no process of the child's group is left that could still write, on a busy machine, too; 2
+/// s at most.
 void awaitEnd(pid_t child) {
   for (int waited = 0; waited < 2000; ++waited) {
     waitpid(child, nullptr, WNOHANG);
@@ -109,8 +110,10 @@ ScratchPath::~ScratchPath() {
 
 PrivateFolder::PrivateFolder()
     : scratch_([] {
-        std::string pattern = (std::filesystem::temp_directory_path() / "mems_stiction.XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "mems_stiction.XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr)
+          throw FileError(pattern + ": the temporary folder cannot be made");
         return pattern;
       }) {}
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// What must not outlive this process when it is interrupted: programs that it has started, files that are not whole, a
-/// line on the terminal.
+/// What must not outlive this process when it is interrupted: programs that it has started, files
+/// that are not whole, a line on the terminal.
 
 #include <sys/types.h>
 
@@ -12,13 +12,13 @@
 
 namespace mems_stiction {
 
-/// For the start of main(), before any thread: from now on INT, TERM and HUP end the children that are registered, with
-/// their process groups, remove the scratch paths, and then end the process as they would have. A signal that is ignored
-/// (nohup) stays ignored.
+/// For the start of main(), before any thread: from now on INT, TERM and HUP end the children that
+/// are registered, with their process groups, remove the scratch paths, and then end the process as
+/// they would have. A signal that is ignored (nohup) stays ignored.
 void cleanUpWhenInterrupted();
 
-/// Writes the text in place of the line that stands on the terminal of the standard error; an empty one wipes it, and so
-/// does an interruption.
+/// Writes the text in place of the line that stands on the terminal of the standard error; an empty
+/// one wipes it, and so does an interruption.
 void writeInPlace(const std::string& text);
 
 /// A file or folder that goes when the process is interrupted, as long as the object lives.
@@ -36,8 +36,8 @@ class ScratchPath {
   std::string path_;
 };
 
-/// A folder for files that nobody else may see, and that must not stay: a new one below the system's temporary one. It goes
-/// with the object, and with an interruption.
+/// A folder for files that nobody else may see, and that must not stay: a new one below the
+/// system's temporary one. It goes with the object, and with an interruption.
 class PrivateFolder {
  public:
   /// @throw FileError if it cannot be made
@@ -52,7 +52,8 @@ class PrivateFolder {
   ScratchPath scratch_;
 };
 
-/// A child process that is ended with its group when the process is interrupted, as long as the object lives.
+/// A child process that is ended with its group when the process is interrupted, as long as the
+/// object lives.
 class RunningChild {
  public:
   /// - @p start starts it as the leader of a group and returns its id, or -1

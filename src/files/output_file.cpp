@@ -64,7 +64,8 @@ void writeFile(const std::string& path, const std::string& bytes, OutputSafety s
     // Not mkostemp(): the file is to have the mode that the process's mask gives.
     std::string name;
     for (int attempt = 0; descriptor < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
-      name = (ignored ? path : target) + "." + std::to_string(getpid()) + "." + std::to_string(attempt);
+      name = (ignored ? path : target) + "." + std::to_string(getpid()) + "." +
+             std::to_string(attempt);
       descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
     if (descriptor < 0) fail(path);

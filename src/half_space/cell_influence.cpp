@@ -15,7 +15,8 @@ namespace {
 constexpr double kLargestWave = 22.0;
 /// Panels of waves, each with the nodes below: at most 2.5 rad of J0 a panel.
 constexpr int kPanels = 440;
-/// Distances at which h is worked out, even in asinh of them, up to the farthest one; beyond it the series in 1/y holds.
+/// Distances at which h is worked out, even in asinh of them, up to the farthest one; beyond it the
+/// series in 1/y holds.
 constexpr int kDistances = 256;
 constexpr double kFarthest = 50.0;
 
@@ -29,8 +30,9 @@ constexpr std::array<Node, 5> kFive = {{{0.0, 0.5688888888888889},
                                         {-0.5384693101056831, 0.47862867049936647},
                                         {0.9061798459386640, 0.23692688505618908},
                                         {-0.9061798459386640, 0.23692688505618908}}};
-constexpr std::array<Node, 3> kThree = {
-    {{0.0, 0.8888888888888889}, {0.7745966692414834, 0.5555555555555556}, {-0.7745966692414834, 0.5555555555555556}}};
+constexpr std::array<Node, 3> kThree = {{{0.0, 0.8888888888888889},
+                                         {0.7745966692414834, 0.5555555555555556},
+                                         {-0.7745966692414834, 0.5555555555555556}}};
 
 /// Integral of 1/r over the quarter between the axes and (x, y), seen from the origin, signed [m].
 double cornerIntegral(double x, double y) {
@@ -47,14 +49,15 @@ double loveInfluence(double x, double y, double pitch_x, double pitch_y, double 
   const double right = x + 0.5 * pitch_x;
   const double below = y - 0.5 * pitch_y;
   const double above = y + 0.5 * pitch_y;
-  const double integral = cornerIntegral(right, above) - cornerIntegral(left, above) - cornerIntegral(right, below) +
-                          cornerIntegral(left, below);
+  const double integral = cornerIntegral(right, above) - cornerIntegral(left, above) -
+                          cornerIntegral(right, below) + cornerIntegral(left, below);
   return integral / (kPi * contact_modulus);
 }
 
 }  // namespace
 
-CellInfluence::CellInfluence(double contact_modulus, const WaveStiffness* layers, double pitch_x, double pitch_y)
+CellInfluence::CellInfluence(double contact_modulus, const WaveStiffness* layers, double pitch_x,
+                             double pitch_y)
     : contact_modulus_(contact_modulus), pitch_x_(pitch_x), pitch_y_(pitch_y) {
   if (layers == nullptr) return;
   addFilm(layers->lower(), films_);
@@ -80,7 +83,8 @@ void CellInfluence::addFilm(const LayerCompliance& layer, std::vector<Film>& fil
     for (const Node& wave : waves) sum += wave.weight * ::j0(wave.place * distance);
     film.values.push_back(sum);
   }
-  film.next = (film.values[kDistances - 1] - film.far / kFarthest) * kFarthest * kFarthest * kFarthest;
+  film.next =
+      (film.values[kDistances - 1] - film.far / kFarthest) * kFarthest * kFarthest * kFarthest;
   films.push_back(std::move(film));
 }
 
@@ -91,7 +95,9 @@ double CellInfluence::Film::at(double distance) const {
   const double place = std::asinh(y) * kSteps;
   const int first = static_cast<int>(place);
   const double x = place - first;
-  const auto value = [&](int i) { return values[static_cast<std::size_t>(std::abs(first + i))]; };  // h is even
+  const auto value = [&](int i) {
+    return values[static_cast<std::size_t>(std::abs(first + i))];
+  };  // h is even
   // the cubic through four values
   return factor * (x * (x - 1.0) * ((x + 1.0) * value(2) - (x - 2.0) * value(-1)) / 6.0 +
                    (x + 1.0) * (x - 2.0) * ((x - 1.0) * value(0) - x * value(1)) / 2.0);
@@ -101,7 +107,8 @@ double CellInfluence::ofFilm(const Film& film, double x, double y) const {
   // as many parts of the cell as it takes for h to be a polynomial of the fifth degree in each
   const double pitch = std::max(pitch_x_, pitch_y_);
   const double distance = std::max(0.0, std::hypot(x, y) - pitch);
-  const int parts = static_cast<int>(std::ceil(2.0 * pitch / std::hypot(distance, 2.0 * film.thickness)));
+  const int parts =
+      static_cast<int>(std::ceil(2.0 * pitch / std::hypot(distance, 2.0 * film.thickness)));
   const double width = pitch_x_ / parts;
   const double height = pitch_y_ / parts;
   double sum = 0.0;
@@ -112,7 +119,8 @@ double CellInfluence::ofFilm(const Film& film, double x, double y) const {
       for (const Node& of_x : kThree) {
         for (const Node& of_y : kThree) {
           sum += of_x.weight * of_y.weight *
-                 film.at(std::hypot(x_here + 0.5 * width * of_x.place, y_here + 0.5 * height * of_y.place));
+                 film.at(std::hypot(x_here + 0.5 * width * of_x.place,
+                                    y_here + 0.5 * height * of_y.place));
         }
       }
     }

@@ -13,19 +13,23 @@ namespace {
 constexpr int kFewestCells = 16;
 
 /// a + (b + c)/2.
-MEMS_STICTION_VECTORIZED void addHalves(std::size_t count, const float* a, const float* b, const float* c, float* to) {
+MEMS_STICTION_VECTORIZED void addHalves(std::size_t count, const float* a, const float* b,
+                                        const float* c, float* to) {
   for (std::size_t i = 0; i < count; ++i) to[i] = a[i] + 0.5F * (b[i] + c[i]);
 }
 
-/// A quarter of each second value and of half of its neighbours; those of the first one and the last one lie before and behind.
+/// A quarter of each second value and of half of its neighbours; those of the first one and the
+/// last one lie before and behind.
 MEMS_STICTION_VECTORIZED void gather(std::size_t count, const float* from, float* to) {
   for (std::size_t i = 0; i < count; ++i) {
     to[i] = 0.25F * from[2 * i] + 0.125F * (from[2 * i - 1] + from[2 * i + 1]);
   }
 }
 
-/// The mean of two rows at each of their cells and, behind it, that of it and the next one; `next` follows the last.
-MEMS_STICTION_VECTORIZED void spread(std::size_t count, const float* a, const float* b, float next, float* to) {
+/// The mean of two rows at each of their cells and, behind it, that of it and the next one; `next`
+/// follows the last.
+MEMS_STICTION_VECTORIZED void spread(std::size_t count, const float* a, const float* b, float next,
+                                     float* to) {
   for (std::size_t i = 0; i < count; ++i) to[2 * i] = 0.5F * (a[i] + b[i]);
   for (std::size_t i = 0; i + 1 < count; ++i) to[2 * i + 1] = 0.5F * (to[2 * i] + to[2 * i + 2]);
   if (count > 0) to[2 * count - 1] = 0.5F * (to[2 * count - 2] + next);
@@ -41,7 +45,9 @@ CoarseAnswer::CoarseAnswer(const HalfSpaceGrid& grid, const ElasticResponse& res
       stiffness_(coarse_, response, threads, memory, cancel),
       field_(coarse_.size(), 0.0F) {}
 
-bool CoarseAnswer::fits(const HalfSpaceGrid& grid) { return std::min(grid.rows, grid.cols) >= kFewestCells; }
+bool CoarseAnswer::fits(const HalfSpaceGrid& grid) {
+  return std::min(grid.rows, grid.cols) >= kFewestCells;
+}
 
 void CoarseAnswer::find(double shift, const float* traction) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
@@ -56,7 +62,8 @@ void CoarseAnswer::find(double shift, const float* traction) {
   forEachRow(coarse_.rows, threads_, [&](int coarse_row) {
     std::vector<float> line(cols + 2);  // a value before and one behind
     const int row = 2 * coarse_row;
-    addHalves(cols, traction + grid_.offset(row), between(row - 1), between(row + 1), line.data() + 1);
+    addHalves(cols, traction + grid_.offset(row), between(row - 1), between(row + 1),
+              line.data() + 1);
     line.front() = cols % 2 != 0 ? 0.0F : line[cols];
     gather(coarse_cols, line.data() + 1, field_.data() + coarse_.offset(coarse_row));
   });
@@ -65,7 +72,8 @@ void CoarseAnswer::find(double shift, const float* traction) {
 
 void CoarseAnswer::row(int row, float* displacement) const {
   const float* const one = field_.data() + coarse_.offset(row / 2);
-  const float* const other = row % 2 == 0 ? one : field_.data() + coarse_.offset((row / 2 + 1) % coarse_.rows);
+  const float* const other =
+      row % 2 == 0 ? one : field_.data() + coarse_.offset((row / 2 + 1) % coarse_.rows);
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const std::size_t pairs = cols / 2;
   const std::size_t next = pairs % static_cast<std::size_t>(coarse_.cols);

@@ -12,18 +12,19 @@ namespace {
 
 /// Iterations for one system.
 constexpr int kMostIterations = 200;
-/// The share of the residual that may stay: this times the longest move of a cell over the longest one allowed, as t'
-/// changes by such a share on the way; at least and at most.
+/// The share of the residual that may stay: this times the longest move of a cell over the longest
+/// one allowed, as t' changes by such a share on the way; at least and at most.
 constexpr double kForcingFactor = 10.0;
 constexpr double kFinestForcing = 1e-3;
 constexpr double kCoarsestForcing = 0.3;
-/// Shift for small contacts, of the mean positive t': the less, the fewer iterations for few, stiff ones. At least this
-/// share of the smallest stiffness.
+/// Shift for small contacts, of the mean positive t': the less, the fewer iterations for few, stiff
+/// ones. At least this share of the smallest stiffness.
 constexpr double kShiftShare = 0.3;
 constexpr double kSmallestShift = 0.1;
 /// Contacts are large where that shift is more than this times the smallest stiffness.
 constexpr double kLargeContacts = 0.05;
-/// Shift for large contacts, of the smallest stiffness; y and z, of the largest, and z where C is P of all cells.
+/// Shift for large contacts, of the smallest stiffness; y and z, of the largest, and z where C is P
+/// of all cells.
 constexpr double kFreeShift = 0.5;
 constexpr double kYielding = 0.12;
 constexpr double kRough = 0.7;
@@ -42,8 +43,9 @@ struct ConjugateGradients::Product {
   double mean;
 };
 
-ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness,
-                                       CoarseAnswer* coarse, int threads, const std::atomic<bool>* cancel,
+ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid,
+                                       StiffnessOperator<float>& stiffness, CoarseAnswer* coarse,
+                                       int threads, const std::atomic<bool>* cancel,
                                        std::function<void()> give_way)
     : grid_(grid),
       stiffness_(stiffness),
@@ -65,12 +67,14 @@ void ConjugateGradients::allocate() {
   }
 }
 
-ConjugateGradients::Preconditioner ConjugateGradients::preconditionerOf(const System& system) const {
+ConjugateGradients::Preconditioner ConjugateGradients::preconditionerOf(
+    const System& system) const {
   const double smallest = stiffness_.smallest();
   const double shift = kShiftShare * system.mean_slope;
   if (shift > kLargeContacts * smallest) {
     const double rough = coarse_ != nullptr ? kRough : kRoughOfAll;
-    return {static_cast<float>(kFreeShift * smallest), static_cast<float>(kYielding * stiffness_.largest()),
+    return {static_cast<float>(kFreeShift * smallest),
+            static_cast<float>(kYielding * stiffness_.largest()),
             static_cast<float>(rough * stiffness_.largest())};
   }
   return {static_cast<float>(std::max(shift, kSmallestShift * smallest)), 0.0F, 0.0F};
@@ -83,7 +87,8 @@ static conjugate_rows::Sums overRows(const HalfSpaceGrid& grid, int threads, con
   return sumOverRows(row_sums, grid.rows, threads, [&](int row) { return work(grid.offset(row)); });
 }
 
-ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& preconditioner, double mean) {
+ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& preconditioner,
+                                                       double mean) {
   const auto shift = static_cast<double>(preconditioner.shift);
   if (preconditioner.yielding == 0.0F) {
     ++products_;
@@ -92,8 +97,8 @@ ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& pre
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto level = static_cast<float>(mean);
   overRows(grid_, threads_, [&](std::size_t i) {
-    return conjugate_rows::weigh(cols, preconditioner.yielding, level, residual_.data() + i, slope_.data() + i,
-                                 smoothed_.data() + i);
+    return conjugate_rows::weigh(cols, preconditioner.yielding, level, residual_.data() + i,
+                                 slope_.data() + i, smoothed_.data() + i);
   });
   if (coarse_ != nullptr) {
     coarse_->find(shift, smoothed_.data());
@@ -105,32 +110,34 @@ ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& pre
   const auto sums = sumOverRows(row_sums, grid_.rows, threads_, [&](int row) {
     const std::size_t i = grid_.offset(row);
     if (coarse_ != nullptr) coarse_->row(row, smoothed_.data() + i);
-    return conjugate_rows::combine(cols, preconditioner.yielding, preconditioner.rough, level, residual_.data() + i,
-                                   slope_.data() + i, smoothed_.data() + i);
+    return conjugate_rows::combine(cols, preconditioner.yielding, preconditioner.rough, level,
+                                   residual_.data() + i, slope_.data() + i, smoothed_.data() + i);
   });
   return {sums.product, stiffness_.resistsMean() ? 0.0 : sums.sum / grid_.cellCount()};
 }
 
-ConjugateGradients::Product ConjugateGradients::turn(const Preconditioner& preconditioner, double ratio, double mean,
+ConjugateGradients::Product ConjugateGradients::turn(const Preconditioner& preconditioner,
+                                                     double ratio, double mean,
                                                      double smoothed_mean) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto part = static_cast<float>(ratio);
   conjugate_rows::Sums sums;
   if (preconditioner.yielding == 0.0F) {
     sums = overRows(grid_, threads_, [&](std::size_t i) {
-      return conjugate_rows::turn(cols, part, preconditioner.shift, static_cast<float>(mean), smoothed_.data() + i,
-                                  residual_.data() + i, slope_.data() + i, search_.data() + i,
-                                  search_traction_.data() + i);
+      return conjugate_rows::turn(cols, part, preconditioner.shift, static_cast<float>(mean),
+                                  smoothed_.data() + i, residual_.data() + i, slope_.data() + i,
+                                  search_.data() + i, search_traction_.data() + i);
     });
   } else {
     overRows(grid_, threads_, [&](std::size_t i) {
-      return conjugate_rows::follow(cols, part, static_cast<float>(smoothed_mean), smoothed_.data() + i,
-                                    search_.data() + i);
+      return conjugate_rows::follow(cols, part, static_cast<float>(smoothed_mean),
+                                    smoothed_.data() + i, search_.data() + i);
     });
     stiffness_.multiply(search_.data(), search_traction_.data());
     ++products_;
     sums = overRows(grid_, threads_, [&](std::size_t i) {
-      return conjugate_rows::respond(cols, slope_.data() + i, search_.data() + i, search_traction_.data() + i);
+      return conjugate_rows::respond(cols, slope_.data() + i, search_.data() + i,
+                                     search_traction_.data() + i);
     });
   }
   return {sums.product, stiffness_.resistsMean() ? 0.0 : sums.sum / grid_.cellCount()};
@@ -151,8 +158,8 @@ ConjugateGradients::Direction ConjugateGradients::find(const System& system) {
     const double ratio = iteration == 0 ? 0.0 : smoothed.value / product;
     product = smoothed.value;
     if (iteration == 0) first_product = product;
-    const double forcing =
-        std::clamp(kForcingFactor * direction.longest / system.longest_move, finest, kCoarsestForcing);
+    const double forcing = std::clamp(kForcingFactor * direction.longest / system.longest_move,
+                                      finest, kCoarsestForcing);
     const bool is_last = product <= forcing * forcing * first_product;
     const Product turned = turn(preconditioner, ratio, mean, smoothed.mean);
     double length = product / turned.value;
@@ -164,17 +171,18 @@ ConjugateGradients::Direction ConjugateGradients::find(const System& system) {
       length = std::max(0.0, system.longest_move - direction.longest) / longest;
     }
     const auto advance = iteration == 0 ? conjugate_rows::begin : conjugate_rows::advance;
-    direction.longest =
-        overRows(grid_, threads_, [&](std::size_t i) {
-          return advance(cols, static_cast<float>(length), slope_.data() + i, search_.data() + i,
-                         search_traction_.data() + i, step_.data() + i, first_.data() + i, residual_.data() + i);
-        }).largest;
+    direction.longest = overRows(grid_, threads_, [&](std::size_t i) {
+                          return advance(cols, static_cast<float>(length), slope_.data() + i,
+                                         search_.data() + i, search_traction_.data() + i,
+                                         step_.data() + i, first_.data() + i, residual_.data() + i);
+                        }).largest;
     mean -= length * turned.mean;
     direction.decrease += length * product * grid_.cellArea();
     if (is_last || direction.is_unstable || direction.longest > system.longest_move) break;
   }
   overRows(grid_, threads_, [&](std::size_t i) {
-    return conjugate_rows::finish(cols, slope_.data() + i, step_.data() + i, residual_.data() + i, first_.data() + i);
+    return conjugate_rows::finish(cols, slope_.data() + i, step_.data() + i, residual_.data() + i,
+                                  first_.data() + i);
   });
   direction.mean_residual = mean;
   return direction;

@@ -1,20 +1,25 @@
 #pragma once
 
 /// @file
-/// Along which step does the energy of a contact fall, and how far does Newton's method go along it?
+/// Along which step does the energy of a contact fall, and how far does Newton's method go along
+/// it?
 ///
 ///     (K + t') s = r        r: residual t - K u; t' of each cell
 ///
-/// by conjugate gradients in single precision, left at negative curvature, where s is longer than t' is known for, and
-/// where r is known better than the law is straight over s. With P = (K + shift)^-1 the preconditioner is
+/// by conjugate gradients in single precision, left at negative curvature, where s is longer than
+/// t' is known for, and where r is known better than the law is straight over s. With P = (K +
+/// shift)^-1 the preconditioner is
 ///
-///     P                           small contacts: it also gives K of its result, one product an iteration
-///     S C S + 1/(z + t'),         large ones: cells that their contact holds answer by themselves, the others as a body
-///     S = y/(y + t'), t' > 0 only between them. C is P of every second cell of every second row (coarse_answer.hpp), whose
-///                                 work hardly counts; what varies from cell to cell is answered by z alone
+///     P                           small contacts: it also gives K of its result, one product an
+///     iteration S C S + 1/(z + t'),         large ones: cells that their contact holds answer by
+///     themselves, the others as a body S = y/(y + t'), t' > 0 only between them. C is P of every
+///     second cell of every second row (coarse_answer.hpp), whose
+///                                 work hardly counts; what varies from cell to cell is answered by
+///                                 z alone
 ///
-/// Sources: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400 for how exactly each system is solved;
-/// Steinbach and Wendland, Adv. Comput. Math. 9 (1998) 191 for K^-1 of the whole plane as preconditioner of a part of it.
+/// Sources: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400 for how exactly each
+/// system is solved; Steinbach and Wendland, Adv. Comput. Math. 9 (1998) 191 for K^-1 of the whole
+/// plane as preconditioner of a part of it.
 ///
 ///     ConjugateGradients gradients(grid, stiffness, threads, cancel, give_way);
 ///     gradients.allocate();
@@ -32,7 +37,8 @@
 
 namespace mems_stiction {
 
-/// Solves one system after the other on arrays of the grid. The same bits for any number of threads.
+/// Solves one system after the other on arrays of the grid. The same bits for any number of
+/// threads.
 class ConjugateGradients {
  public:
   /// What is known of a system beside its arrays.
@@ -54,8 +60,9 @@ class ConjugateGradients {
   /// - @p coarse likewise; null: all cells in place of every second one
   /// - @p cancel looked at after each product; may be null
   /// - @p give_way called before each iteration; may be empty
-  ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, CoarseAnswer* coarse, int threads,
-                     const std::atomic<bool>* cancel, std::function<void()> give_way);
+  ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness,
+                     CoarseAnswer* coarse, int threads, const std::atomic<bool>* cancel,
+                     std::function<void()> give_way);
 
   /// Makes residual and stepTraction, of zeros: those that the owner uses without find() too.
   void allocateShared();
@@ -79,8 +86,10 @@ class ConjugateGradients {
   Preconditioner preconditionerOf(const System& system) const;
   /// The preconditioned residual.
   Product smooth(const Preconditioner& preconditioner, double mean);
-  /// The next conjugate direction and its traction. @return what it costs, and the mean that it adds to the residual
-  Product turn(const Preconditioner& preconditioner, double ratio, double mean, double smoothed_mean);
+  /// The next conjugate direction and its traction. @return what it costs, and the mean that it
+  /// adds to the residual
+  Product turn(const Preconditioner& preconditioner, double ratio, double mean,
+               double smoothed_mean);
   bool isCancelled() const { return cancel_ != nullptr && cancel_->load(); }
 
   HalfSpaceGrid grid_;
@@ -95,7 +104,8 @@ class ConjugateGradients {
   LargePageVector<float> search_;           ///< conjugate direction [m]
   LargePageVector<float> search_traction_;  ///< K of it [Pa]
   LargePageVector<float> step_;
-  LargePageVector<float> first_;  ///< while s is sought, the residual that it began with; then K s [Pa]
+  LargePageVector<float>
+      first_;  ///< while s is sought, the residual that it began with; then K s [Pa]
   int products_ = 0;
 };
 

@@ -9,7 +9,8 @@ using Packet = float __attribute__((vector_size(kElements * sizeof(float))));
 using Mask = int __attribute__((vector_size(kElements * sizeof(int))));
 
 /// Eight values from `from`, or as many as there are, the others `filler`.
-MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Packet& packet, float filler = 0.0F) {
+MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Packet& packet,
+                               float filler = 0.0F) {
   if (available >= kElements) {
     std::memcpy(&packet, from, sizeof packet);
   } else {
@@ -41,8 +42,9 @@ MEMS_STICTION_INLINE double largestOf(const Packet& packet) {
 
 }  // namespace
 
-MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, float mean, const float* smoothed,
-                                   const float* residual, const float* slope, float* search, float* search_traction) {
+MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, float mean,
+                                   const float* smoothed, const float* residual, const float* slope,
+                                   float* search, float* search_traction) {
   Packet products{};
   Packet sums{};
   Packet z, r, d, p, kp;
@@ -64,8 +66,8 @@ MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, 
   return {sumOf(products), sumOf(sums), 0.0};
 }
 
-MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mean, const float* residual,
-                                    const float* slope, float* smoothed) {
+MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mean,
+                                    const float* residual, const float* slope, float* smoothed) {
   Packet r, d;
   for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
@@ -76,8 +78,8 @@ MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mea
   return {};
 }
 
-MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float rough, float mean, const float* residual,
-                                      const float* slope, float* smoothed) {
+MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float rough, float mean,
+                                      const float* residual, const float* slope, float* smoothed) {
   Packet products{};
   Packet sums{};
   Packet z, r, d;
@@ -95,8 +97,8 @@ MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float r
   return {sumOf(products), sumOf(sums), 0.0};
 }
 
-MEMS_STICTION_VECTORIZED Sums follow(std::size_t count, float ratio, float smoothed_mean, const float* smoothed,
-                                     float* search) {
+MEMS_STICTION_VECTORIZED Sums follow(std::size_t count, float ratio, float smoothed_mean,
+                                     const float* smoothed, float* search) {
   Packet z, p;
   for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;
@@ -124,9 +126,9 @@ MEMS_STICTION_VECTORIZED Sums respond(std::size_t count, const float* slope, con
   return {sumOf(products), sumOf(sums), 0.0};
 }
 
-MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const float* slope, const float* search,
-                                      const float* search_traction, float* step, float* /*first_residual*/,
-                                      float* residual) {
+MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const float* slope,
+                                      const float* search, const float* search_traction,
+                                      float* step, float* /*first_residual*/, float* residual) {
   Packet largest{};
   Packet d, p, kp, s, r;
   for (std::size_t i = 0; i < count; i += kElements) {
@@ -145,15 +147,15 @@ MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const flo
   return {0.0, 0.0, largestOf(largest)};
 }
 
-Sums begin(std::size_t count, float length, const float* slope, const float* search, const float* search_traction,
-           float* step, float* first_residual, float* residual) {
+Sums begin(std::size_t count, float length, const float* slope, const float* search,
+           const float* search_traction, float* step, float* first_residual, float* residual) {
   std::memcpy(first_residual, residual, count * sizeof(float));
   std::memset(step, 0, count * sizeof(float));
   return advance(count, length, slope, search, search_traction, step, first_residual, residual);
 }
 
-MEMS_STICTION_VECTORIZED Sums finish(std::size_t count, const float* slope, const float* step, const float* residual,
-                                     float* first_residual) {
+MEMS_STICTION_VECTORIZED Sums finish(std::size_t count, const float* slope, const float* step,
+                                     const float* residual, float* first_residual) {
   Packet d, s, r, first;
   for (std::size_t i = 0; i < count; i += kElements) {
     const std::size_t rest = count - i;

@@ -15,7 +15,8 @@ int countContactGroups(const cv::Mat& mask, bool wraps) {
   std::vector<int> parent(static_cast<std::size_t>(label_count));
   std::iota(parent.begin(), parent.end(), 0);
   const auto rootOf = [&](int label) {
-    while (parent[static_cast<std::size_t>(label)] != label) label = parent[static_cast<std::size_t>(label)];
+    while (parent[static_cast<std::size_t>(label)] != label)
+      label = parent[static_cast<std::size_t>(label)];
     return label;
   };
   const auto join = [&](int a, int b) {
@@ -26,8 +27,10 @@ int countContactGroups(const cv::Mat& mask, bool wraps) {
     parent[static_cast<std::size_t>(root_a)] = root_b;
     --groups;
   };
-  for (int row = 0; row < labels.rows; ++row) join(labels.at<int>(row, 0), labels.at<int>(row, labels.cols - 1));
-  for (int col = 0; col < labels.cols; ++col) join(labels.at<int>(0, col), labels.at<int>(labels.rows - 1, col));
+  for (int row = 0; row < labels.rows; ++row)
+    join(labels.at<int>(row, 0), labels.at<int>(row, labels.cols - 1));
+  for (int col = 0; col < labels.cols; ++col)
+    join(labels.at<int>(0, col), labels.at<int>(labels.rows - 1, col));
   return groups;
 }
 

@@ -13,18 +13,21 @@
 namespace mems_stiction {
 namespace {
 
-/// Pressure up to which the law is steep at first, of 8 Gamma/(3 z0), and later, of the largest there is.
+/// Pressure up to which the law is steep at first, of 8 Gamma/(3 z0), and later, of the largest
+/// there is.
 constexpr double kFirstWall = 10.0;
 constexpr double kWallReserve = 2.0;
 /// Halvings of a Newton step before the search gives up.
 constexpr int kMostHalvings = 20;
 /// Share of the decrease that the slope promises which a step must give (Armijo).
 constexpr double kSufficientDecrease = 1e-4;
-/// Energies that differ by less than this share of their parts are equal but for what single precision adds to K u.
+/// Energies that differ by less than this share of their parts are equal but for what single
+/// precision adds to K u.
 constexpr double kEnergyNoise = 1e-9;
-/// What single precision leaves in K u for each step, of the residual that it takes away, and for going on from one state
-/// to the next, of 8 Gamma/(3 z0); and for a step of the conjugate gradients. Measured: a tenth of it to as much, and five times it
-/// after jumps that were taken back, less than an equilibrium's residual still.
+/// What single precision leaves in K u for each step, of the residual that it takes away, and for
+/// going on from one state to the next, of 8 Gamma/(3 z0); and for a step of the conjugate
+/// gradients. Measured: a tenth of it to as much, and five times it after jumps that were taken
+/// back, less than an equilibrium's residual still.
 constexpr double kSinglePrecision = 3e-7;
 constexpr double kGradientsPrecision = 1e-6;
 /// Share of the allowed residual that may come from it.
@@ -32,7 +35,8 @@ constexpr double kStaleShare = 0.1;
 /// Windows that leave more than this share of the residual have failed; so many times in one state.
 constexpr double kWorthwhile = 0.5;
 constexpr int kMostFailures = 2;
-/// In how many states after one in which they failed windows are not tried: one, and up to so many if they fail again.
+/// In how many states after one in which they failed windows are not tried: one, and up to so many
+/// if they fail again.
 constexpr int kLongestPause = 7;
 
 }  // namespace
@@ -52,8 +56,9 @@ struct ContactMinimiser::Evaluation {
   bool has_slopes = false;        ///< t' of each cell is at hand
 };
 
-ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
-                                   LargePageVector<double> relief, const MinimiserSettings& settings)
+ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law,
+                                   const ElasticResponse& response, LargePageVector<double> relief,
+                                   const MinimiserSettings& settings)
     : ContactMinimiser(grid, law, response, std::move(relief), {}, settings) {
   windows_ = std::make_unique<ContactWindows>(grid, law, response, settings);
   wall_pressure_ = kFirstWall * law.stress();
@@ -71,16 +76,17 @@ void ContactMinimiser::takeRelief(LargePageVector<double> relief) {
   }
 }
 
-void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<float> fixed, double tolerance) {
+void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<float> fixed,
+                               double tolerance) {
   takeRelief(std::move(relief));
   fixed_ = std::move(fixed);
   settings_.tolerance = tolerance;
   displacement_.reset();
 }
 
-ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
-                                   LargePageVector<double> relief, LargePageVector<float> fixed,
-                                   const MinimiserSettings& settings)
+ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law,
+                                   const ElasticResponse& response, LargePageVector<double> relief,
+                                   LargePageVector<float> fixed, const MinimiserSettings& settings)
     : grid_(grid),
       law_(law),
       wall_(law),
@@ -88,9 +94,11 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
       stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       exact_stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       coarse_(response.influence == nullptr && CoarseAnswer::fits(grid)
-                  ? std::make_unique<CoarseAnswer>(grid, response, settings.threads, spectrum_, settings.cancel)
+                  ? std::make_unique<CoarseAnswer>(grid, response, settings.threads, spectrum_,
+                                                   settings.cancel)
                   : nullptr),
-      gradients_(grid, stiffness_, coarse_.get(), settings.threads, settings.cancel, settings.give_way),
+      gradients_(grid, stiffness_, coarse_.get(), settings.threads, settings.cancel,
+                 settings.give_way),
       displacement_(grid, !stiffness_.resistsMean(), settings.threads, settings.cancel),
       fixed_(std::move(fixed)) {
   takeRelief(std::move(relief));
@@ -98,7 +106,9 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
   is_set_up_ = !isCancelled();
 }
 
-void ContactMinimiser::moveOn(double share) { displacement_.begin(share, kSinglePrecision * law_.stress()); }
+void ContactMinimiser::moveOn(double share) {
+  displacement_.begin(share, kSinglePrecision * law_.stress());
+}
 
 void ContactMinimiser::setLaw(const TractionLaw& law) {
   law_ = law;
@@ -125,7 +135,8 @@ void ContactMinimiser::gapsOfRow(int row, double height, double* gaps) const {
   const double* const relief =
       relief_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
   const double* const displacement = displacement_.values() + grid_.offset(row);
-  for (int col = 0; col < grid_.frame_cols; ++col) gaps[col] = height + relief[col] - displacement[col];
+  for (int col = 0; col < grid_.frame_cols; ++col)
+    gaps[col] = height + relief[col] - displacement[col];
 }
 
 double ContactMinimiser::largestLoad() const {
@@ -178,7 +189,8 @@ void ContactMinimiser::refreshElasticTraction() {
   ++exact_products_;
 }
 
-evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, const Step& step, bool with_slopes) {
+evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, const Step& step,
+                                                    bool with_slopes) {
   const auto arraysFrom = [&](int col) {
     const std::size_t cell = grid_.offset(row) + static_cast<std::size_t>(col);
     return evaluation_rows::RowArrays{displacement_.values() + cell,
@@ -190,28 +202,33 @@ evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, cons
                                       nullptr,
                                       mean_traction_};
   };
-  if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, step.length, arraysFrom(0));
-  const std::size_t in_frame = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
+  if (row >= grid_.frame_rows)
+    return evaluation_rows::evaluateFree(grid_.cols, step.length, arraysFrom(0));
+  const std::size_t in_frame =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
   evaluation_rows::RowArrays arrays = arraysFrom(0);
   if (!fixed_.empty()) arrays.fixed = fixed_.data() + in_frame;
-  auto sums =
-      evaluation_rows::evaluate(wall_, grid_.frame_cols, height, relief_.data() + in_frame, step.length, arrays);
+  auto sums = evaluation_rows::evaluate(wall_, grid_.frame_cols, height, relief_.data() + in_frame,
+                                        step.length, arrays);
   if (grid_.cols > grid_.frame_cols) {
-    sums += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, step.length, arraysFrom(grid_.frame_cols));
+    sums += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, step.length,
+                                          arraysFrom(grid_.frame_cols));
   }
   return sums;
 }
 
-ContactMinimiser::Evaluation ContactMinimiser::evaluationOf(const evaluation_rows::Sums& sums, bool with_slopes) const {
+ContactMinimiser::Evaluation ContactMinimiser::evaluationOf(const evaluation_rows::Sums& sums,
+                                                            bool with_slopes) const {
   const double cells = grid_.cellCount();
   Evaluation result;
   result.force = sums.traction * grid_.cellArea();
   result.energy = (0.5 * sums.elastic + sums.energy) * grid_.cellArea();
   result.energy_scale = (0.5 * std::abs(sums.elastic) + std::abs(sums.energy)) * grid_.cellArea();
   result.mean_residual = stiffness_.resistsMean() ? 0.0 : sums.residual / cells;
-  result.largest_residual = std::max(sums.highest - result.mean_residual, result.mean_residual - sums.lowest);
-  result.residual_norm =
-      std::sqrt(std::max(0.0, sums.residual_squared / cells - result.mean_residual * result.mean_residual));
+  result.largest_residual =
+      std::max(sums.highest - result.mean_residual, result.mean_residual - sums.lowest);
+  result.residual_norm = std::sqrt(
+      std::max(0.0, sums.residual_squared / cells - result.mean_residual * result.mean_residual));
   result.mean_slope = sums.positive_slope / cells;
   result.contact_cells = sums.contacts;
   result.gap = sums.gap;
@@ -229,12 +246,14 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluateAlong(double height, doub
   std::vector<evaluation_rows::Sums> row_sums;
   const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
-    return evaluateRow(row, height, {length, gradients_.step() + first, gradients_.stepTraction() + first}, true);
+    return evaluateRow(
+        row, height, {length, gradients_.step() + first, gradients_.stepTraction() + first}, true);
   });
   return evaluationOf(sums, true);
 }
 
-ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, std::optional<float> share) {
+ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height,
+                                                               std::optional<float> share) {
   const bool with_slopes = !usesWindows();
   if (with_slopes) gradients_.allocate();
   std::vector<evaluation_rows::Sums> row_sums;
@@ -252,7 +271,8 @@ ContactMinimiser::Evaluation ContactMinimiser::answerAndEvaluate(double height, 
   stiffness_.displace(change, [&](int row, const float* displacement) {
     const Step step{length, displacement, change + grid_.offset(row)};
     displacement_.step(row, step);
-    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, step.step, step.traction}, false);
+    row_sums[static_cast<std::size_t>(row)] =
+        evaluateRow(row, height, {0.0, step.step, step.traction}, false);
   });
   ++window_products_;
   evaluation_rows::Sums sums;  // in the order of the frame
@@ -269,7 +289,8 @@ void ContactMinimiser::takeStep(double length) {
 
 bool ContactMinimiser::isNearer(const Evaluation& now, const Evaluation& before, double promised) {
   return now.energy <= before.energy - kSufficientDecrease * promised ||
-         (now.energy <= before.energy + kEnergyNoise * before.energy_scale && now.residual_norm < before.residual_norm);
+         (now.energy <= before.energy + kEnergyNoise * before.energy_scale &&
+          now.residual_norm < before.residual_norm);
 }
 
 bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
@@ -311,14 +332,15 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   const double stale = kStaleShare * std::min(allowed, std::max(exact, search.residual_norm));
   // how many times what is allowed is left; an exact state needs no norm
   const auto excessOf = [&](const Evaluation& of) {
-    return std::min(of.largest_residual / exact,
-                    std::max(of.largest_residual / allowed, of.residual_norm / search.residual_norm));
+    return std::min(of.largest_residual / exact, std::max(of.largest_residual / allowed,
+                                                          of.residual_norm / search.residual_norm));
   };
   Evaluation now;
   if (displacement_.staleness() <= stale) {
     now = moveAndEvaluate(height, share);
   } else {
-    if (share) forEachRow(grid_.rows, settings_.threads, [&](int row) { displacement_.goOn(row, *share); });
+    if (share)
+      forEachRow(grid_.rows, settings_.threads, [&](int row) { displacement_.goOn(row, *share); });
     refreshElasticTraction();
     now = evaluate(height);
   }
@@ -359,7 +381,8 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     const Evaluation before = now;
     bool is_lower = false;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, length *= 0.5) {
-      mean_traction_ = before.mean_residual + length * (direction.mean_residual - before.mean_residual);
+      mean_traction_ =
+          before.mean_residual + length * (direction.mean_residual - before.mean_residual);
       now = evaluateAlong(height, length);
       is_lower = isNearer(now, before, length * direction.decrease);
       if (is_lower) break;

@@ -9,46 +9,54 @@
 namespace mems_stiction {
 namespace {
 
-/// Smallest steps, of the usual one, beside kSmallestStep: on the loading branch, which may be the unloading branch, and behind its first
-/// jump; and where the largest force of the retraction may depend on it.
+/// Smallest steps, of the usual one, beside kSmallestStep: on the loading branch, which may be the
+/// unloading branch, and behind its first jump; and where the largest force of the retraction may
+/// depend on it.
 constexpr double kSmallestStepIn = 0.25;
 constexpr double kSmallestStepBehindJump = 1.0;
 constexpr double kFinestStep = 0.03125;
-/// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
-/// a tenth over the finest one, and end by a jump.
+/// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff
+/// rest the force may rise by a tenth over the finest one, and end by a jump.
 constexpr double kSummitStep = 0.001;
 /// Distance of the curve's points, those between solved states included, of the usual step.
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
-/// The curvature error, as kWantedError, that is taken back on the loading branch. A parabola with a curvature error errs by a quarter of it where the curve is
-/// smooth. A jump that passes for a smooth step adds up to its curvature error to the work that is lost, and frames have chains of them.
+/// The curvature error, as kWantedError, that is taken back on the loading branch. A parabola with
+/// a curvature error errs by a quarter of it where the curve is smooth. A jump that passes for a
+/// smooth step adds up to its curvature error to the work that is lost, and frames have chains of
+/// them.
 constexpr double kLargestError = 0.03;
-/// A change of slope from one step to the next, over the step and of the force, counts as a curvature error of this share:
-/// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
-/// the branch was on its way to the largest force of all, the third where it is near.
+/// A change of slope from one step to the next, over the step and of the force, counts as a
+/// curvature error of this share: a step over a jump may by chance have the mean of its ends, but
+/// not the slope with which it began. The second where the branch was on its way to the largest
+/// force of all, the third where it is near.
 constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
-/// The smallest step that misses more than this goes over a jump; on the unloading branch, whose work counts, what is taken back at all.
+/// The smallest step that misses more than this goes over a jump; on the unloading branch, whose
+/// work counts, what is taken back at all.
 constexpr double kJumpError = 0.06;
-/// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
-/// much attraction would be less than kJumpError there, and where their contacts bear more on average than the law attracts.
+/// Bodies are pressed heavily where they carry more than this many times the largest attraction so
+/// far, as a jump of as much attraction would be less than kJumpError there, and where their
+/// contacts bear more on average than the law attracts.
 constexpr double kHeavyLoad = 1.0 / kJumpError;
 /// Curvature errors there, wanted and largest: that of a force which grows by the factor of 5.5.
 constexpr double kWantedHeavyError = 0.3;
 constexpr double kLargestHeavyError = 0.6;
 /// By which factor the force is to grow over a step there, where it can be foreseen.
 constexpr double kHeavyGrowth = 4.5;
-/// A force that is farther than this factor is not aimed at: the step before leads to this share of it.
+/// A force that is farther than this factor is not aimed at: the step before leads to this share of
+/// it.
 constexpr double kAimedGrowth = 1.3;
 constexpr double kShareBefore = 0.93;
 /// The largest step there, of the usual one.
 constexpr double kLargestHeavyStep = 128.0;
-/// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
+/// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the
+/// line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
-/// Behind the summit, states with less than this share of the force lead to rest: the first step out, whose slope is the
-/// stiffness, may end in one of them.
+/// Behind the summit, states with less than this share of the force lead to rest: the first step
+/// out, whose slope is the stiffness, may end in one of them.
 constexpr double kTowardsRest = 0.75;
 /// Force beside that of rest from which on a state is exact, of the largest force: it may be rest.
 constexpr double kMaybeRest = 0.01;
@@ -56,13 +64,15 @@ constexpr double kMaybeRest = 0.01;
 constexpr int kMostAims = 5;
 constexpr double kShortestAim = 0.05;
 constexpr double kLongestAim = 2.0;
-/// On the unloading branch, curvature errors with which heights of the loading branch are taken up again.
+/// On the unloading branch, curvature errors with which heights of the loading branch are taken up
+/// again.
 constexpr double kPlannedError = 0.015;
 /// Steps are compared with limits but for rounding.
 constexpr double kStepTolerance = 1.001;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;
-/// On the loading branch, where most states are, a step also changes by the ratio of the last two curvature errors to this power, by no more than that.
+/// On the loading branch, where most states are, a step also changes by the ratio of the last two
+/// curvature errors to this power, by no more than that.
 constexpr double kTrendPower = 0.2;
 constexpr double kLargestTrend = 1.4;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
@@ -71,18 +81,22 @@ constexpr int kManyNewtonSteps = 12;
 constexpr double kSameHeight = 1e-6;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
-/// By how much the mean gap falls in one step at most, beside kLeastClosing: the pressure in full contact grows sixfold.
+/// By how much the mean gap falls in one step at most, beside kLeastClosing: the pressure in full
+/// contact grows sixfold.
 constexpr double kMostClosing = 0.5;
 /// Force that may be left at rest, of the force: the area of bonded surfaces grows steeply there.
 constexpr double kRestForce = 3e-4;
-/// A step beyond rest becomes as long as its parabola says, but no shorter than this share of it. Where it leads over a jump the
-/// parabola may say the same again and again: after so many attempts it is halved at least.
+/// A step beyond rest becomes as long as its parabola says, but no shorter than this share of it.
+/// Where it leads over a jump the parabola may say the same again and again: after so many attempts
+/// it is halved at least.
 constexpr double kLeastOfStep = 0.05;
 constexpr int kMostShortened = 2;
 constexpr double kShareBeyondRest = 0.5;
-/// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
+/// A state beyond rest counts as rest when it is no farther from the last one than this, of the
+/// usual step.
 constexpr double kRestStep = 1e-5;
-/// Height at which the approach begins, of z0, at least, and over that at which a flat of the frame's size would jump.
+/// Height at which the approach begins, of z0, at least, and over that at which a flat of the
+/// frame's size would jump.
 constexpr double kStartHeight = 4.0;
 constexpr double kStartMargin = 1.25;
 
@@ -103,7 +117,8 @@ double ContactPath::startHeight() const {
   const TractionLaw& law = minimiser_.law();
   const double z0 = law.range();
   // -t' = (8 Gamma/z0^2) (z0/g)^4 equals the stiffness of the longest wave
-  const double softest = std::isfinite(minimiser_.smallestStiffness()) ? minimiser_.smallestStiffness() : 0.0;
+  const double softest =
+      std::isfinite(minimiser_.smallestStiffness()) ? minimiser_.smallestStiffness() : 0.0;
   const double jump = softest > 0.0 ? std::pow(3.0 * law.stress() / (z0 * softest), 0.25) : 0.0;
   return z0 * std::max(kStartHeight, kStartMargin * jump) + (law.reach() - z0);
 }
@@ -123,12 +138,15 @@ bool ContactPath::isHeavy(const ForcePoint& point) const {
 
 double ContactPath::forceScale() const { return std::max(std::abs(present_.force), strongest_); }
 
-double ContactPath::leftAtRest(double load) const { return kRestForce * std::max(forceScale(), load); }
+double ContactPath::leftAtRest(double load) const {
+  return kRestForce * std::max(forceScale(), load);
+}
 
 double ContactPath::curvatureErrorOf(const ForcePoint& next) const {
   const StepParabola parabola(present_, next);
   // of the smaller one: a step from a large load to none must not miss the attraction
-  const double scale = std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
+  const double scale =
+      std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
   return scale > 0.0 ? parabola.curvatureError() / scale : 0.0;
 }
 
@@ -137,20 +155,25 @@ double ContactPath::kinkOf(const ForcePoint& next) const {
   if (last_move_ == 0.0 || !(scale > 0.0)) return 0.0;
   const double begun = (last_parabola_.slope() + 2.0 * last_parabola_.bend()) / last_move_;
   const double move = next.height - present_.height;
-  return std::abs(StepParabola(present_, next).slope() - begun * move) / std::max(scale, std::abs(next.force));
+  return std::abs(StepParabola(present_, next).slope() - begun * move) /
+         std::max(scale, std::abs(next.force));
 }
 
-PathStatus ContactPath::attempt(double height, const Accuracy& accuracy, ForcePoint& next, ContactState& state) {
+PathStatus ContactPath::attempt(double height, const Accuracy& accuracy, ForcePoint& next,
+                                ContactState& state) {
   const double move = height - present_.height;
   const double share =
-      changing_move_ != 0.0 ? std::clamp(move / changing_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
+      changing_move_ != 0.0
+          ? std::clamp(move / changing_move_, -kLongestContinuation, kLongestContinuation)
+          : 0.0;
   minimiser_.moveOn(share);
   return settle(height, accuracy, next, state);
 }
 
 ContactPath::Accuracy ContactPath::summitAccuracy() const { return isWayBack() ? kSummit : kExact; }
 
-ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step, const ForceCurve& curve) const {
+ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step,
+                                              const ForceCurve& curve) const {
   if (!minimiser_.flowed().empty()) return kExact;
   if (is_in) {
     const bool is_falling = last_move_ != 0.0 && last_parabola_.end < last_parabola_.begin;
@@ -159,11 +182,13 @@ ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step, const For
   }
   // the first step out tells the stiffness
   if (!settings_.samples_curve || last_move_ == 0.0) return kExact;
-  const bool is_far = std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force;
+  const bool is_far =
+      std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force;
   return is_far ? kPassingOut : summitAccuracy();
 }
 
-PathStatus ContactPath::settle(double height, const Accuracy& accuracy, ForcePoint& next, ContactState& state) {
+PathStatus ContactPath::settle(double height, const Accuracy& accuracy, ForcePoint& next,
+                               ContactState& state) {
   ContactMinimiser::Search search;
   if (isHeavy(present_)) search.longest_move = kLongestHeavyMove;
   search.tolerance = accuracy.residual;
@@ -181,12 +206,14 @@ PathStatus ContactPath::settle(double height, const Accuracy& accuracy, ForcePoi
 
 double ContactPath::continued(double move) const {
   if (last_move_ == 0.0) return present_.force;
-  // at its end; over small steps energies say little about it, but no monotonous parabola is steeper there than this
+  // at its end; over small steps energies say little about it, but no monotonous parabola is
+  // steeper there than this
   const double change = 2.0 * std::abs(last_parabola_.end - last_parabola_.begin);
   const double rise = std::min(last_parabola_.slope() + 2.0 * last_parabola_.bend(), change);
   const double bend = std::min(0.0, last_parabola_.bend());
   double further = std::max(0.0, move / last_move_);
-  if (rise + 2.0 * bend * further < 0.0) further = std::max(0.0, -0.5 * rise / bend);  // where it is highest
+  if (rise + 2.0 * bend * further < 0.0)
+    further = std::max(0.0, -0.5 * rise / bend);  // where it is highest
   return present_.force + std::max(0.0, further * (rise + bend * further));
 }
 
@@ -197,22 +224,27 @@ void ContactPath::record(const ForcePoint& next, bool is_jump, ForceCurve& curve
   if (is_jump) {
     ++curve.jumps;
     curve.work += 0.5 * (parabola.begin + parabola.end) * move;
-    curve.attracting_work += 0.5 * (std::max(0.0, parabola.begin) + std::max(0.0, parabola.end)) * attracting * move;
+    curve.attracting_work +=
+        0.5 * (std::max(0.0, parabola.begin) + std::max(0.0, parabola.end)) * attracting * move;
     curve.missed_force = std::max(curve.missed_force, continued(move));
   } else {
     curve.work += parabola.mean * move;
     if (parabola.begin > 0.0) curve.attracting_work += parabola.workTo(attracting) * move;
-    if (parabola.begin <= 0.0) curve.attracting_work += (parabola.mean - parabola.workTo(1.0 - attracting)) * move;
+    if (parabola.begin <= 0.0)
+      curve.attracting_work += (parabola.mean - parabola.workTo(1.0 - attracting)) * move;
     const double usual = settings_.step * minimiser_.law().range();
     const int pieces = static_cast<int>(std::ceil(std::abs(move) / (kPointDistance * usual)));
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
-    const std::optional<PressedStep> pressed = is_heavy ? std::make_optional<PressedStep>(parabola) : std::nullopt;
+    const std::optional<PressedStep> pressed =
+        is_heavy ? std::make_optional<PressedStep>(parabola) : std::nullopt;
     // energies that do not belong to the forces tell of several branches, not of a parabola
     const bool is_smooth = is_heavy || curvatureErrorOf(next) <= kJumpError;
     std::vector<double> shares;  // of the step, where points are
-    for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
+    for (int piece = 1; is_smooth && piece < pieces; ++piece)
+      shares.push_back(static_cast<double>(piece) / pieces);
     const double summit = is_smooth && !is_heavy ? parabola.summit() : 0.0;
-    if (summit > 0.0 && summit < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), summit), summit);
+    if (summit > 0.0 && summit < 1.0)
+      shares.insert(std::upper_bound(shares.begin(), shares.end(), summit), summit);
     for (const double x : shares) {
       ForcePoint between = present_;
       between.height += x * move;
@@ -240,7 +272,8 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
   if (settings_.on_state) settings_.on_state(next);
 }
 
-double ContactPath::crossingOf(const StepParabola& parabola, double force, double from, double to) const {
+double ContactPath::crossingOf(const StepParabola& parabola, double force, double from,
+                               double to) const {
   if (isHeavy(present_) && PressedStep::fits(parabola) && force < 0.0) {
     return crossing(PressedStep(parabola), force, from, to);
   }
@@ -272,7 +305,8 @@ double ContactPath::closingStep(double force) const {
   const TractionLaw& law = minimiser_.law();
   const double left = gapLeft();
   if (!std::isfinite(left)) return left;
-  // the law repels the more steeply the narrower a gap is: the mean pressure is at least that of the mean gap
+  // the law repels the more steeply the narrower a gap is: the mean pressure is at least that of
+  // the mean gap
   const double to_force = present_.mean_gap - law.gapUnder(-force / minimiser_.validArea());
   return std::clamp(to_force, kLeastClosing * left, kMostClosing * left);
 }
@@ -280,10 +314,13 @@ double ContactPath::closingStep(double force) const {
 void ContactPath::planStep() {
   if (!isHeavy(present_)) return;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
-  for (auto point = approach_.points.rbegin(); point != approach_.points.rend() && point->force < 0.0; ++point) {
+  for (auto point = approach_.points.rbegin();
+       point != approach_.points.rend() && point->force < 0.0; ++point) {
     if (!point->is_solved || point->height < present_.height + smallest) continue;
     const double curvature_error = curvatureErrorOf(*point) * kUsualStep / settings_.step;
-    if (curvature_error > (isHeavy(present_) && isHeavy(*point) ? kLargestHeavyError : kPlannedError)) break;
+    if (curvature_error >
+        (isHeavy(present_) && isHeavy(*point) ? kLargestHeavyError : kPlannedError))
+      break;
     step_ = point->height - present_.height;
   }
 }
@@ -306,7 +343,8 @@ double ContactPath::smallestStep(bool is_in) const {
 
 double ContactPath::leastStep(bool is_in, const ForceCurve& curve) const {
   const bool is_behind_jump = is_in && !curve.is_one_branch;
-  return is_behind_jump ? kSmallestStepBehindJump * settings_.step * minimiser_.law().range() : smallestStep(is_in);
+  return is_behind_jump ? kSmallestStepBehindJump * settings_.step * minimiser_.law().range()
+                        : smallestStep(is_in);
 }
 
 ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double direction, double step,
@@ -319,21 +357,30 @@ ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double directi
   const bool may_exceed = mayExceed(direction, step, at_most);
   const bool is_at_summit = is_unloading && present_.force > kSummitForce * at_most;
   const bool touches_summit = is_at_summit || (is_unloading && next.force > kSummitForce * at_most);
-  const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
+  const double kink_share = is_at_summit ? kSummitKinkShare
+                            : may_exceed ? kRisingKinkShare
+                                         : kKinkShare;
   const double curvature_share = is_at_summit ? kSummitErrorShare : 1.0;
   // finer usual steps are to miss less, too
-  const double curvature_error = std::max(curvature_share * curvatureErrorOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
+  const double curvature_error =
+      std::max(curvature_share * curvatureErrorOf(next), kink_share * kinkOf(next)) * kUsualStep /
+      settings_.step;
   const bool is_heavy = isHeavy(present_) && isHeavy(next);
   const bool is_coarse = is_heavy || !settings_.samples_curve;
   const double wanted_error = is_coarse ? kWantedHeavyError : kWantedError;
-  const double largest_error = is_coarse ? kLargestHeavyError : is_unloading ? largest_error_out : kLargestError;
+  const double largest_error = is_coarse      ? kLargestHeavyError
+                               : is_unloading ? largest_error_out
+                                              : kLargestError;
   // a jump loses energy: the mean of both forces does more work than the energies tell
   const StepParabola parabola(present_, next);
   const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-  const bool is_jump = loses && !is_heavy && curvatureErrorOf(next) > (is_unloading ? largest_error_out : kJumpError);
-  // how steeply a branch rises that begins here is not known: its end may be the largest force of all
+  const bool is_jump = loses && !is_heavy &&
+                       curvatureErrorOf(next) > (is_unloading ? largest_error_out : kJumpError);
+  // how steeply a branch rises that begins here is not known: its end may be the largest force of
+  // all
   const bool may_miss = may_exceed || (!is_in && last_move_ == 0.0);
-  // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
+  // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are
+  // finer
   const bool is_pressed = std::min(present_.force, next.force) < 0.0;
   const bool is_fine = may_miss || touches_summit || (is_pressed && !is_jump);
   const bool is_finest = may_exceed || (may_miss && is_jump);
@@ -343,17 +390,23 @@ ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double directi
 }
 
 double ContactPath::changeOfStep(const Judgement& judged, bool is_in, int newton_steps) const {
-  const auto within = [](double change, double most) { return std::clamp(change, 1.0 / most, most); };
-  double change = within(std::sqrt(judged.wanted_error / std::max(judged.curvature_error, 1e-12)), kLargestChange);
+  const auto within = [](double change, double most) {
+    return std::clamp(change, 1.0 / most, most);
+  };
+  double change = within(std::sqrt(judged.wanted_error / std::max(judged.curvature_error, 1e-12)),
+                         kLargestChange);
   if (judged.is_heavy) return change;
   if (newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
   if (!is_in || last_error_ == 0.0) return change;
-  // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991) 533)
-  change *= within(std::pow(last_error_ / std::max(judged.curvature_error, 1e-12), kTrendPower), kLargestTrend);
+  // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991)
+  // 533)
+  change *= within(std::pow(last_error_ / std::max(judged.curvature_error, 1e-12), kTrendPower),
+                   kLargestTrend);
   return within(change, kLargestChange);
 }
 
-PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
+PathStatus ContactPath::advance(double direction, double farthest, double least_force,
+                                ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
   const bool is_unloading = !is_in && settings_.samples_curve;
@@ -371,7 +424,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     if (is_in) step = std::min(step, closingStep(least_force));
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) {
-      const double nearest = mayExceed(direction, to_jump, curve.largest_force) ? finest_ : smallest;
+      const double nearest =
+          mayExceed(direction, to_jump, curve.largest_force) ? finest_ : smallest;
       step = std::min(step, to_jump <= kStepTolerance * nearest ? to_jump : 0.5 * to_jump);
     }
     const double move = direction * step;
@@ -395,7 +449,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       const bool is_rest = beyond > -near && (beyond < near || step <= kRestStep * usual);
       if ((is_rough && is_aimed) || is_rest || may_flow) {
         status = settle(present_.height + move, kExact, next, state);
-      } else if (is_unloading && accuracy.force > kSummit.force && next.force > kSummitForce * curve.largest_force) {
+      } else if (is_unloading && accuracy.force > kSummit.force &&
+                 next.force > kSummitForce * curve.largest_force) {
         status = settle(present_.height + move, summitAccuracy(), next, state);
       }
     }
@@ -414,7 +469,9 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
         jump_height_ = present_.height + move;
         finest_ = judged.finest;
       }
-      step_ = std::max(judged.finest, step * std::clamp(std::sqrt(judged.wanted_error / judged.curvature_error), 0.25, 0.5));
+      step_ = std::max(
+          judged.finest,
+          step * std::clamp(std::sqrt(judged.wanted_error / judged.curvature_error), 0.25, 0.5));
       is_aimed = false;
       continue;
     }
@@ -425,14 +482,17 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
         takeBackForPart(next);
       }
       const double most = ++shortened > kMostShortened ? kShareBeyondRest : 1.0 - kRestForce;
-      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), kLeastOfStep, most);
+      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0),
+                                kLeastOfStep, most);
       farthest = step;
       is_aimed = true;
       continue;
     }
-    curve.is_one_branch = curve.is_one_branch && !judged.is_jump && judged.curvature_error <= judged.largest_error;
+    curve.is_one_branch =
+        curve.is_one_branch && !judged.is_jump && judged.curvature_error <= judged.largest_error;
     accept(next, judged.is_jump, curve);
-    is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
+    is_before_jump_ =
+        is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     const double wanted_next = step * changeOfStep(judged, is_in, state.newton_steps);
     const double longest = (judged.is_heavy ? kLargestHeavyStep : kLargestStep) * usual;
     step_ = std::clamp(wanted_next, std::min(smallestStep(is_in), step), longest);

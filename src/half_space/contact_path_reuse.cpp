@@ -10,16 +10,19 @@
 namespace mems_stiction {
 namespace {
 
-/// States at one height whose forces differ by less than this, of the force, and their energies by less than that, of the
-/// force times z0, are the same: states of the loading branch are as near as their residuals are small.
+/// States at one height whose forces differ by less than this, of the force, and their energies by
+/// less than that, of the force times z0, are the same: states of the loading branch are as near as
+/// their residuals are small.
 constexpr double kSameForce = 5e-3;
 constexpr double kSameEnergy = 1e-4;
 /// The same energy of a state and of the curve between two others.
 constexpr double kSameEnergyBetween = 1e-3;
-/// States of the loading branch that a reuse from rest must pass, and states that are solved at most to know the largest force.
+/// States of the loading branch that a reuse from rest must pass, and states that are solved at
+/// most to know the largest force.
 constexpr int kFewestReused = 2;
 constexpr int kMostOnSummit = 5;
-/// The nearest state of the loading branch tells the stiffness if it is no farther than so many first steps.
+/// The nearest state of the loading branch tells the stiffness if it is no farther than so many
+/// first steps.
 constexpr double kLongestFirstStep = 1.5;
 
 bool isWeaker(const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; }
@@ -38,7 +41,9 @@ ForcePoint between(const ForcePoint& from, const ForcePoint& to, double x) {
 
 /// Into a loading branch the order of its heights, in the place of what it has there.
 void insert(const ForcePoint& point, std::vector<ForcePoint>& way) {
-  const auto isBelow = [](const ForcePoint& one, const ForcePoint& other) { return one.height < other.height; };
+  const auto isBelow = [](const ForcePoint& one, const ForcePoint& other) {
+    return one.height < other.height;
+  };
   const auto place = std::lower_bound(way.begin(), way.end(), point, isBelow);
   if (place != way.end() && place->height == point.height) {
     *place = point;
@@ -50,7 +55,8 @@ void insert(const ForcePoint& point, std::vector<ForcePoint>& way) {
 }  // namespace
 
 bool ContactPath::isWayBack() const {
-  return settings_.samples_curve && is_on_approach_ && minimiser_.flowed().empty() && approach_.is_one_branch;
+  return settings_.samples_curve && is_on_approach_ && minimiser_.flowed().empty() &&
+         approach_.is_one_branch;
 }
 
 std::vector<ForcePoint> ContactPath::wayBack(const ForceCurve& curve) const {
@@ -61,7 +67,8 @@ std::vector<ForcePoint> ContactPath::wayBack(const ForceCurve& curve) const {
     if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
   }
   const bool is_rest = curve.points.size() == 1;
-  if (is_rest && !way.empty() && way.front().height > present_.height + kLongestFirstStep * step_) way.clear();
+  if (is_rest && !way.empty() && way.front().height > present_.height + kLongestFirstStep * step_)
+    way.clear();
   return way;
 }
 
@@ -95,7 +102,9 @@ bool ContactPath::reuse(const ForcePoint& target) {
   return is_on_approach_;
 }
 
-bool ContactPath::reuseFromRest(ForceCurve& curve) { return reuseToSummit(curve) || reuseTowardsSummit(curve); }
+bool ContactPath::reuseFromRest(ForceCurve& curve) {
+  return reuseToSummit(curve) || reuseTowardsSummit(curve);
+}
 
 std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint>& way,
                                                     const std::optional<ForcePoint>& top) const {
@@ -110,7 +119,8 @@ std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint
   if (!top || summit.force > (1.0 + kSummit.force) * top->force) return summit;
   const double largest_error = kLargestSagOut / kSummitErrorShare * settings_.step / kUsualStep;
   for (auto from = first; from != last; ++from) {
-    if (StepParabola(*from, *(from + 1)).curvatureError() > largest_error * top->force) return between(*from, *(from + 1), 0.5);
+    if (StepParabola(*from, *(from + 1)).curvatureError() > largest_error * top->force)
+      return between(*from, *(from + 1), 0.5);
   }
   return std::nullopt;
 }
@@ -119,10 +129,13 @@ bool ContactPath::reuseToSummit(ForceCurve& curve) {
   std::vector<ForcePoint> way = wayBack(curve);
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
   if (highest - way.begin() < kFewestReused) return false;
-  const auto isHigh = [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; };
+  const auto isHigh = [&](const ForcePoint& point) {
+    return point.force > kSummitForce * highest->force;
+  };
   const auto first = std::find_if(way.begin(), highest, isHigh);
   const auto end = std::find_if_not(highest, way.end(), isHigh);
-  const bool is_only_summit = std::is_sorted(first, highest, isWeaker) && std::is_sorted(highest, end, isStronger) &&
+  const bool is_only_summit = std::is_sorted(first, highest, isWeaker) &&
+                              std::is_sorted(highest, end, isStronger) &&
                               std::none_of(end, way.end(), isHigh);
   if (!is_only_summit || end == way.end()) return false;
   const ForcePoint rest = present_;
@@ -152,8 +165,9 @@ bool ContactPath::reuseTowardsSummit(ForceCurve& curve) {
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
   if (highest == way.end()) return false;
   // the first of several, as behind each the unloading branch may be another branch for a while
-  auto summit = std::find_if(way.begin(), highest,
-                             [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; });
+  auto summit = std::find_if(way.begin(), highest, [&](const ForcePoint& point) {
+    return point.force > kSummitForce * highest->force;
+  });
   while (summit != highest && summit->force < (summit + 1)->force) ++summit;
   if (summit - way.begin() < kFewestReused || !reuse(*(summit - 1))) return false;
   const double from = present_.height;
@@ -161,7 +175,8 @@ bool ContactPath::reuseTowardsSummit(ForceCurve& curve) {
   changing_move_ = present_.height - from;
   step_ = summit->height - present_.height;
   // the loading branch has told how the curve bends there
-  const double curvature_error = kSummitErrorShare * curvatureErrorOf(*summit) * kUsualStep / settings_.step;
+  const double curvature_error =
+      kSummitErrorShare * curvatureErrorOf(*summit) * kUsualStep / settings_.step;
   if (curvature_error > kWantedError) step_ *= std::sqrt(kWantedError / curvature_error);
   return true;
 }
@@ -169,7 +184,9 @@ bool ContactPath::reuseTowardsSummit(ForceCurve& curve) {
 bool ContactPath::reuseBehindSummit(ForceCurve& curve) {
   if (!is_over_summit_) return false;
   const std::vector<ForcePoint> way = wayBack(curve);
-  const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
+  const auto isBehind = [&](const ForcePoint& point) {
+    return point.force < kSummitForce * curve.largest_force;
+  };
   const auto behind = std::find_if(way.begin(), way.end(), isBehind);
   if (behind == way.end() || isStronger(way.front(), present_)) return false;
   const bool is_last_summit =

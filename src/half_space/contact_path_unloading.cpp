@@ -4,7 +4,8 @@
 
 #include "half_space/contact_path.hpp"
 
-// The unloading branch from rest; contact_path_reuse.cpp has its reuses of states along the loading branch, contact_path.cpp the steps of both ways.
+// The unloading branch from rest; contact_path_reuse.cpp has its reuses of states along the loading
+// branch, contact_path.cpp the steps of both ways.
 
 namespace mems_stiction {
 namespace {
@@ -41,7 +42,8 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
 
 PathStatus ContactPath::goOut(ForceCurve& curve) {
   const double left = approach_.points.front().height - present_.height;
-  return advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
+  return advance(1.0, left > 0.0 ? left : kLargestStep * step_,
+                 -std::numeric_limits<double>::infinity(), curve);
 }
 
 PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }

@@ -24,9 +24,11 @@ constexpr double kLargestArea = 0.05;
 /// Share of the frame's residual that stays in a window, and steps that it may take.
 constexpr double kRelaxedShare = 0.02;
 constexpr int kMostNewtonSteps = 30;
-/// Minimisers that are kept for the next windows of their shape: plans and arrays take as long to make as to use.
+/// Minimisers that are kept for the next windows of their shape: plans and arrays take as long to
+/// make as to use.
 constexpr std::size_t kMostIdle = 16;
-/// A change of traction beyond this, of 8 Gamma/(3 z0), is no answer: the law repels with 1300 times that at most.
+/// A change of traction beyond this, of 8 Gamma/(3 z0), is no answer: the law repels with 1300
+/// times that at most.
 constexpr double kLargestStressChange = 1e5;
 
 /// i on a ring of n.
@@ -43,7 +45,8 @@ int firstCell(int block, int cells) {
 }
 
 /// Each value as large as that of |residual - mean| at least.
-MEMS_STICTION_VECTORIZED void raiseResiduals(const float* residual, float mean, std::vector<float>& values) {
+MEMS_STICTION_VECTORIZED void raiseResiduals(const float* residual, float mean,
+                                             std::vector<float>& values) {
   float* const value = values.data();
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float here = std::abs(residual[i] - mean);
@@ -53,8 +56,8 @@ MEMS_STICTION_VECTORIZED void raiseResiduals(const float* residual, float mean, 
 
 }  // namespace
 
-ContactWindows::ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
-                               const MinimiserSettings& settings)
+ContactWindows::ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law,
+                               const ElasticResponse& response, const MinimiserSettings& settings)
     : grid_(grid), law_(law), settings_(settings), response_(response) {
   settings_.give_way = nullptr;
   settings_.max_newton_steps = kMostNewtonSteps;
@@ -72,8 +75,10 @@ cv::Mat1b ContactWindows::blocksOf(const Frame& frame) const {
   const auto limit = static_cast<float>(kMarkedShare * frame.largest_residual);
   const auto mean = static_cast<float>(frame.mean_residual);
   forEachRow(marked.rows, settings_.threads, [&](int block_row) {
-    std::vector<float> largest(static_cast<std::size_t>(grid_.frame_cols), 0.0F);  // of each column in these rows
-    for (int row = firstCell(block_row, grid_.frame_rows); row < firstCell(block_row + 1, grid_.frame_rows); ++row) {
+    std::vector<float> largest(static_cast<std::size_t>(grid_.frame_cols),
+                               0.0F);  // of each column in these rows
+    for (int row = firstCell(block_row, grid_.frame_rows);
+         row < firstCell(block_row + 1, grid_.frame_rows); ++row) {
       raiseResiduals(frame.residual + grid_.offset(row), mean, largest);
     }
     for (int block = 0; block < marked.cols; ++block) {
@@ -88,7 +93,8 @@ cv::Mat1b ContactWindows::blocksOf(const Frame& frame) const {
 std::vector<ContactWindows::Window> ContactWindows::windowsAround(const cv::Mat1b& marked) {
   const bool is_periodic = grid_.boundary == HalfSpaceBoundary::kPeriodic;
   const auto isInside = [&](const cv::Point& block) {
-    return is_periodic || (block.y >= 0 && block.y < marked.rows && block.x >= 0 && block.x < marked.cols);
+    return is_periodic ||
+           (block.y >= 0 && block.y < marked.rows && block.x >= 0 && block.x < marked.cols);
   };
   const auto inFrame = [&](const cv::Point& block) {
     return cv::Point(onRing(block.x, marked.cols), onRing(block.y, marked.rows));
@@ -118,7 +124,8 @@ std::vector<ContactWindows::Window> ContactWindows::windowsAround(const cv::Mat1
         const cv::Point block = border.back();
         border.pop_back();
         window.blocks |= cv::Rect(block.x, block.y, 1, 1);
-        for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+        for (const cv::Point step :
+             {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
           const cv::Point neighbour = block + step;
           if (!isInside(neighbour) || grown(inFrame(neighbour)) == 0) continue;
           int& label = labels_(inFrame(neighbour));
@@ -134,7 +141,8 @@ std::vector<ContactWindows::Window> ContactWindows::windowsAround(const cv::Mat1
 }
 
 cv::Rect ContactWindows::cellsOf(const Window& window) const {
-  const cv::Point first(firstCell(window.blocks.x, grid_.frame_cols), firstCell(window.blocks.y, grid_.frame_rows));
+  const cv::Point first(firstCell(window.blocks.x, grid_.frame_cols),
+                        firstCell(window.blocks.y, grid_.frame_rows));
   const cv::Point end(firstCell(window.blocks.x + window.blocks.width, grid_.frame_cols),
                       firstCell(window.blocks.y + window.blocks.height, grid_.frame_rows));
   return {first, end};
@@ -144,7 +152,9 @@ bool ContactWindows::areWorthIt(const std::vector<Window>& windows) const {
   double area = 0.0;
   for (const Window& window : windows) {
     const cv::Rect cells = cellsOf(window);
-    if (cells.width > kWidestWindow * grid_.frame_cols || cells.height > kWidestWindow * grid_.frame_rows) return false;
+    if (cells.width > kWidestWindow * grid_.frame_cols ||
+        cells.height > kWidestWindow * grid_.frame_rows)
+      return false;
     area += static_cast<double>(cells.width) * cells.height;
   }
   return area <= kLargestArea * grid_.frame_rows * grid_.frame_cols;
@@ -163,15 +173,16 @@ void ContactWindows::forEachCell(const cv::Rect& cells, const Work& work) const 
 }
 
 bool ContactWindows::owns(const Window& window, int row, int col) const {
-  return labels_(std::min(row / kLabelBlock, labels_.rows - 1), std::min(col / kLabelBlock, labels_.cols - 1)) ==
-         window.label;
+  return labels_(std::min(row / kLabelBlock, labels_.rows - 1),
+                 std::min(col / kLabelBlock, labels_.cols - 1)) == window.label;
 }
 
 std::unique_ptr<ContactMinimiser> ContactWindows::takeMinimiser(const HalfSpaceGrid& window) {
   {
     const std::lock_guard<std::mutex> lock(idle_mutex_);
     const auto found = std::find_if(idle_.begin(), idle_.end(), [&](const auto& idle) {
-      return idle->grid().frame_rows == window.frame_rows && idle->grid().frame_cols == window.frame_cols;
+      return idle->grid().frame_rows == window.frame_rows &&
+             idle->grid().frame_cols == window.frame_cols;
     });
     if (found != idle_.end()) {
       std::unique_ptr<ContactMinimiser> minimiser = std::move(*found);
@@ -181,8 +192,10 @@ std::unique_ptr<ContactMinimiser> ContactWindows::takeMinimiser(const HalfSpaceG
   }
   MinimiserSettings settings = settings_;
   settings.threads = 1;
-  const auto cells = static_cast<std::size_t>(window.frame_rows) * static_cast<std::size_t>(window.frame_cols);
-  return std::make_unique<ContactMinimiser>(window, law_, response_, LargePageVector<double>(cells, 0.0),
+  const auto cells =
+      static_cast<std::size_t>(window.frame_rows) * static_cast<std::size_t>(window.frame_cols);
+  return std::make_unique<ContactMinimiser>(window, law_, response_,
+                                            LargePageVector<double>(cells, 0.0),
                                             LargePageVector<float>(), settings);
 }
 
@@ -194,12 +207,14 @@ void ContactWindows::giveBack(std::unique_ptr<ContactMinimiser> minimiser) {
 
 ContactWindows::Relaxed ContactWindows::relaxOne(const Frame& frame, const Window& window) {
   const cv::Rect cells = cellsOf(window);
-  const HalfSpaceGrid grid(cells.height, cells.width, grid_.pitch_x, grid_.pitch_y, HalfSpaceBoundary::kFree);
+  const HalfSpaceGrid grid(cells.height, cells.width, grid_.pitch_x, grid_.pitch_y,
+                           HalfSpaceBoundary::kFree);
   LargePageVector<double> relief(static_cast<std::size_t>(cells.area()));
   LargePageVector<float> fixed(relief.size());
   forEachCell(cells, [&](std::size_t place, std::size_t cell, int row, int col) {
     const std::size_t in_frame =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols) + static_cast<std::size_t>(col);
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols) +
+        static_cast<std::size_t>(col);
     relief[place] = frame.relief[in_frame] - frame.displacement[cell];
     fixed[place] = static_cast<float>(frame.elastic_traction[cell] + frame.mean_residual);
   });
@@ -207,17 +222,20 @@ ContactWindows::Relaxed ContactWindows::relaxOne(const Frame& frame, const Windo
   relaxed.change.resize(static_cast<std::size_t>(cells.area()));
   std::unique_ptr<ContactMinimiser> minimiser = takeMinimiser(grid);
   if (!minimiser->isSetUp()) return relaxed;
-  minimiser->restart(std::move(relief), std::move(fixed), kRelaxedShare * frame.largest_residual / law_.stress());
+  minimiser->restart(std::move(relief), std::move(fixed),
+                     kRelaxedShare * frame.largest_residual / law_.stress());
   minimiser->solve(frame.height);
   const double limit = kLargestStressChange * law_.stress();
   relaxed.is_sound = true;
   const double* const traction = minimiser->elasticTraction();
   forEachCell(cells, [&](std::size_t place, std::size_t cell, int row, int col) {
-    const std::size_t in_window = grid.offset(static_cast<int>(place) / cells.width) + place % cells.width;
+    const std::size_t in_window =
+        grid.offset(static_cast<int>(place) / cells.width) + place % cells.width;
     relaxed.change[place] = static_cast<float>(traction[in_window]);
     relaxed.is_sound = relaxed.is_sound && std::abs(traction[in_window]) <= limit;  // nor is NaN
     if (!owns(window, row, col)) return;
-    relaxed.gained += traction[in_window] - (static_cast<double>(frame.residual[cell]) - frame.mean_residual);
+    relaxed.gained +=
+        traction[in_window] - (static_cast<double>(frame.residual[cell]) - frame.mean_residual);
   });
   if (relaxed.is_sound) giveBack(std::move(minimiser));
   return relaxed;
@@ -229,7 +247,8 @@ void ContactWindows::findResponse(StiffnessOperator<double>& stiffness) {
   cv::Mat1d influence(static_cast<int>(kWidestWindow * grid_.frame_rows) + 1,
                       static_cast<int>(kWidestWindow * grid_.frame_cols) + 1);
   if (is_free) {
-    const CellInfluence cell(response_.contact_modulus, response_.layers, grid_.pitch_x, grid_.pitch_y);
+    const CellInfluence cell(response_.contact_modulus, response_.layers, grid_.pitch_x,
+                             grid_.pitch_y);
     forEachRow(influence.rows, settings_.threads, [&](int row) {
       for (int col = 0; col < influence.cols; ++col) influence(row, col) = cell.at(row, col);
     });
@@ -245,7 +264,8 @@ void ContactWindows::findResponse(StiffnessOperator<double>& stiffness) {
   response_.influence = &influence_;
 }
 
-bool ContactWindows::relax(const Frame& frame, StiffnessOperator<double>& stiffness, float* change) {
+bool ContactWindows::relax(const Frame& frame, StiffnessOperator<double>& stiffness,
+                           float* change) {
   const std::vector<Window> windows = windowsAround(blocksOf(frame));
   if (!areWorthIt(windows)) return false;
   findResponse(stiffness);
@@ -254,7 +274,8 @@ bool ContactWindows::relax(const Frame& frame, StiffnessOperator<double>& stiffn
     const auto place = static_cast<std::size_t>(i);
     relaxed[place] = relaxOne(frame, windows[place]);
   });
-  if (!std::all_of(relaxed.begin(), relaxed.end(), [](const Relaxed& one) { return one.is_sound; })) return false;
+  if (!std::all_of(relaxed.begin(), relaxed.end(), [](const Relaxed& one) { return one.is_sound; }))
+    return false;
   double level = 0.0;  // of what K cannot resist
   for (const Relaxed& one : relaxed) level += one.gained;
   level = grid_.boundary == HalfSpaceBoundary::kPeriodic ? level / grid_.cellCount() : 0.0;
@@ -265,7 +286,8 @@ bool ContactWindows::relax(const Frame& frame, StiffnessOperator<double>& stiffn
   });
   for (std::size_t i = 0; i < windows.size(); ++i) {
     forEachCell(cellsOf(windows[i]), [&](std::size_t place, std::size_t cell, int row, int col) {
-      if (owns(windows[i], row, col)) change[cell] = relaxed[i].change[place] - static_cast<float>(level);
+      if (owns(windows[i], row, col))
+        change[cell] = relaxed[i].change[place] - static_cast<float>(level);
     });
   }
   return true;

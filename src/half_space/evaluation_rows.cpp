@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "numeric/packet_functions.hpp"
 #include "numeric/packet.hpp"
+#include "numeric/packet_functions.hpp"
 
 namespace mems_stiction {
 namespace evaluation_rows {
@@ -63,7 +63,8 @@ void addFixed(int count, const float* fixed, const double* displacement, Tile& t
 }
 
 /// Residuals into `arrays` and sums in fixed packets; the tile is filled up with what adds nothing.
-MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile, Sums& sums) {
+MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile,
+                                      Sums& sums) {
   alignas(64) double displacement[kTile];
   alignas(64) double elastic[kTile];
   alignas(64) double work[kTile];
@@ -73,7 +74,8 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     displacement[i] = arrays.displacement[i] + move;
     elastic[i] = arrays.elastic_traction[i] + further;
     // with s K u for u K s: else what rounding leaves in K s would be weighed with all of u
-    work[i] = arrays.displacement[i] * arrays.elastic_traction[i] + move * (arrays.elastic_traction[i] + elastic[i]);
+    work[i] = arrays.displacement[i] * arrays.elastic_traction[i] +
+              move * (arrays.elastic_traction[i] + elastic[i]);
   }
   if (arrays.fixed != nullptr) addFixed(count, arrays.fixed, displacement, tile);
   int end = count;
@@ -120,10 +122,10 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
   sums.lowest = lowest.smallest();
 }
 
-/// Where repulsion and elastic traction differ, the slope of the line between both: the tangent of (z0/g)^9 would take
-/// a step for each factor of three in the traction.
-MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, double length, const RowArrays& arrays,
-                                         Tile& tile) {
+/// Where repulsion and elastic traction differ, the slope of the line between both: the tangent of
+/// (z0/g)^9 would take a step for each factor of three in the traction.
+MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, double length,
+                                         const RowArrays& arrays, Tile& tile) {
   const double least = kSecantShare * law.stress();
   for (int i = 0; i < count; i += kPacket) {
     const Packet gap = Packet::load(tile.gaps + i);  // filled up with what is infinite
@@ -136,14 +138,15 @@ MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, doub
     const Packet traction = take(tile.traction + i);
     const Packet slope = take(tile.slope + i);
     const Packet fixed = arrays.fixed != nullptr ? take(arrays.fixed + i) : Packet();
-    const Packet elastic =
-        arrays.mean + fixed + take(arrays.elastic_traction + i) + length * take(arrays.step_traction + i);
+    const Packet elastic = arrays.mean + fixed + take(arrays.elastic_traction + i) +
+                           length * take(arrays.step_traction + i);
     const Packet wanted = select(elastic < 0.0, elastic, Packet());
     const Packet missed = select(repels, greater(traction - wanted, wanted - traction), Packet());
     const PacketMask is_missed = missed > least;
     if (!isAnywhere(is_missed)) continue;
     const Packet secant = law.secant(gap, traction, wanted);
-    select(select(is_missed, secant, Packet()) > 0.0, secant, slope).storeFirst(left, tile.slope + i);
+    select(select(is_missed, secant, Packet()) > 0.0, secant, slope)
+        .storeFirst(left, tile.slope + i);
   }
 }
 

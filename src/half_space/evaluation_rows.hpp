@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// One row's share of the energy of a contact, of its residual and of the derivative of its tractions.
+/// One row's share of the energy of a contact, of its residual and of the derivative of its
+/// tractions.
 
 #include <limits>
 
@@ -27,7 +28,8 @@ struct Sums {
   Sums& operator+=(const Sums& other);
 };
 
-/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) - fixed and t'.
+/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) - fixed
+/// and t'.
 struct RowArrays {
   const double* displacement;
   const double* elastic_traction;

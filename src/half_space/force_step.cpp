@@ -15,7 +15,9 @@ constexpr int kPieces = 16;
 }  // namespace
 
 StepParabola::StepParabola(const ForcePoint& from, const ForcePoint& to)
-    : begin(from.force), end(to.force), mean((to.energy - from.energy) / (to.height - from.height)) {}
+    : begin(from.force),
+      end(to.force),
+      mean((to.energy - from.energy) / (to.height - from.height)) {}
 
 double StepParabola::summit() const {
   if (bend() < 0.0) return std::clamp(-0.5 * slope() / bend(), 0.0, 1.0);
@@ -37,7 +39,9 @@ PressedStep::PressedStep(const StepParabola& parabola)
   }
 }
 
-double PressedStep::at(double x) const { return -std::exp(begin_ + x * (rise_ + (1.0 - x) * bend_)); }
+double PressedStep::at(double x) const {
+  return -std::exp(begin_ + x * (rise_ + (1.0 - x) * bend_));
+}
 
 double PressedStep::workTo(double x) const {
   double sum = at(0.0) + at(x);

@@ -3,12 +3,13 @@
 /// @file
 /// What is the force between two heights whose states are known?
 ///
-/// As dE/dZ = F between jumps, the energies of both states give the mean force over the step, and their forces its ends. The
-/// force is the parabola with these three. Of pressed bodies, whose force grows like a power of the height and may do so
-/// fivefold over a step, its logarithm is one.
+/// As dE/dZ = F between jumps, the energies of both states give the mean force over the step, and
+/// their forces its ends. The force is the parabola with these three. Of pressed bodies, whose
+/// force grows like a power of the height and may do so fivefold over a step, its logarithm is one.
 ///
 ///     const StepParabola parabola(before, after);
-///     const double share = crossing(parabola, 0.0, 0.0, 1.0);  // where the force vanishes, of the step
+///     const double share = crossing(parabola, 0.0, 0.0, 1.0);  // where the force vanishes, of the
+///     step
 
 #include <cmath>
 
@@ -43,7 +44,9 @@ class PressedStep {
  public:
   /// @param parabola one that fits
   explicit PressedStep(const StepParabola& parabola);
-  static bool fits(const StepParabola& parabola) { return parabola.begin < 0.0 && parabola.end < 0.0; }
+  static bool fits(const StepParabola& parabola) {
+    return parabola.begin < 0.0 && parabola.end < 0.0;
+  }
 
   double at(double x) const;
   double workTo(double x) const;  ///< by Simpson's rule
@@ -54,7 +57,8 @@ class PressedStep {
   double bend_ = 0.0;
 };
 
-/// x between `from`, where `curve` is above `force`, and `to`, where it is below; `to` if it is above there, too.
+/// x between `from`, where `curve` is above `force`, and `to`, where it is below; `to` if it is
+/// above there, too.
 template <typename Curve>
 double crossing(const Curve& curve, double force, double from, double to) {
   constexpr int kHalvings = 30;

@@ -27,8 +27,8 @@ int transformedLength(int length, HalfSpaceBoundary boundary) {
 
 }  // namespace
 
-HalfSpaceGrid::HalfSpaceGrid(int frame_rows_in, int frame_cols_in, double pitch_x_in, double pitch_y_in,
-                             HalfSpaceBoundary boundary_in)
+HalfSpaceGrid::HalfSpaceGrid(int frame_rows_in, int frame_cols_in, double pitch_x_in,
+                             double pitch_y_in, HalfSpaceBoundary boundary_in)
     : frame_rows(frame_rows_in),
       frame_cols(frame_cols_in),
       pitch_x(pitch_x_in),

@@ -3,22 +3,29 @@
 namespace mems_stiction {
 
 void HalfSpaceOptions::describe(OptionVisitor& visitor) {
-  visitor.enumeration(
-      "half_space/enabled", enabled,
-      {{"false", HalfSpaceUse::kNever}, {"flagged", HalfSpaceUse::kFlagged}, {"true", HalfSpaceUse::kAlways}},
-      "which scans are solved so, and their device judged by it: none; where a device is stated those whose flags say "
-      "that the model's force may be far out; every one (the node: the newest)");
-  visitor.enumeration("half_space/path", path, {{"whole", HalfSpacePath::kWhole}, {"rest", HalfSpacePath::kRest}},
-                      "what is solved: down to rest and apart again; or the rest alone, which knows contact area, gap, "
+  visitor.enumeration("half_space/enabled", enabled,
+                      {{"false", HalfSpaceUse::kNever},
+                       {"flagged", HalfSpaceUse::kFlagged},
+                       {"true", HalfSpaceUse::kAlways}},
+                      "which scans are solved so, and their device judged by it: none; where a "
+                      "device is stated those whose flags say "
+                      "that the model's force may be far out; every one (the node: the newest)");
+  visitor.enumeration("half_space/path", path,
+                      {{"whole", HalfSpacePath::kWhole}, {"rest", HalfSpacePath::kRest}},
+                      "what is solved: down to rest and apart again; or the rest alone, which "
+                      "knows contact area, gap, "
                       "pressure and stiffness, but no pull-off force");
   visitor.number("half_space/range", range, "m", Range::nonNegative(),
                  "z0, the gap at which the traction between the surfaces changes sign; 0 = from "
                  "interface/work_of_adhesion and interface/hamaker_constant");
-  visitor.flag("half_space/attraction", attraction, "whether the surfaces attract each other at all");
-  visitor.flag("half_space/flow", flow, "whether pressures above the hardness change the surfaces for good");
-  visitor.enumeration("half_space/boundary", boundary,
-                      {{"periodic", HalfSpaceBoundary::kPeriodic}, {"free", HalfSpaceBoundary::kFree}},
-                      "what lies beyond the frame: copies of it, or nothing that touches");
+  visitor.flag("half_space/attraction", attraction,
+               "whether the surfaces attract each other at all");
+  visitor.flag("half_space/flow", flow,
+               "whether pressures above the hardness change the surfaces for good");
+  visitor.enumeration(
+      "half_space/boundary", boundary,
+      {{"periodic", HalfSpaceBoundary::kPeriodic}, {"free", HalfSpaceBoundary::kFree}},
+      "what lies beyond the frame: copies of it, or nothing that touches");
   visitor.number("half_space/step", step, "", Range::within(0.01, 2.0),
                  "usual change of the height between two states, over z0; it adapts to the curve");
   visitor.number("half_space/tolerance", tolerance, "", Range::within(kFinestTolerance, 1e-3),
@@ -31,8 +38,10 @@ void HalfSpaceOptions::describe(OptionVisitor& visitor) {
                   "larger frames are refused; a pixel takes up to 300 bytes");
   visitor.integer("half_space/max_flagged_pixels", max_flagged_pixels, Range::within(1, 1000000000),
                   "larger frames are not solved for their flags alone");
-  visitor.integer("half_space/max_flagged_products", max_flagged_products, Range::within(1, 2000000000),
-                  "pairs of Fourier transforms after which a solution is given up that flags alone asked for, of the "
+  visitor.integer("half_space/max_flagged_products", max_flagged_products,
+                  Range::within(1, 2000000000),
+                  "pairs of Fourier transforms after which a solution is given up that flags alone "
+                  "asked for, of the "
                   "largest such frame; a smaller one has as many more as it has fewer pixels");
   visitor.integer("half_space/threads", threads, Range::within(1, 64),
                   "threads of one solution; its bits do not change");

@@ -31,7 +31,8 @@ constexpr double kStepConvergence = 0.02;
 /// That of an equilibrium: finer steps differ by less force, which residuals must not hide.
 double toleranceOf(const HalfSpaceOptions& options) {
   const double share = options.step / ContactPath::kUsualStep;
-  return std::min(options.tolerance, std::max(HalfSpaceOptions::kFinestTolerance, share * options.tolerance));
+  return std::min(options.tolerance,
+                  std::max(HalfSpaceOptions::kFinestTolerance, share * options.tolerance));
 }
 
 /// What a frame with free edges cannot have on its other side.
@@ -43,7 +44,8 @@ void checkBacking(const Material& body, const std::string& name, const HeightMap
   const double thinnest = CellInfluence::kThinnestFilm * std::max(frame.pitchX(), frame.pitchY());
   if (body.backing == Backing::kFree) {
     violations.push_back(thickness + "and " + name +
-                         "/backing free is not allowed: how far a plate bends under a contact depends on where it is "
+                         "/backing free is not allowed: how far a plate bends under a contact "
+                         "depends on where it is "
                          "held; must be 0 m, or the boundary periodic");
   } else if (body.thickness < thinnest) {
     violations.push_back(thickness + "is not allowed: too thin for pixels of " +
@@ -52,7 +54,8 @@ void checkBacking(const Material& body, const std::string& name, const HeightMap
   }
 }
 
-void check(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, const TractionLawOptions& law) {
+void check(const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
+           const TractionLawOptions& law) {
   OptionValidator validator;
   describeConst(problem.lower_material, validator, "lower");
   describeConst(problem.upper_material, validator, "upper");
@@ -63,7 +66,8 @@ void check(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, con
   violations.insert(violations.end(), of_law.begin(), of_law.end());
   for (const auto& [name, body] :
        {std::pair("lower", &problem.lower_material), std::pair("upper", &problem.upper_material)}) {
-    for (std::string& contradiction : body->contradictions(name)) violations.push_back(std::move(contradiction));
+    for (std::string& contradiction : body->contradictions(name))
+      violations.push_back(std::move(contradiction));
   }
   if (violations.empty() && options.boundary == HalfSpaceBoundary::kFree) {
     checkBacking(problem.lower_material, "lower", problem.surfaces.lower, violations);
@@ -78,7 +82,8 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
   law.hamaker_constant = problem.interface.hamaker_constant;
   law.range = options.range;
   law.attracts = options.attraction;
-  if (options.flow) law.hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
+  if (options.flow)
+    law.hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
   law.voltage = problem.load.voltage;
   law.insulator_thickness = problem.interface.insulator_thickness;
   law.insulator_relative_permittivity = problem.interface.insulator_relative_permittivity;
@@ -98,8 +103,9 @@ LargePageVector<double> reliefOf(const SurfacePair& surfaces, int threads) {
   field.compute(surfaces);
   LargePageVector<double> relief(static_cast<std::size_t>(field.cellCount()));
   const auto cols = static_cast<std::size_t>(field.cols());
-  forEachRow(field.rows(), threads,
-             [&](int row) { field.gapsOfRow(row, relief.data() + static_cast<std::size_t>(row) * cols); });
+  forEachRow(field.rows(), threads, [&](int row) {
+    field.gapsOfRow(row, relief.data() + static_cast<std::size_t>(row) * cols);
+  });
   return relief;
 }
 
@@ -107,29 +113,33 @@ LargePageVector<double> reliefOf(const SurfacePair& surfaces, int threads) {
 HeightMap deformed(const HeightMap& surface, const LargePageVector<float>& flowed, double share) {
   cv::Mat heights = ownedHeights(surface);
   for (int row = 0; row < heights.rows && !flowed.empty(); ++row) {
-    const float* const lost = flowed.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.cols);
+    const float* const lost =
+        flowed.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.cols);
     double* const height = heights.ptr<double>(row);
-    for (int col = 0; col < heights.cols; ++col) height[col] -= share * static_cast<double>(lost[col]);
+    for (int col = 0; col < heights.cols; ++col)
+      height[col] -= share * static_cast<double>(lost[col]);
   }
   return HeightMap(heights, surface.pitchX(), surface.pitchY());
 }
 
-std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
-                       const ContactPath& path) {
+std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem,
+                       const HalfSpaceOptions& options, const ContactPath& path) {
   const std::string where = "at height " + numberText(path.present().height) + " m";
   switch (status) {
     case PathStatus::kDone:
-      return options.path == HalfSpacePath::kRest ? "came to rest: half_space/path rest knows no pull-off force"
-                                                  : "came to rest and came apart";
+      return options.path == HalfSpacePath::kRest
+                 ? "came to rest: half_space/path rest knows no pull-off force"
+                 : "came to rest and came apart";
     case PathStatus::kLoadNotReached:
       return "load/mechanical_load of " + numberText(problem.load.mechanical_load) +
-             " N is not reached: the surfaces carry no more than " + numberText(path.largestLoad()) + " N";
+             " N is not reached: the surfaces carry no more than " +
+             numberText(path.largestLoad()) + " N";
     case PathStatus::kNotConverged:
-      return "no equilibrium within half_space/max_newton_steps = " + std::to_string(options.max_newton_steps) +
-             " next to the one " + where;
+      return "no equilibrium within half_space/max_newton_steps = " +
+             std::to_string(options.max_newton_steps) + " next to the one " + where;
     case PathStatus::kTooManyStates:
-      return "half_space/max_states = " + std::to_string(options.max_states) + " did not suffice; the path ends " +
-             where;
+      return "half_space/max_states = " + std::to_string(options.max_states) +
+             " did not suffice; the path ends " + where;
     case PathStatus::kCancelled:
       break;
   }
@@ -153,7 +163,8 @@ HalfSpaceStatus statusOf(PathStatus status) {
 }
 
 /// What the state at rest says.
-void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, SolvedHalfSpace& solution) {
+void takeRest(const ContactPath& path, const ContactMinimiser& minimiser,
+              SolvedHalfSpace& solution) {
   const ForcePoint& rest = path.present();
   solution.rest_height = rest.height;
   solution.rest_force = rest.force;
@@ -162,7 +173,8 @@ void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, Solved
   solution.mean_gap = rest.mean_gap;
   minimiser.maps(rest.height, solution.gap, solution.pressure);
   const cv::Mat contact = solution.gap < minimiser.law().contactGap();
-  solution.contact_count = countContactGroups(contact, minimiser.grid().boundary == HalfSpaceBoundary::kPeriodic);
+  solution.contact_count =
+      countContactGroups(contact, minimiser.grid().boundary == HalfSpaceBoundary::kPeriodic);
 }
 
 /// What the whole path says.
@@ -172,7 +184,8 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   solution.pull_off_force = retraction.largest_force;
   solution.pull_off_height = retraction.largest_height;
   solution.pull_off_uncertainty = retraction.missed_force;
-  solution.is_step_converged = retraction.missed_force < kStepConvergence * retraction.largest_force;
+  solution.is_step_converged =
+      retraction.missed_force < kStepConvergence * retraction.largest_force;
   solution.work_of_adhesion = (retraction.attracting_work - retraction.points.back().energy) / area;
   const double both_ways = retraction.work - retraction.points.back().energy + approach.work +
                            approach.points.front().energy + path.changedEnergy();
@@ -180,11 +193,13 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   solution.is_converged = true;
 }
 
-/// The unloading branch from rest, when the voltage has gone; and, where there was one, a second one under it.
+/// The unloading branch from rest, when the voltage has gone; and, where there was one, a second
+/// one under it.
 /// - @p law of the loading branch
 /// - @p flowed on the first one
-PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, TractionLawOptions law,
-                        LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
+PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser,
+                        TractionLawOptions law, LargePageVector<float>& flowed,
+                        SolvedHalfSpace& solution) {
   const bool has_voltage = law.voltage != 0.0;
   std::optional<ContactPath::Place> rest;
   PathStatus status = PathStatus::kDone;
@@ -202,13 +217,15 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
   if (!has_voltage) return status;
   ForceCurve under_voltage;
   const bool came_apart = path.retractFrom(std::move(*rest), under_voltage) == PathStatus::kDone;
-  solution.pull_off_force_under_voltage = came_apart ? under_voltage.largest_force : SolvedHalfSpace::kNone;
+  solution.pull_off_force_under_voltage =
+      came_apart ? under_voltage.largest_force : SolvedHalfSpace::kNone;
   return status;
 }
 
-/// The first step of the unloading branch, for the stiffness at rest; rest is solved whether it has one or not.
-PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, LargePageVector<float>& flowed,
-                     SolvedHalfSpace& solution) {
+/// The first step of the unloading branch, for the stiffness at rest; rest is solved whether it has
+/// one or not.
+PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser,
+                     LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
   const PathStatus status = path.leaveRest();
   flowed = minimiser.flowed();
   solution.contact_stiffness = path.stiffness();
@@ -232,8 +249,10 @@ void takeRecord(const ContactPath& path, HalfSpacePath asked, SolvedHalfSpace& s
 }
 
 /// The surfaces after contact: what flowed is shared by the bodies as (12) says.
-void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
-  const DeformationShare share(problem.lower_material, problem.upper_material, problem.interface.hardness_ratio_limit);
+void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed,
+                  SolvedHalfSpace& solution) {
+  const DeformationShare share(problem.lower_material, problem.upper_material,
+                               problem.interface.hardness_ratio_limit);
   double depth = 0.0;
   for (const float lost : flowed) depth += static_cast<double>(lost);
   const HeightMap& lower = problem.surfaces.lower;
@@ -244,7 +263,8 @@ void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>&
     solution.deformed_upper = deformed(problem.surfaces.upper, flowed, -upper_share);
   } else if (!flowed.empty() && upper_share > 0.0) {
     const cv::Mat plane = cv::Mat::zeros(lower.rows(), lower.cols(), CV_64FC1);
-    solution.deformed_upper = deformed(HeightMap(plane, lower.pitchX(), lower.pitchY()), flowed, -upper_share);
+    solution.deformed_upper =
+        deformed(HeightMap(plane, lower.pitchX(), lower.pitchY()), flowed, -upper_share);
   }
 }
 
@@ -263,22 +283,27 @@ HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(opt
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 
-SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control) const {
+SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
+                                       const HalfSpaceControl& control) const {
   const auto begin = std::chrono::steady_clock::now();
   const TractionLawOptions law_options = lawOptions(options_, problem);
   check(problem, options_, law_options);
   const HeightMap& lower = problem.surfaces.lower;
   if (lower.empty()) throw SurfaceError("the height map has no valid pixel");
-  const auto pixels = static_cast<std::size_t>(lower.rows()) * static_cast<std::size_t>(lower.cols());
+  const auto pixels =
+      static_cast<std::size_t>(lower.rows()) * static_cast<std::size_t>(lower.cols());
   if (pixels > static_cast<std::size_t>(options_.max_pixels)) {
-    throw SurfaceError("a frame of " + std::to_string(lower.rows()) + " x " + std::to_string(lower.cols()) +
-                       " pixels is larger than half_space/max_pixels = " + std::to_string(options_.max_pixels));
+    throw SurfaceError(
+        "a frame of " + std::to_string(lower.rows()) + " x " + std::to_string(lower.cols()) +
+        " pixels is larger than half_space/max_pixels = " + std::to_string(options_.max_pixels));
   }
   const ContactPair pair(problem.lower_material, problem.upper_material);
   const WaveStiffness layers(problem.lower_material, problem.upper_material);
-  const ElasticResponse response{pair.contact_modulus, nullptr, layers.isThick() ? nullptr : &layers};
+  const ElasticResponse response{pair.contact_modulus, nullptr,
+                                 layers.isThick() ? nullptr : &layers};
   const TractionLaw law(law_options);
-  const HalfSpaceGrid grid(lower.rows(), lower.cols(), lower.pitchX(), lower.pitchY(), options_.boundary);
+  const HalfSpaceGrid grid(lower.rows(), lower.cols(), lower.pitchX(), lower.pitchY(),
+                           options_.boundary);
   MinimiserSettings minimiser_settings;
   minimiser_settings.tolerance = toleranceOf(options_);
   minimiser_settings.max_newton_steps = options_.max_newton_steps;
@@ -294,24 +319,29 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   SolvedHalfSpace solution;
   solution.range = law.range();
   solution.cohesive_length = cohesiveLength(problem, law);
-  solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
+  solution.is_resolved =
+      solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
   path_settings.is_resolved = solution.is_resolved;
   LargePageVector<float> flowed;
   {
-    ContactMinimiser minimiser(grid, law, response, reliefOf(problem.surfaces, options_.threads), minimiser_settings);
+    ContactMinimiser minimiser(grid, law, response, reliefOf(problem.surfaces, options_.threads),
+                               minimiser_settings);
     ContactPath path(minimiser, path_settings);
-    PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
+    PathStatus status =
+        minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {
       takeRest(path, minimiser, solution);
-      status = options_.path == HalfSpacePath::kRest ? leaveRest(path, minimiser, flowed, solution)
-                                                     : partFromRest(path, minimiser, law_options, flowed, solution);
+      status = options_.path == HalfSpacePath::kRest
+                   ? leaveRest(path, minimiser, flowed, solution)
+                   : partFromRest(path, minimiser, law_options, flowed, solution);
     }
     solution.status = statusOf(status);
     solution.message = sentenceOf(status, problem, options_, path);
     takeRecord(path, options_.path, solution);
   }  // its memory is not needed for the surfaces
   if (solution.status == HalfSpaceStatus::kSolved) takeSurfaces(problem, flowed, solution);
-  solution.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  solution.processing_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return solution;
 }
 

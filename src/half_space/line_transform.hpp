@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// The discrete Fourier transform of one line of complex numbers, by FFTW or, without it, by OpenCV.
+/// The discrete Fourier transform of one line of complex numbers, by FFTW or, without it, by
+/// OpenCV.
 ///
-/// CMake's MEMS_STICTION_WITH_FFTW chooses: line_transform_fftw.cpp is up to three times as fast (doc/performance.md), and
-/// GPL; line_transform_opencv.cpp leaves the binaries free of that licence. Neither divides by the length.
+/// CMake's MEMS_STICTION_WITH_FFTW chooses: line_transform_fftw.cpp is up to three times as fast
+/// (doc/performance.md), and GPL; line_transform_opencv.cpp leaves the binaries free of that
+/// licence. Neither divides by the length.
 ///
 ///     const LineTransform<float> rows(cols, from, to);
 ///     rows.forward(from, to);

@@ -9,7 +9,8 @@
 namespace mems_stiction {
 namespace {
 
-/// FFTW's names for one precision. Plans are estimated, never timed, so that they are the same in every run.
+/// FFTW's names for one precision. Plans are estimated, never timed, so that they are the same in
+/// every run.
 template <typename Scalar>
 struct Fftw;
 
@@ -48,10 +49,13 @@ struct LineTransform<Scalar>::Plans {
 };
 
 template <typename Scalar>
-LineTransform<Scalar>::LineTransform(int length, Scalar* from, Scalar* to) : plans_(std::make_unique<Plans>()) {
+LineTransform<Scalar>::LineTransform(int length, Scalar* from, Scalar* to)
+    : plans_(std::make_unique<Plans>()) {
   const std::lock_guard<std::mutex> lock(plannerMutex());
-  plans_->forward = Plans::Library::plan(length, Plans::complex(from), Plans::complex(to), FFTW_FORWARD);
-  plans_->backward = Plans::Library::plan(length, Plans::complex(from), Plans::complex(to), FFTW_BACKWARD);
+  plans_->forward =
+      Plans::Library::plan(length, Plans::complex(from), Plans::complex(to), FFTW_FORWARD);
+  plans_->backward =
+      Plans::Library::plan(length, Plans::complex(from), Plans::complex(to), FFTW_BACKWARD);
 }
 
 template <typename Scalar>

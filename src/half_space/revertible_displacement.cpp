@@ -13,8 +13,8 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// values + share of the last change, which is the first part of this one.
-MEMS_STICTION_VECTORIZED void addShare(std::size_t count, float share, const float* last_change, double* values,
-                                       float* change) {
+MEMS_STICTION_VECTORIZED void addShare(std::size_t count, float share, const float* last_change,
+                                       double* values, float* change) {
   for (std::size_t i = 0; i < count; ++i) {
     const float move = share * last_change[i];
     change[i] = move;
@@ -23,22 +23,23 @@ MEMS_STICTION_VECTORIZED void addShare(std::size_t count, float share, const flo
 }
 
 /// values + length step, and the same of what has changed.
-MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values,
-                                      float* change) {
+MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step,
+                                      double* values, float* change) {
   for (std::size_t i = 0; i < count; ++i) {
     const double move = length * static_cast<double>(step[i]);
     values[i] += move;
     change[i] += static_cast<float>(move);
   }
 }
-MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values) {
+MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step,
+                                      double* values) {
   for (std::size_t i = 0; i < count; ++i) values[i] += length * static_cast<double>(step[i]);
 }
 
 }  // namespace
 
-RevertibleDisplacement::RevertibleDisplacement(const HalfSpaceGrid& grid, bool tracks_traction, int threads,
-                                               const std::atomic<bool>* cancel)
+RevertibleDisplacement::RevertibleDisplacement(const HalfSpaceGrid& grid, bool tracks_traction,
+                                               int threads, const std::atomic<bool>* cancel)
     : grid_(grid), tracks_traction_(tracks_traction), threads_(threads) {
   const auto make = [&](auto& array) {
     if (cancel == nullptr || !cancel->load()) array.assign(grid.size(), {});
@@ -64,12 +65,15 @@ void RevertibleDisplacement::begin(double share, double traction_error) {
   if (share != 0.0) addStaleness(tracks_traction_ ? traction_error : kUnknown);
 }
 
-std::optional<float> RevertibleDisplacement::takeShare() { return std::exchange(share_, std::nullopt); }
+std::optional<float> RevertibleDisplacement::takeShare() {
+  return std::exchange(share_, std::nullopt);
+}
 
 void RevertibleDisplacement::goOn(int row, float share) {
   const std::size_t first = grid_.offset(row);
   const auto cols = static_cast<std::size_t>(grid_.cols);
-  addShare(cols, share, last_change_.data() + first, values_.data() + first, change_.data() + first);
+  addShare(cols, share, last_change_.data() + first, values_.data() + first,
+           change_.data() + first);
   if (!tracks_traction_) return;
   addShare(cols, share, last_change_traction_.data() + first, traction_.data() + first,
            change_traction_.data() + first);
@@ -80,7 +84,8 @@ void RevertibleDisplacement::step(int row, const Step& step) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
   addStep(cols, step.length, step.step, values_.data() + first, change_.data() + first);
   if (tracks_traction_) {
-    addStep(cols, step.length, step.traction, traction_.data() + first, change_traction_.data() + first);
+    addStep(cols, step.length, step.traction, traction_.data() + first,
+            change_traction_.data() + first);
   } else {
     addStep(cols, step.length, step.traction, traction_.data() + first);
   }
@@ -102,7 +107,8 @@ void RevertibleDisplacement::takeBackForPart() {
     const std::size_t end = first + static_cast<std::size_t>(grid_.cols);
     for (std::size_t i = first; i < end; ++i) values_[i] -= static_cast<double>(change_[i]);
     if (!tracks_traction_) return;
-    for (std::size_t i = first; i < end; ++i) traction_[i] -= static_cast<double>(change_traction_[i]);
+    for (std::size_t i = first; i < end; ++i)
+      traction_[i] -= static_cast<double>(change_traction_[i]);
   });
   staleness_ = tracks_traction_ ? change_staleness_ : kUnknown;
 }

@@ -47,7 +47,8 @@ MEMS_STICTION_INLINE void reorder(const Order& order, Packet& packet) {
 }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void joinRows(std::size_t count, const Scalar* first, const Scalar* second, Scalar* complex) {
+MEMS_STICTION_INLINE void joinRows(std::size_t count, const Scalar* first, const Scalar* second,
+                                   Scalar* complex) {
   for (std::size_t i = 0; i < count; ++i) {
     complex[2 * i] = first[i];
     complex[2 * i + 1] = second[i];
@@ -55,7 +56,8 @@ MEMS_STICTION_INLINE void joinRows(std::size_t count, const Scalar* first, const
 }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void splitRows(std::size_t count, const Scalar* complex, Scalar* first, Scalar* second) {
+MEMS_STICTION_INLINE void splitRows(std::size_t count, const Scalar* complex, Scalar* first,
+                                    Scalar* second) {
   for (std::size_t i = 0; i < count; ++i) {
     first[i] = complex[2 * i];
     second[i] = complex[2 * i + 1];
@@ -64,7 +66,8 @@ MEMS_STICTION_INLINE void splitRows(std::size_t count, const Scalar* complex, Sc
 
 /// One wave number k and its opposite: 2 A = Z(k) + Z*(-k), 2 B = -i (Z(k) - Z*(-k)).
 template <typename Scalar>
-MEMS_STICTION_INLINE void splitOne(const Scalar* at, const Scalar* opposite, Scalar* first, Scalar* second) {
+MEMS_STICTION_INLINE void splitOne(const Scalar* at, const Scalar* opposite, Scalar* first,
+                                   Scalar* second) {
   first[0] = at[0] + opposite[0];
   first[1] = at[1] - opposite[1];
   second[0] = at[1] + opposite[1];
@@ -72,7 +75,8 @@ MEMS_STICTION_INLINE void splitOne(const Scalar* at, const Scalar* opposite, Sca
 }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void splitBoth(std::size_t count, const Scalar* joined, Scalar* first, Scalar* second) {
+MEMS_STICTION_INLINE void splitBoth(std::size_t count, const Scalar* joined, Scalar* first,
+                                    Scalar* second) {
   using Vector = Complexes<Scalar>;
   constexpr std::size_t kCount = Vector::kCount;
   splitOne(joined, joined, first, second);
@@ -91,12 +95,14 @@ MEMS_STICTION_INLINE void splitBoth(std::size_t count, const Scalar* joined, Sca
     std::memcpy(first + 2 * k, &sum, sizeof sum);
     std::memcpy(second + 2 * k, &difference, sizeof difference);
   }
-  for (; k <= last; ++k) splitOne(joined + 2 * k, joined + 2 * (count - k), first + 2 * k, second + 2 * k);
+  for (; k <= last; ++k)
+    splitOne(joined + 2 * k, joined + 2 * (count - k), first + 2 * k, second + 2 * k);
 }
 
 /// Z(k) = A + i B; Z(-k) = A* + i B*.
 template <typename Scalar>
-MEMS_STICTION_INLINE void joinOne(const Scalar* first, const Scalar* second, Scalar* at, Scalar* opposite) {
+MEMS_STICTION_INLINE void joinOne(const Scalar* first, const Scalar* second, Scalar* at,
+                                  Scalar* opposite) {
   opposite[0] = first[0] + second[1];
   opposite[1] = second[0] - first[1];
   at[0] = first[0] - second[1];
@@ -104,7 +110,8 @@ MEMS_STICTION_INLINE void joinOne(const Scalar* first, const Scalar* second, Sca
 }
 
 template <typename Scalar>
-MEMS_STICTION_INLINE void joinBoth(std::size_t count, const Scalar* first, const Scalar* second, Scalar* joined) {
+MEMS_STICTION_INLINE void joinBoth(std::size_t count, const Scalar* first, const Scalar* second,
+                                   Scalar* joined) {
   using Vector = Complexes<Scalar>;
   constexpr std::size_t kCount = Vector::kCount;
   Scalar unused[2];
@@ -123,35 +130,43 @@ MEMS_STICTION_INLINE void joinBoth(std::size_t count, const Scalar* first, const
     std::memcpy(joined + 2 * k, &at, sizeof at);
     std::memcpy(joined + 2 * (count - k - kCount + 1), &opposite, sizeof opposite);
   }
-  for (; k <= last; ++k) joinOne(first + 2 * k, second + 2 * k, joined + 2 * k, joined + 2 * (count - k));
+  for (; k <= last; ++k)
+    joinOne(first + 2 * k, second + 2 * k, joined + 2 * k, joined + 2 * (count - k));
   if (count % 2 == 0) joinOne(first + count, second + count, joined + count, unused);
 }
 
 }  // namespace
 
-MEMS_STICTION_VECTORIZED void join(std::size_t count, const float* first, const float* second, float* complex) {
+MEMS_STICTION_VECTORIZED void join(std::size_t count, const float* first, const float* second,
+                                   float* complex) {
   joinRows(count, first, second, complex);
 }
-MEMS_STICTION_VECTORIZED void join(std::size_t count, const double* first, const double* second, double* complex) {
+MEMS_STICTION_VECTORIZED void join(std::size_t count, const double* first, const double* second,
+                                   double* complex) {
   joinRows(count, first, second, complex);
 }
-MEMS_STICTION_VECTORIZED void split(std::size_t count, const float* complex, float* first, float* second) {
+MEMS_STICTION_VECTORIZED void split(std::size_t count, const float* complex, float* first,
+                                    float* second) {
   splitRows(count, complex, first, second);
 }
-MEMS_STICTION_VECTORIZED void split(std::size_t count, const double* complex, double* first, double* second) {
+MEMS_STICTION_VECTORIZED void split(std::size_t count, const double* complex, double* first,
+                                    double* second) {
   splitRows(count, complex, first, second);
 }
-MEMS_STICTION_VECTORIZED void splitSpectrum(std::size_t count, const float* joined, float* first, float* second) {
+MEMS_STICTION_VECTORIZED void splitSpectrum(std::size_t count, const float* joined, float* first,
+                                            float* second) {
   splitBoth(count, joined, first, second);
 }
-MEMS_STICTION_VECTORIZED void splitSpectrum(std::size_t count, const double* joined, double* first, double* second) {
+MEMS_STICTION_VECTORIZED void splitSpectrum(std::size_t count, const double* joined, double* first,
+                                            double* second) {
   splitBoth(count, joined, first, second);
 }
-MEMS_STICTION_VECTORIZED void joinSpectra(std::size_t count, const float* first, const float* second, float* joined) {
+MEMS_STICTION_VECTORIZED void joinSpectra(std::size_t count, const float* first,
+                                          const float* second, float* joined) {
   joinBoth(count, first, second, joined);
 }
-MEMS_STICTION_VECTORIZED void joinSpectra(std::size_t count, const double* first, const double* second,
-                                          double* joined) {
+MEMS_STICTION_VECTORIZED void joinSpectra(std::size_t count, const double* first,
+                                          const double* second, double* joined) {
   joinBoth(count, first, second, joined);
 }
 

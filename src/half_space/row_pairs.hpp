@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Two rows of real numbers as the real and the imaginary part of one row of complex numbers: one transform gives the
-/// half spectra of both.
+/// Two rows of real numbers as the real and the imaginary part of one row of complex numbers: one
+/// transform gives the half spectra of both.
 
 #include <cstddef>
 
@@ -15,7 +15,8 @@ void join(std::size_t count, const double* first, const double* second, double* 
 void split(std::size_t count, const float* complex, float* first, float* second);
 void split(std::size_t count, const double* complex, double* first, double* second);
 
-/// Twice the half spectra, count/2 + 1 complex numbers each, of both rows from the spectrum of the joined rows.
+/// Twice the half spectra, count/2 + 1 complex numbers each, of both rows from the spectrum of the
+/// joined rows.
 void splitSpectrum(std::size_t count, const float* joined, float* first, float* second);
 void splitSpectrum(std::size_t count, const double* joined, double* first, double* second);
 /// The spectrum of the joined rows from their half spectra.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Work on the rows of a frame by several threads, with the same bits for any number of them: each row is worked on as
-/// a whole, and what rows add up to is summed in the order of the frame.
+/// Work on the rows of a frame by several threads, with the same bits for any number of them: each
+/// row is worked on as a whole, and what rows add up to is summed in the order of the frame.
 
 #include <vector>
 

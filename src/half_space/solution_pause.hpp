@@ -3,9 +3,10 @@
 /// @file
 /// How does a solution wait while something more urgent is computed, without being starved?
 ///
-/// Whoever does urgent work requests the pause meanwhile; solutions ask between their products and sleep until it is let
-/// go. A wait lasts at most a second, and at most nine times as long as the work since the last one. So a solution keeps
-/// a tenth of the time even where urgent work never ends. It wakes up when it is cancelled.
+/// Whoever does urgent work requests the pause meanwhile; solutions ask between their products and
+/// sleep until it is let go. A wait lasts at most a second, and at most nine times as long as the
+/// work since the last one. So a solution keeps a tenth of the time even where urgent work never
+/// ends. It wakes up when it is cancelled.
 ///
 ///     SolutionPause pause;
 ///     control.give_way = pause.waiter(cancel);              // the solving thread
@@ -19,8 +20,8 @@
 
 namespace mems_stiction {
 
-/// Between those who work urgently and the solutions that give way to them; for any number of threads. It must outlive
-/// its requests and waiters.
+/// Between those who work urgently and the solutions that give way to them; for any number of
+/// threads. It must outlive its requests and waiters.
 class SolutionPause {
  public:
   /// Longest wait at once, over the work since the last one.
@@ -41,7 +42,8 @@ class SolutionPause {
     SolutionPause& pause_;
   };
 
-  /// What a solution calls between its products, for HalfSpaceControl::give_way; each solution needs its own.
+  /// What a solution calls between its products, for HalfSpaceControl::give_way; each solution
+  /// needs its own.
   /// @param cancel must outlive the waiter
   std::function<void()> waiter(const std::atomic<bool>& cancel);
 

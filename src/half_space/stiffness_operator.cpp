@@ -19,15 +19,16 @@ namespace {
 
 /// Columns that are gathered together: their complex numbers fill one or two cache lines.
 constexpr std::size_t kBlock = 8;
-/// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not resist.
+/// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not
+/// resist.
 constexpr double kNoShift = 1e-6;
 /// The least compliance of a wave in a window, of the same wave's in a periodic frame.
 constexpr double kLeastShare = 0.1;
 
 /// Each complex number of a column times the real factor that its wave number has.
 template <typename Scalar, typename Multiplier>
-MEMS_STICTION_INLINE void multiplyColumn(std::size_t count, const Scalar* stiffness, const Multiplier& multiplier,
-                                         Scalar* column) {
+MEMS_STICTION_INLINE void multiplyColumn(std::size_t count, const Scalar* stiffness,
+                                         const Multiplier& multiplier, Scalar* column) {
   for (std::size_t i = 0; i < count; ++i) {
     const Scalar factor = multiplier(stiffness[i]);
     column[2 * i] *= factor;
@@ -55,7 +56,8 @@ MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const float* stiffn
   multiplyColumn(count, stiffness, multiplier, column);
 }
 MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const double* stiffness,
-                                          const TimesStiffness<double>& multiplier, double* column) {
+                                          const TimesStiffness<double>& multiplier,
+                                          double* column) {
   multiplyColumn(count, stiffness, multiplier, column);
 }
 MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const float* stiffness,
@@ -74,7 +76,8 @@ MEMS_STICTION_INLINE double dotElements(std::size_t count, const Scalar* a, cons
   Scalar packet[kDotElements] = {};
   std::size_t i = 0;
   for (; i + kDotElements <= count; i += kDotElements) {
-    for (std::size_t element = 0; element < kDotElements; ++element) packet[element] += a[i + element] * b[i + element];
+    for (std::size_t element = 0; element < kDotElements; ++element)
+      packet[element] += a[i + element] * b[i + element];
   }
   double sum = 0.0;
   for (const Scalar element : packet) sum += static_cast<double>(element);
@@ -88,7 +91,8 @@ MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const double* a, const
   return dotElements(count, a, b);
 }
 
-/// Fourier transform of even real sequences, which is real and even, too: of both only the first half is given.
+/// Fourier transform of even real sequences, which is real and even, too: of both only the first
+/// half is given.
 class EvenTransform {
  public:
   explicit EvenTransform(int length)
@@ -99,7 +103,8 @@ class EvenTransform {
   /// Every from_step-th value to every to_step-th; both may be one.
   void apply(const double* from, std::size_t from_step, double* to, std::size_t to_step) const {
     std::vector<double> line(4 * length_);
-    for (std::size_t i = 0; i < length_; ++i) line[2 * i] = from[std::min(i, length_ - i) * from_step];
+    for (std::size_t i = 0; i < length_; ++i)
+      line[2 * i] = from[std::min(i, length_ - i) * from_step];
     double* const spectrum = spectrumIn(line);
     transform_.forward(line.data(), spectrum);
     for (std::size_t i = 0; i <= length_ / 2; ++i) to[i * to_step] = spectrum[2 * i];
@@ -126,13 +131,16 @@ struct StiffnessOperator<Scalar>::Transforms {
 };
 
 template <typename Scalar>
-StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads,
-                                             SpectrumMemory& memory, const std::atomic<bool>* cancel)
+StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus,
+                                             int threads, SpectrumMemory& memory,
+                                             const std::atomic<bool>* cancel)
     : StiffnessOperator(grid, ElasticResponse{contact_modulus, nullptr}, threads, memory, cancel) {}
 
 template <typename Scalar>
-StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, const ElasticResponse& response, int threads,
-                                             SpectrumMemory& memory, const std::atomic<bool>* cancel)
+StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid,
+                                             const ElasticResponse& response, int threads,
+                                             SpectrumMemory& memory,
+                                             const std::atomic<bool>* cancel)
     : grid_(grid),
       threads_(threads),
       cancel_(cancel),
@@ -146,11 +154,13 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, const El
   stiffness_.assign(static_cast<std::size_t>(blocks_) * block_size, Scalar(1));
   const std::size_t bytes = 2 * sizeof(Scalar) * static_cast<std::size_t>(blocks_) * block_size;
   if (memory.bytes.size() < bytes) memory.bytes.resize(bytes);
-  // two joined rows and their spectrum, or a block of columns and the spectrum of one; each on a cache line of its own
+  // two joined rows and their spectrum, or a block of columns and the spectrum of one; each on a
+  // cache line of its own
   pad_size_ = 2 * std::max(2 * (cols + kBlock), (kBlock + 1) * (rows + kBlock));
   pads_.resize(static_cast<std::size_t>(threads_));
   for (auto& pad : pads_) pad.resize(pad_size_);
-  transforms_ = std::make_unique<Transforms>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
+  transforms_ = std::make_unique<Transforms>(grid_, pads_.front().data(),
+                                             pads_.front().data() + pad_size_ / 2);
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
     fillPeriodic(response);
   } else {
@@ -163,7 +173,8 @@ StiffnessOperator<Scalar>::~StiffnessOperator() = default;
 
 template <typename Scalar>
 Scalar* StiffnessOperator<Scalar>::spectrumOf(std::size_t row) {
-  return reinterpret_cast<Scalar*>(memory_->bytes.data()) + row * 2 * static_cast<std::size_t>(blocks_) * kBlock;
+  return reinterpret_cast<Scalar*>(memory_->bytes.data()) +
+         row * 2 * static_cast<std::size_t>(blocks_) * kBlock;
 }
 
 template <typename Scalar>
@@ -199,7 +210,8 @@ void StiffnessOperator<Scalar>::fillPeriodic(const ElasticResponse& response) {
         continue;
       }
       const double q = waveNumber(row, col);
-      const double stiffness = response.layers != nullptr ? response.layers->at(q) : 0.5 * response.contact_modulus * q;
+      const double stiffness =
+          response.layers != nullptr ? response.layers->at(q) : 0.5 * response.contact_modulus * q;
       entry(row, col) = static_cast<Scalar>(stiffness);
       extremes += {stiffness, stiffness};
     }
@@ -211,8 +223,9 @@ void StiffnessOperator<Scalar>::fillPeriodic(const ElasticResponse& response) {
 
 template <typename Scalar>
 void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
-  // In double whatever the Scalar: the small compliances of short waves are differences of large numbers. The influence
-  // is even in both directions, so that its transforms are real and half of the lines say all.
+  // In double whatever the Scalar: the small compliances of short waves are differences of large
+  // numbers. The influence is even in both directions, so that its transforms are real and half of
+  // the lines say all.
   const int half_rows = grid_.rows / 2 + 1;
   const int half_cols = grid_.cols / 2 + 1;
   const auto width = static_cast<std::size_t>(half_cols);
@@ -223,7 +236,8 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
   const auto influenceAt = [&](int row, int col) {
     // the padding may be longer than twice the frame: there nothing is asked for
     return influence ? influence->at(row, col)
-                     : (*response.influence)(std::min(row, grid_.frame_rows), std::min(col, grid_.frame_cols));
+                     : (*response.influence)(std::min(row, grid_.frame_rows),
+                                             std::min(col, grid_.frame_cols));
   };
   LargePageVector<double> of_rows(static_cast<std::size_t>(half_rows) * width);
   {
@@ -243,13 +257,16 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
     double* const column = of_rows.data() + col;
     transform.apply(column, width, column, width);
   });
-  const double lowest_wave = 2.0 * kPi / std::max(grid_.rows * grid_.pitch_y, grid_.cols * grid_.pitch_x);
+  const double lowest_wave =
+      2.0 * kPi / std::max(grid_.rows * grid_.pitch_y, grid_.cols * grid_.pitch_x);
   for (int row = 0; row < grid_.rows && !isCancelled(); ++row) {
-    const double* const line = of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
+    const double* const line =
+        of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
     for (int col = 0; col < half_cols; ++col) {
       double stiffness = 1.0 / line[col];
       if (response.influence != nullptr && response.layers != nullptr) {
-        // a plate bends far beyond a window, whose edge cuts that off: what is left may resist some waves with less than 0
+        // a plate bends far beyond a window, whose edge cuts that off: what is left may resist some
+        // waves with less than 0
         const bool is_mean = row + col == 0;
         const double of_wave = response.layers->at(is_mean ? lowest_wave : waveNumber(row, col));
         if (!(line[col] * of_wave > (is_mean ? 0.0 : kLeastShare))) stiffness = of_wave;
@@ -263,7 +280,8 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
 
 template <typename Scalar>
 template <typename Multiplier, typename Finish>
-void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& multiplier, const Finish& finish) {
+void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& multiplier,
+                                      const Finish& finish) {
   const auto rows = static_cast<std::size_t>(grid_.rows);
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const std::size_t row_size = 2 * static_cast<std::size_t>(blocks_) * kBlock;
@@ -276,7 +294,8 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
       for (int pair = pairs * part / threads_; pair < end && !isCancelled(); ++pair) {
         // the last row of an odd number is joined with itself
         const int second = std::min(2 * pair + 1, grid_.rows - 1);
-        work(2 * static_cast<std::size_t>(pair), static_cast<std::size_t>(second), pad, pad + second_pad);
+        work(2 * static_cast<std::size_t>(pair), static_cast<std::size_t>(second), pad,
+             pad + second_pad);
       }
     });
   };
@@ -296,7 +315,8 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
       Scalar* const first = spectrumOf(0) + 2 * first_column;
       for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t k = 0; k < kBlock; ++k) {
-          std::memcpy(block + k * column_size + 2 * row, first + row * row_size + 2 * k, 2 * sizeof(Scalar));
+          std::memcpy(block + k * column_size + 2 * row, first + row * row_size + 2 * k,
+                      2 * sizeof(Scalar));
         }
       }
       const std::size_t used = std::min(kBlock, cols / 2 + 1 - first_column);
@@ -309,7 +329,8 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
       }
       for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t k = 0; k < kBlock; ++k) {
-          std::memcpy(first + row * row_size + 2 * k, block + k * column_size + 2 * row, 2 * sizeof(Scalar));
+          std::memcpy(first + row * row_size + 2 * k, block + k * column_size + 2 * row,
+                      2 * sizeof(Scalar));
         }
       }
     }
@@ -324,9 +345,11 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
 template <typename Scalar>
 template <typename AfterRows>
 auto StiffnessOperator<Scalar>::writeTo(Scalar* to, const AfterRows& after_rows) const {
-  return [this, to, &after_rows](std::size_t first, std::size_t second, const Scalar* joined, Scalar* /*spare*/) {
+  return [this, to, &after_rows](std::size_t first, std::size_t second, const Scalar* joined,
+                                 Scalar* /*spare*/) {
     const auto stride = static_cast<std::size_t>(grid_.stride);
-    row_pairs::split(static_cast<std::size_t>(grid_.cols), joined, to + first * stride, to + second * stride);
+    row_pairs::split(static_cast<std::size_t>(grid_.cols), joined, to + first * stride,
+                     to + second * stride);
     after_rows(first, second);
   };
 }
@@ -337,7 +360,8 @@ static const auto kNoMore = [](std::size_t, std::size_t) {};
 template <typename Scalar>
 void StiffnessOperator<Scalar>::multiply(const Scalar* displacement, Scalar* traction) {
   const double scale = 0.5 / (static_cast<double>(grid_.rows) * grid_.cols);  // spectra come twice
-  apply(displacement, TimesStiffness<Scalar>{static_cast<Scalar>(scale)}, writeTo(traction, kNoMore));
+  apply(displacement, TimesStiffness<Scalar>{static_cast<Scalar>(scale)},
+        writeTo(traction, kNoMore));
 }
 
 /// 1/(K + shift) for transforms over the grid.
@@ -348,7 +372,8 @@ static OverStiffness<Scalar> overStiffness(const HalfSpaceGrid& grid, double shi
 }
 
 template <typename Scalar>
-double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* traction, Scalar* displacement) {
+double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* traction,
+                                               Scalar* displacement) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto stride = static_cast<std::size_t>(grid_.stride);
   row_products_.resize(static_cast<std::size_t>(grid_.rows));
@@ -365,7 +390,8 @@ double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* tract
 
 template <typename Scalar>
 void StiffnessOperator<Scalar>::displace(const Scalar* traction, Scalar* displacement) {
-  apply(traction, overStiffness<Scalar>(grid_, kNoShift * smallest_), writeTo(displacement, kNoMore));
+  apply(traction, overStiffness<Scalar>(grid_, kNoShift * smallest_),
+        writeTo(displacement, kNoMore));
 }
 
 template <typename Scalar>

@@ -1,19 +1,22 @@
 #pragma once
 
 /// @file
-/// Which traction holds a displacement of an elastic half-space, and roughly which displacement answers a traction?
+/// Which traction holds a displacement of an elastic half-space, and roughly which displacement
+/// answers a traction?
 ///
 ///     periodic:  t_q = (E/2) |q| u_q,  0 for q = 0: the mean displacement is the rigid body's
-///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell   (Love; Johnson (3.25))
+///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell   (Love;
+///     Johnson (3.25))
 ///                K_q = 1/G_q on a frame padded to twice its size
 ///
-/// Bodies of finite thickness (mechanics/wave_stiffness.hpp): K(q) in place of (E/2) |q|; with free edges films alone, whose
-/// G has a part more (cell_influence.hpp).
+/// Bodies of finite thickness (mechanics/wave_stiffness.hpp): K(q) in place of (E/2) |q|; with free
+/// edges films alone, whose G has a part more (cell_influence.hpp).
 ///
-/// All are products in Fourier space: rows are transformed, two at a time, then columns are transformed, multiplied and
-/// transformed back while they lie in the cache, then rows back. E is the contact modulus of the pair, u the sum of both
-/// bodies' displacements. Sources: Johnson, Contact Mechanics (1985), chapter 3; Stanley and Kato, J. Tribology 119
-/// (1997) 481 for the periodic form; Hockney, Methods Comput. Phys. 9 (1970) 135 for the padding.
+/// All are products in Fourier space: rows are transformed, two at a time, then columns are
+/// transformed, multiplied and transformed back while they lie in the cache, then rows back. E is
+/// the contact modulus of the pair, u the sum of both bodies' displacements. Sources: Johnson,
+/// Contact Mechanics (1985), chapter 3; Stanley and Kato, J. Tribology 119 (1997) 481 for the
+/// periodic form; Hockney, Methods Comput. Phys. 9 (1970) 135 for the padding.
 ///
 ///     SpectrumMemory memory;
 ///     StiffnessOperator<float> stiffness(grid, contact_modulus, threads, memory);
@@ -34,52 +37,61 @@ namespace mems_stiction {
 
 /// How a body answers tractions.
 struct ElasticResponse {
-  double contact_modulus = 0.0;  ///< E of the thick bodies [Pa], > 0; not looked at where an influence is given
-  /// u at a distance of (row, col) cells under a unit traction on one cell [m/Pa], for a frame with free edges that is no
-  /// larger; null for the half-space's.
+  double contact_modulus =
+      0.0;  ///< E of the thick bodies [Pa], > 0; not looked at where an influence is given
+  /// u at a distance of (row, col) cells under a unit traction on one cell [m/Pa], for a frame with
+  /// free edges that is no larger; null for the half-space's.
   const cv::Mat1d* influence = nullptr;
-  /// The bodies if one is not thick, which must outlive what answers so; null for half-spaces. With an influence of long
-  /// waves that a frame of this size cannot have they answer instead.
+  /// The bodies if one is not thick, which must outlive what answers so; null for half-spaces. With
+  /// an influence of long waves that a frame of this size cannot have they answer instead.
   const WaveStiffness* layers = nullptr;
 };
 
-/// Memory for the half spectrum of a frame, which operators that do not work at the same time can share.
+/// Memory for the half spectrum of a frame, which operators that do not work at the same time can
+/// share.
 struct SpectrumMemory {
   LargePageVector<unsigned char> bytes;
 };
 
-/// K and (K + shift)^-1 on arrays of the grid, Scalar float or double. The same bits for any number of threads.
+/// K and (K + shift)^-1 on arrays of the grid, Scalar float or double. The same bits for any number
+/// of threads.
 template <typename Scalar>
 class StiffnessOperator {
  public:
   /// - @p contact_modulus [Pa], > 0
   /// - @p threads >= 1
   /// - @p memory is made large enough; it must outlive the operator
-  /// - @p cancel looked at after every few rows, as set-up and products take seconds at some million pixels with free
-  ///   edges; may be null. An operator whose set-up was cancelled is not to be used, nor what a product gave then
-  StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory,
-                    const std::atomic<bool>* cancel = nullptr);
-  StiffnessOperator(const HalfSpaceGrid& grid, const ElasticResponse& response, int threads, SpectrumMemory& memory,
-                    const std::atomic<bool>* cancel = nullptr);
+  /// - @p cancel looked at after every few rows, as set-up and products take seconds at some
+  /// million pixels with free
+  ///   edges; may be null. An operator whose set-up was cancelled is not to be used, nor what a
+  ///   product gave then
+  StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads,
+                    SpectrumMemory& memory, const std::atomic<bool>* cancel = nullptr);
+  StiffnessOperator(const HalfSpaceGrid& grid, const ElasticResponse& response, int threads,
+                    SpectrumMemory& memory, const std::atomic<bool>* cancel = nullptr);
   ~StiffnessOperator();
   StiffnessOperator(const StiffnessOperator&) = delete;
   StiffnessOperator& operator=(const StiffnessOperator&) = delete;
 
   /// traction = K displacement; [m] to [Pa]. The arrays may be one.
   void multiply(const Scalar* displacement, Scalar* traction);
-  /// displacement = (K + shift)^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.
+  /// displacement = (K + shift)^-1 traction, its mean 0 where K does not resist the mean. The
+  /// arrays may be one.
   /// - @p shift [Pa/m], > 0
-  /// @return sum of traction times displacement, in the precision of eight packets a row, added in double
+  /// @return sum of traction times displacement, in the precision of eight packets a row, added in
+  /// double
   double precondition(double shift, const Scalar* traction, Scalar* displacement);
 
-  /// displacement = K^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.
+  /// displacement = K^-1 traction, its mean 0 where K does not resist the mean. The arrays may be
+  /// one.
   void displace(const Scalar* traction, Scalar* displacement);
-  /// The same row by row: take(row, displacement of its cells) is called for each row by one of the threads, while the row
-  /// lies in the cache.
+  /// The same row by row: take(row, displacement of its cells) is called for each row by one of the
+  /// threads, while the row lies in the cache.
   using TakeRow = std::function<void(int row, const Scalar* displacement)>;
   void displace(const Scalar* traction, const TakeRow& take);
 
-  /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
+  /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame
+  /// infinity.
   double smallest() const { return smallest_; }
   /// The largest one [Pa/m].
   double largest() const { return largest_; }
@@ -88,7 +100,8 @@ class StiffnessOperator {
 
  private:
   struct Transforms;
-  /// finish(first, second, joined, spare) is called with two rows of the result, joined, and a pad as long.
+  /// finish(first, second, joined, spare) is called with two rows of the result, joined, and a pad
+  /// as long.
   template <typename Multiplier, typename Finish>
   void apply(const Scalar* from, const Multiplier& multiplier, const Finish& finish);
   /// A finish that writes the rows to `to` and then calls after_rows(first, second).

@@ -17,8 +17,10 @@ constexpr double kWaterFront = 0.25;
 
 std::vector<std::string> TractionLawOptions::validate() const {
   std::vector<std::string> violations;
-  const auto require = [&](bool is_met, const std::string& name, double value, const std::string& allowed) {
-    if (!is_met) violations.push_back(name + ": " + numberText(value) + " is not allowed, must be " + allowed);
+  const auto require = [&](bool is_met, const std::string& name, double value,
+                           const std::string& allowed) {
+    if (!is_met)
+      violations.push_back(name + ": " + numberText(value) + " is not allowed, must be " + allowed);
   };
   const Range positive = Range::positive();
   require(positive.contains(work_of_adhesion), "interface/work_of_adhesion", work_of_adhesion,
@@ -31,8 +33,8 @@ std::vector<std::string> TractionLawOptions::validate() const {
   require(hardness > 0.0, "hardness", hardness, "> 0 Pa");
   require(Range::any().contains(voltage), "load/voltage", voltage, "finite");
   if (voltage != 0.0) {
-    require(positive.contains(insulator_thickness), "interface/insulator_thickness", insulator_thickness,
-            "> 0 m when the voltage is not 0");
+    require(positive.contains(insulator_thickness), "interface/insulator_thickness",
+            insulator_thickness, "> 0 m when the voltage is not 0");
     require(insulator_relative_permittivity >= 1.0, "interface/insulator_relative_permittivity",
             insulator_relative_permittivity, ">= 1");
   }
@@ -42,9 +44,10 @@ std::vector<std::string> TractionLawOptions::validate() const {
 }
 
 TractionLaw::TractionLaw(const TractionLawOptions& options)
-    : law_(options.work_of_adhesion, options.range > 0.0
-                                         ? options.range
-                                         : AdhesionLaw::rangeOf(options.work_of_adhesion, options.hamaker_constant)),
+    : law_(options.work_of_adhesion,
+           options.range > 0.0
+               ? options.range
+               : AdhesionLaw::rangeOf(options.work_of_adhesion, options.hamaker_constant)),
       attracts_(options.attracts),
       closest_gap_(kClosestGap * range()),
       contact_gap_(range()),
@@ -84,7 +87,9 @@ double TractionLaw::gapOfPressure(double pressure, double narrow) const {
 
 double TractionLaw::narrowestGap() const { return kClosestGap * range(); }
 
-double TractionLaw::reach() const { return range() * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
+double TractionLaw::reach() const {
+  return range() * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit();
+}
 
 TractionLaw::Point TractionLaw::at(double gap) const {
   Point point{};
@@ -92,7 +97,8 @@ TractionLaw::Point TractionLaw::at(double gap) const {
   return point;
 }
 
-void TractionLaw::atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const {
+void TractionLaw::atRow(int count, const double* gaps, double* traction, double* slope,
+                        double* energy) const {
   const double smallest = nineThree(count, gaps, traction, slope, energy);
   if (field_.isOn() || water_.isOn()) addField(count, gaps, traction, slope, energy);
   if (smallest >= closest_gap_) return;
@@ -105,7 +111,8 @@ void TractionLaw::atRow(int count, const double* gaps, double* traction, double*
   }
 }
 
-MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* gaps, double* traction, double* slope,
+MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* gaps,
+                                                       double* traction, double* slope,
                                                        double* energy) const {
   const Packet closest(closest_gap_);
   const AdhesionLaw law = law_;
@@ -142,7 +149,8 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
   return smallest.smallest();
 }
 
-void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope, double* energy) const {
+void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope,
+                           double* energy) const {
   const double front = kWaterFront * range();
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(gaps[i])) continue;

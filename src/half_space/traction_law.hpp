@@ -1,20 +1,25 @@
 #pragma once
 
 /// @file
-/// With which traction do two surfaces a gap apart attract or repel each other, and what does that cost per area?
+/// With which traction do two surfaces a gap apart attract or repel each other, and what does that
+/// cost per area?
 ///
-///     t(g) = 9-3 law at x = z0/g                   attraction and repulsion (mechanics/traction_law.hpp)
+///     t(g) = 9-3 law at x = z0/g                   attraction and repulsion
+///     (mechanics/traction_law.hpp)
 ///          + eps0 U^2/(2 (g + t/eps_r)^2)          field over an insulator (the same)
 ///          + p where z0 < g < z0 + d_K             condensed water (the same)
-///     t >= -Ha                                                        beyond, the softer body flows
+///     t >= -Ha                                                        beyond, the softer body
+///     flows
 ///
-/// Attraction is positive; the energy is minus the work that separation to infinity takes. Assumptions: the traction at
-/// a place depends on the gap there alone (Derjaguin); smooth electrodes without charge in the insulator; water in
-/// equilibrium with the vapour, its front smeared over a quarter of z0 as a sharp one has no derivative. Gaps narrower
-/// than where t = -Ha (or, without a hardness, than 0.45 z0, hundreds of GPa for any solid) take the traction on as a
-/// straight line, so that it is finite for every gap. Electric field and water change the gap of zero traction by less
-/// than z0/100; g counts from the centres of the outermost atoms, so the insulator's thickness includes z0.
-/// Source: Persson and Scaraggi, J. Chem. Phys. 141 (2014) 124701 for rough surfaces under such a law.
+/// Attraction is positive; the energy is minus the work that separation to infinity takes.
+/// Assumptions: the traction at a place depends on the gap there alone (Derjaguin); smooth
+/// electrodes without charge in the insulator; water in equilibrium with the vapour, its front
+/// smeared over a quarter of z0 as a sharp one has no derivative. Gaps narrower than where t = -Ha
+/// (or, without a hardness, than 0.45 z0, hundreds of GPa for any solid) take the traction on as a
+/// straight line, so that it is finite for every gap. Electric field and water change the gap of
+/// zero traction by less than z0/100; g counts from the centres of the outermost atoms, so the
+/// insulator's thickness includes z0. Source: Persson and Scaraggi, J. Chem. Phys. 141 (2014)
+/// 124701 for rough surfaces under such a law.
 ///
 ///     TractionLawOptions options;
 ///     const TractionLaw law(options);
@@ -36,11 +41,12 @@ struct TractionLawOptions {
   double hamaker_constant = 65e-21;  ///< H [J], > 0 where range is 0
   double range = 0.0;                ///< z0 [m]; 0 derives it from Gamma and H
   bool attracts = true;              ///< false: no attraction, the surfaces repel closer than z0
-  double hardness = std::numeric_limits<double>::infinity();  ///< Ha of the softer body [Pa], > 0; infinity: elastic
+  double hardness = std::numeric_limits<double>::infinity();  ///< Ha of the softer body [Pa], > 0;
+                                                              ///< infinity: elastic
   double voltage = 0.0;                                       ///< U [V]
-  double insulator_thickness = 0.0;                           ///< t [m], > 0 when the voltage is not 0
-  double insulator_relative_permittivity = 3.9;               ///< eps_r [-], >= 1
-  CapillaryOptions water;                                     ///< relative_humidity 0: none
+  double insulator_thickness = 0.0;              ///< t [m], > 0 when the voltage is not 0
+  double insulator_relative_permittivity = 3.9;  ///< eps_r [-], >= 1
+  CapillaryOptions water;                        ///< relative_humidity 0: none
 
   /// One line per violated constraint, empty when all is well.
   std::vector<std::string> validate() const;
@@ -59,18 +65,20 @@ class TractionLaw {
   /// @param options fit for use: validate() is empty
   explicit TractionLaw(const TractionLawOptions& options);
 
-  /// The same law, but that it repels with more than `pressure`, > 0, on a straight line: where nothing is pressed so hard both
-  /// are one. A law that flows, or whose own line begins before, stays as it is.
+  /// The same law, but that it repels with more than `pressure`, > 0, on a straight line: where
+  /// nothing is pressed so hard both are one. A law that flows, or whose own line begins before,
+  /// stays as it is.
   TractionLaw steepUpTo(double pressure) const;
 
   Point at(double gap) const;
   /// The same of `count` gaps [m]; infinite ones have no traction.
   void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
 
-  /// Slope of the line from a gap with its traction to where the surfaces repel each other with -other_traction, by the
-  /// first part of the law; of one gap or several (Packet) [Pa/m].
+  /// Slope of the line from a gap with its traction to where the surfaces repel each other with
+  /// -other_traction, by the first part of the law; of one gap or several (Packet) [Pa/m].
   template <typename Real>
-  MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction, const Real& other_traction) const {
+  MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction,
+                                   const Real& other_traction) const {
     const Real gap_there = gapUnder(greater(Real(0.0 - other_traction), Real(0.0)));
     const auto is_law = gap_there > closest_gap_;
     if (flows_) {
@@ -83,13 +91,16 @@ class TractionLaw {
            (select(is_law, gap_there, Real(closest_gap_ - excess / slope_of_line_)) - gap);
   }
 
-  double range() const { return law_.range(); }                                  ///< z0 [m]
-  double stress() const { return law_.stress(); }                                ///< 8 Gamma/(3 z0) [Pa]
+  double range() const { return law_.range(); }    ///< z0 [m]
+  double stress() const { return law_.stress(); }  ///< 8 Gamma/(3 z0) [Pa]
   bool attracts() const { return attracts_ || field_.isOn() || water_.isOn(); }  ///< at some gap
   bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
-  double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water
-  /// The gap at which the surfaces repel each other with a pressure, >= 0, without flow; no less than the narrowest [m].
+  double contactGap() const {
+    return contact_gap_;
+  }  ///< narrower gaps repel [m]; z0 but for field and water
+  /// The gap at which the surfaces repel each other with a pressure, >= 0, without flow; no less
+  /// than the narrowest [m].
   template <typename Real>
   MEMS_STICTION_INLINE Real gapUnder(const Real& pressure) const {
     // x = z0/g solves x^9 - x^3 = p; Halley's method from a tenth beside it
@@ -115,11 +126,14 @@ class TractionLaw {
   /// To 1e-9 of any pressure up to that at the narrowest gap.
   static constexpr int kGapIterations = 3;
 
-  /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest if that is smaller.
-  double nineThree(int count, const double* gaps, double* traction, double* slope, double* energy) const;
+  /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest
+  /// if that is smaller.
+  double nineThree(int count, const double* gaps, double* traction, double* slope,
+                   double* energy) const;
   /// Where t falls to -pressure, between a narrow gap that repels more and z0 [m].
   double gapOfPressure(double pressure, double narrow) const;
-  void addField(int count, const double* gaps, double* traction, double* slope, double* energy) const;
+  void addField(int count, const double* gaps, double* traction, double* slope,
+                double* energy) const;
 
   AdhesionLaw law_;
   bool attracts_;

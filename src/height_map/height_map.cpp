@@ -55,7 +55,8 @@ HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y)
 HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, PixelOwner owner)
     : owner_(std::move(owner)), heights_(heights), pitch_x_(pitch_x), pitch_y_(pitch_y) {
   if (heights_.type() != CV_32FC1 && heights_.type() != CV_64FC1) {
-    throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " + std::to_string(heights_.type()));
+    throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " +
+                       std::to_string(heights_.type()));
   }
   if (heights_.empty()) throw SurfaceError("a height map must have at least one pixel");
   if (!isPitch(pitch_x) || !isPitch(pitch_y)) throw SurfaceError(pitchComplaint(pitch_x, pitch_y));

@@ -15,8 +15,9 @@ inline bool isPitch(double pitch) { return pitch >= kSmallestPitch && pitch <= k
 /// "must be in [1e-15, 1000] m, got 1e+150 x 1e-09"
 inline std::string pitchComplaint(double pitch_x, double pitch_y) {
   return "the pitch must be > 0 m" +
-         std::string(pitch_x > 0.0 && pitch_y > 0.0 ? ", " + Range::within(kSmallestPitch, kLargestPitch).text() + " m"
-                                                    : "") +
+         std::string(pitch_x > 0.0 && pitch_y > 0.0
+                         ? ", " + Range::within(kSmallestPitch, kLargestPitch).text() + " m"
+                         : "") +
          ", got " + numberText(pitch_x) + " x " + numberText(pitch_y);
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 
-/// Row by row; `Channels` is 1, or 2 for (height, quality). The pixel's own type takes part in the comparison with
-/// invalid_value, so that -9999.9 also meets its float32 neighbour.
+/// Row by row; `Channels` is 1, or 2 for (height, quality). The pixel's own type takes part in the
+/// comparison with invalid_value, so that -9999.9 also meets its float32 neighbour.
 template <typename Scalar, int Channels>
 cv::Mat scaled(const cv::Mat& pixels, const ScanOptions& options) {
   cv::Mat heights(pixels.size(), CV_64FC1);
@@ -21,9 +21,10 @@ cv::Mat scaled(const cv::Mat& pixels, const ScanOptions& options) {
   const double invalid_value = options.invalid_value;
   const bool has_invalid_value = !std::isnan(invalid_value);
   // Out of the type's range, the cast would be undefined, and no pixel can match anyway.
-  const bool castable = has_invalid_value &&
-                        invalid_value >= static_cast<double>(std::numeric_limits<Scalar>::lowest()) &&
-                        invalid_value <= static_cast<double>(std::numeric_limits<Scalar>::max());
+  const bool castable =
+      has_invalid_value &&
+      invalid_value >= static_cast<double>(std::numeric_limits<Scalar>::lowest()) &&
+      invalid_value <= static_cast<double>(std::numeric_limits<Scalar>::max());
   const double nearest_value = castable && !std::numeric_limits<Scalar>::is_integer
                                    ? static_cast<double>(static_cast<Scalar>(invalid_value))
                                    : invalid_value;
@@ -33,8 +34,10 @@ cv::Mat scaled(const cv::Mat& pixels, const ScanOptions& options) {
     for (int col = 0; col < pixels.cols; ++col) {
       const double pixel = source[Channels * col];
       double height = pixel * scale + offset;
-      if (has_invalid_value && (pixel == invalid_value || pixel == nearest_value)) height = kInvalid;
-      if (Channels == 2 && std::isnan(static_cast<double>(source[Channels * col + Channels - 1]))) height = kInvalid;
+      if (has_invalid_value && (pixel == invalid_value || pixel == nearest_value))
+        height = kInvalid;
+      if (Channels == 2 && std::isnan(static_cast<double>(source[Channels * col + Channels - 1])))
+        height = kInvalid;
       target[col] = height;
     }
   }
@@ -54,22 +57,27 @@ void ScanOptions::describe(OptionVisitor& visitor) {
                  "height = pixel x height_scale + height_offset");
   visitor.number("scan/invalid_value", invalid_value, "", Range::anyOrNone(),
                  "pixels of this raw value are invalid; nan = none");
-  visitor.enumeration<DecimalMark>(
-      "scan/decimal_mark", text.decimal_mark,
-      {{"auto", DecimalMark::kAuto}, {"point", DecimalMark::kPoint}, {"comma", DecimalMark::kComma}},
-      "of numbers in text files; auto = what the file's numbers allow, and refused where both are possible");
-  visitor.enumeration<YAxis>("scan/y_axis", text.y_axis,
-                             {{"auto", YAxis::kAuto}, {"down", YAxis::kDown}, {"up", YAxis::kUp}},
-                             "which way y grows in lists of x, y and z; auto = by heading or order, else down");
+  visitor.enumeration<DecimalMark>("scan/decimal_mark", text.decimal_mark,
+                                   {{"auto", DecimalMark::kAuto},
+                                    {"point", DecimalMark::kPoint},
+                                    {"comma", DecimalMark::kComma}},
+                                   "of numbers in text files; auto = what the file's numbers "
+                                   "allow, and refused where both are possible");
+  visitor.enumeration<YAxis>(
+      "scan/y_axis", text.y_axis,
+      {{"auto", YAxis::kAuto}, {"down", YAxis::kDown}, {"up", YAxis::kUp}},
+      "which way y grows in lists of x, y and z; auto = by heading or order, else down");
 }
 
-HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options, const PixelOwner& owner) {
+HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options,
+                              const PixelOwner& owner) {
   if (pixels.empty()) throw SurfaceError("the image has no pixels");
   if (!isPitch(options.pitch_x) || !isPitch(options.pitch_y)) {
-    throw SurfaceError(pitchComplaint(options.pitch_x, options.pitch_y) + ": state scan/pitch_x and scan/pitch_y");
+    throw SurfaceError(pitchComplaint(options.pitch_x, options.pitch_y) +
+                       ": state scan/pitch_x and scan/pitch_y");
   }
-  const bool as_it_is =
-      options.height_scale == 1.0 && options.height_offset == 0.0 && std::isnan(options.invalid_value);
+  const bool as_it_is = options.height_scale == 1.0 && options.height_offset == 0.0 &&
+                        std::isnan(options.invalid_value);
   cv::Mat heights;
   switch (pixels.type()) {
     case CV_32FC1:
@@ -91,8 +99,9 @@ HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options,
       heights = scaled<std::uint8_t, 1>(pixels, options);
       break;
     default:
-      throw SurfaceError("pixels of OpenCV type " + cv::typeToString(pixels.type()) +
-                         " are not heights; accepted: 32FC1, 64FC1, 32FC2 (height, quality), 16UC1, 16SC1, 8UC1");
+      throw SurfaceError(
+          "pixels of OpenCV type " + cv::typeToString(pixels.type()) +
+          " are not heights; accepted: 32FC1, 64FC1, 32FC2 (height, quality), 16UC1, 16SC1, 8UC1");
   }
   return {heights, options.pitch_x, options.pitch_y, owner};
 }

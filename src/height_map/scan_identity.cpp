@@ -28,14 +28,15 @@ void ScanIdentity::describe(OptionVisitor& visitor) {
 ScanIdentity commonIdentity(const ScanIdentity& one, const ScanIdentity& other) {
   ScanIdentity common;
   for (std::string ScanIdentity::*text :
-       {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id,
-        &ScanIdentity::instrument, &ScanIdentity::operator_name}) {
+       {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id,
+        &ScanIdentity::wafer_id, &ScanIdentity::instrument, &ScanIdentity::operator_name}) {
     if (one.*text == other.*text) common.*text = one.*text;
   }
   return common;
 }
 
-std::vector<std::string> identityComplaints(const ScanIdentity& identity, const std::string& prefix) {
+std::vector<std::string> identityComplaints(const ScanIdentity& identity,
+                                            const std::string& prefix) {
   std::vector<std::string> lines;
   visitScanIdentityFields(identity, [&](const Figure& figure, const auto& value) {
     if constexpr (kIsText<decltype(value)>) {

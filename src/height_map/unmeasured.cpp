@@ -11,7 +11,8 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kLargestShare = 0.25;  // of a rough line that may have the value of the line beside it
+constexpr double kLargestShare =
+    0.25;  // of a rough line that may have the value of the line beside it
 
 enum class LineKind { kMissing, kOneValue, kRough };
 
@@ -41,7 +42,8 @@ void findLines(const cv::Mat& heights, std::vector<Line>& rows, std::vector<Line
   for (int i = 0; i < heights.rows; ++i) {
     const Scalar* pixels = heights.ptr<Scalar>(i);
     Line& row = rows[static_cast<std::size_t>(i)];
-    for (int j = 0; j < heights.cols && row.kind != LineKind::kRough; ++j) add(row, static_cast<double>(pixels[j]));
+    for (int j = 0; j < heights.cols && row.kind != LineKind::kRough; ++j)
+      add(row, static_cast<double>(pixels[j]));
     if (!has_open_cols) continue;
     has_open_cols = false;
     for (int j = 0; j < heights.cols; ++j) {
@@ -68,7 +70,8 @@ Lines linesOf(const cv::Mat& heights) {
 }
 
 double pixel(const cv::Mat& heights, int row, int col) {
-  return heights.depth() == CV_32F ? static_cast<double>(heights.at<float>(row, col)) : heights.at<double>(row, col);
+  return heights.depth() == CV_32F ? static_cast<double>(heights.at<float>(row, col))
+                                   : heights.at<double>(row, col);
 }
 
 /// One row or column of a matrix.
@@ -80,7 +83,8 @@ struct LinePixels {
   int count() const { return is_row ? heights.cols : heights.rows; }
   double at(int i) const { return is_row ? pixel(heights, line, i) : pixel(heights, i, line); }
 
-  /// Whether less than kLargestShare of the measured pixels outside of a range are of this value; not if there are none.
+  /// Whether less than kLargestShare of the measured pixels outside of a range are of this value;
+  /// not if there are none.
   bool isRoughBeside(double value, const cv::Range& without) const {
     int equal = 0;
     int measured = 0;
@@ -103,17 +107,21 @@ struct LinePixels {
   }
 };
 
-/// Marks each run of lines of one and the same value that rough lines without this value stand beside.
+/// Marks each run of lines of one and the same value that rough lines without this value stand
+/// beside.
 void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_row, cv::Mat& mask) {
   const int count = static_cast<int>(lines.size());
-  const auto at = [&lines](int line) -> const Line& { return lines[static_cast<std::size_t>(line)]; };
+  const auto at = [&lines](int line) -> const Line& {
+    return lines[static_cast<std::size_t>(line)];
+  };
   const auto next = [&](int line, int step) {
     while (line >= 0 && line < count && at(line).kind == LineKind::kMissing) line += step;
     return line;
   };
   for (int begin = next(0, 1); begin < count;) {
     const auto continues = [&](int line) {
-      return line < count && at(line).kind == LineKind::kOneValue && at(line).value == at(begin).value;
+      return line < count && at(line).kind == LineKind::kOneValue &&
+             at(line).value == at(begin).value;
     };
     int end = begin;
     while (continues(next(end + 1, 1))) end = next(end + 1, 1);
@@ -141,15 +149,17 @@ void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_ro
     }
     for (const auto& [line, filled] : begun) {
       if (is_stopped && !mask.empty())
-        (is_row ? mask(cv::Range(line, line + 1), filled) : mask(filled, cv::Range(line, line + 1))).setTo(255);
+        (is_row ? mask(cv::Range(line, line + 1), filled) : mask(filled, cv::Range(line, line + 1)))
+            .setTo(255);
     }
     begin = next(end + 1, 1);
   }
 }
 
-/// rows x cols CV_8UC1: 255 in rows and columns that the instrument did not reach: all their measured pixels, at least
-/// kFewestStoppedPixels, are of one value, which the nearest rough lines have in less than a quarter of their pixels. The
-/// filled end of a line that the instrument stopped in goes with them. Empty if there are none.
+/// rows x cols CV_8UC1: 255 in rows and columns that the instrument did not reach: all their
+/// measured pixels, at least kFewestStoppedPixels, are of one value, which the nearest rough lines
+/// have in less than a quarter of their pixels. The filled end of a line that the instrument
+/// stopped in goes with them. Empty if there are none.
 cv::Mat stoppedLines(const cv::Mat& heights) {
   const Lines lines = linesOf(heights);
   cv::Mat mask;
@@ -168,7 +178,8 @@ cv::Mat sentinelMask(const cv::Mat& heights) {
 
 HeightMap withoutSentinels(const HeightMap& surface) {
   // Without a mask of its own for the many scans that have no such pixel.
-  if (cv::checkRange(surface.heights(), true, nullptr, -kLargestHeight, kLargestHeight)) return surface;
+  if (cv::checkRange(surface.heights(), true, nullptr, -kLargestHeight, kLargestHeight))
+    return surface;
   const cv::Mat beyond = sentinelMask(surface.heights());
   if (cv::countNonZero(beyond) == 0) return surface;
   cv::Mat heights = ownedHeights(surface);
@@ -178,8 +189,9 @@ HeightMap withoutSentinels(const HeightMap& surface) {
 
 MissingLines missingLines(const HeightMap& surface) {
   const auto count = [](const std::vector<Line>& lines) {
-    return static_cast<int>(
-        std::count_if(lines.begin(), lines.end(), [](const Line& line) { return line.kind == LineKind::kMissing; }));
+    return static_cast<int>(std::count_if(lines.begin(), lines.end(), [](const Line& line) {
+      return line.kind == LineKind::kMissing;
+    }));
   };
   const Lines lines = linesOf(surface.heights());
   return {count(lines.rows), count(lines.cols)};

@@ -1,18 +1,20 @@
 #pragma once
 
 /// @file
-/// Which pixels of a scan as it came were not measured, though numbers stand there: numbers that stand for none, and lines that
-/// the instrument did not reach.
+/// Which pixels of a scan as it came were not measured, though numbers stand there: numbers that
+/// stand for none, and lines that the instrument did not reach.
 ///
-/// A scan that was stopped is filled up with one number. Noise and quantisation make neighbouring pixels differ, so a
-/// line of one value is no measurement where the lines beside it are rough. It is one where it belongs to a flat part: then
-/// its value goes on beside it (steps, gratings, a cap on a plane), or the lines beside it are of one value too.
+/// A scan that was stopped is filled up with one number. Noise and quantisation make neighbouring
+/// pixels differ, so a line of one value is no measurement where the lines beside it are rough. It
+/// is one where it belongs to a flat part: then its value goes on beside it (steps, gratings, a cap
+/// on a plane), or the lines beside it are of one value too.
 
 #include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
 
-/// Largest number that is a height [m]. Programs and drivers write 1e38, FLT_MAX, DBL_MAX and the like for "no height".
+/// Largest number that is a height [m]. Programs and drivers write 1e38, FLT_MAX, DBL_MAX and the
+/// like for "no height".
 constexpr double kLargestHeight = 1e20;
 
 /// rows x cols CV_8UC1: 255 where a finite number lies beyond kLargestHeight, 0 elsewhere.
@@ -32,8 +34,9 @@ struct MissingLines {
 
 MissingLines missingLines(const HeightMap& surface);
 
-/// The surface with pixels invalid that were not measured, those of withoutSentinels() and of stopped lines; the same, its
-/// pixels shared, if there are none. Every scan goes through here, from whatever file, message or array.
+/// The surface with pixels invalid that were not measured, those of withoutSentinels() and of
+/// stopped lines; the same, its pixels shared, if there are none. Every scan goes through here,
+/// from whatever file, message or array.
 HeightMap measuredPart(const HeightMap& surface);
 
 }  // namespace mems_stiction

@@ -5,8 +5,8 @@
 namespace mems_stiction {
 
 cv::Mat validMask(const cv::Mat& heights) {
-  const double largest =
-      heights.depth() == CV_32F ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+  const double largest = heights.depth() == CV_32F ? std::numeric_limits<float>::max()
+                                                   : std::numeric_limits<double>::max();
   return cv::Mat(cv::abs(heights) <= largest);  // false for NaN and infinities
 }
 

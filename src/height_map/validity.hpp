@@ -13,7 +13,8 @@ cv::Mat validMask(const cv::Mat& heights);
 /// Share of pixels that are invalid [-].
 double invalidFraction(const HeightMap& surface);
 
-/// The heights as rows x cols CV_64FC1 that nobody else shows, every invalid pixel NaN (never an infinity).
+/// The heights as rows x cols CV_64FC1 that nobody else shows, every invalid pixel NaN (never an
+/// infinity).
 cv::Mat ownedHeights(const HeightMap& surface);
 
 }  // namespace mems_stiction

@@ -43,7 +43,8 @@ bool setDate(Reading& reading, int year, int month, int day) {
   return true;
 }
 
-/// "2011-10-20", "2011/10/20", "20.10.2011", "10/20/2011"; false also where day and month may be either.
+/// "2011-10-20", "2011/10/20", "20.10.2011", "10/20/2011"; false also where day and month may be
+/// either.
 bool readDate(const std::string& word, Reading& reading) {
   static const std::regex year_first(R"((\d{4})[-/.:](\d{1,2})[-/.:](\d{1,2}))");
   static const std::regex year_last(R"((\d{1,2})([-/.])(\d{1,2})\2(\d{4}))");
@@ -55,7 +56,8 @@ bool readDate(const std::string& word, Reading& reading) {
   const int first = std::stoi(match[1]);
   const int second = std::stoi(match[3]);
   const int year = std::stoi(match[4]);
-  if (match[2] == "." || first > 12 || first == second) return setDate(reading, year, second, first);
+  if (match[2] == "." || first > 12 || first == second)
+    return setDate(reading, year, second, first);
   return second > 12 && setDate(reading, year, first, second);
 }
 
@@ -89,7 +91,8 @@ bool readWord(const std::string& word, Reading& reading) {
     reading.month = month;
     return true;
   }
-  if (!std::all_of(word.begin(), word.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; })) {
+  if (!std::all_of(word.begin(), word.end(),
+                   [](unsigned char letter) { return std::isdigit(letter) != 0; })) {
     return readDate(word, reading) || readTime(word, reading);
   }
   int& number = word.size() == 4 ? reading.year : reading.day;
@@ -100,8 +103,10 @@ bool readWord(const std::string& word, Reading& reading) {
 
 bool isDate(const Reading& reading) {
   if (reading.year == 0 || reading.month < 1 || reading.month > 12) return false;
-  const bool is_leap = reading.year % 4 == 0 && (reading.year % 100 != 0 || reading.year % 400 == 0);
-  const int days = reading.month == 2 ? (is_leap ? 29 : 28) : 30 + (reading.month + reading.month / 8) % 2;
+  const bool is_leap =
+      reading.year % 4 == 0 && (reading.year % 100 != 0 || reading.year % 400 == 0);
+  const int days =
+      reading.month == 2 ? (is_leap ? 29 : 28) : 30 + (reading.month + reading.month / 8) % 2;
   return reading.day >= 1 && reading.day <= days;
 }
 
@@ -111,7 +116,8 @@ bool setHour(Reading& reading) {
     if (!reading.has_time || reading.hour < 1 || reading.hour > 12) return false;
     reading.hour = reading.hour % 12 + (reading.half == "pm" ? 12 : 0);
   }
-  return reading.hour < 24 && reading.minute < 60 && (reading.seconds.size() < 3 || reading.seconds[1] < '6');
+  return reading.hour < 24 && reading.minute < 60 &&
+         (reading.seconds.size() < 3 || reading.seconds[1] < '6');
 }
 
 /// The date, the time and their parts.

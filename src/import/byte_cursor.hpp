@@ -19,9 +19,11 @@ namespace mems_stiction {
 inline double halfToFloat(std::uint16_t bits) {
   const int exponent = bits >> 10 & 31;
   const int fraction = bits & 1023;
-  double value = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(fraction + 1024, exponent - 25);
+  double value =
+      exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(fraction + 1024, exponent - 25);
   if (exponent == 31) {
-    value = fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    value = fraction == 0 ? std::numeric_limits<double>::infinity()
+                          : std::numeric_limits<double>::quiet_NaN();
   }
   return bits >> 15 != 0 ? -value : value;
 }
@@ -32,7 +34,8 @@ enum class ByteOrder { kLittle, kBig };
 class ByteCursor {
  public:
   /// - @p what for messages: "the .gwy container" ends in the middle of something
-  ByteCursor(const char* begin, std::size_t size, const char* what, ByteOrder order = ByteOrder::kLittle)
+  ByteCursor(const char* begin, std::size_t size, const char* what,
+             ByteOrder order = ByteOrder::kLittle)
       : data_(begin), size_(size), what_(what), order_(order) {}
 
   bool atEnd() const { return size_ == 0; }
@@ -76,7 +79,8 @@ class ByteCursor {
   Number number() {
     unsigned char bytes[sizeof(Number)];
     std::memcpy(bytes, take(sizeof(Number)), sizeof(Number));
-    constexpr ByteOrder kMachine = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? ByteOrder::kBig : ByteOrder::kLittle;
+    constexpr ByteOrder kMachine =
+        __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? ByteOrder::kBig : ByteOrder::kLittle;
     if (order_ != kMachine) std::reverse(std::begin(bytes), std::end(bytes));
     Number value;
     std::memcpy(&value, bytes, sizeof value);

@@ -21,8 +21,9 @@ bool isIn(const Words& words, const std::string& word) {
 }
 
 bool containsAny(const std::string& text, const Words& parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&text](const std::string& part) { return text.find(part) != std::string::npos; });
+  return std::any_of(parts.begin(), parts.end(), [&text](const std::string& part) {
+    return text.find(part) != std::string::npos;
+  });
 }
 
 /// Small letters; everything else becomes a single blank.
@@ -53,7 +54,8 @@ bool isLength(const FileChannel& channel) {
   return is_metre(channel.unit_xy) && is_metre(channel.unit_z);
 }
 
-/// Number of times that pixels of a scan are at most as long as wide; an array of curves is no image.
+/// Number of times that pixels of a scan are at most as long as wide; an array of curves is no
+/// image.
 constexpr double kMostElongated = 1000.0;
 
 bool isImage(const FileChannel& channel) {
@@ -62,7 +64,8 @@ bool isImage(const FileChannel& channel) {
   return !(ratio > kMostElongated || ratio < 1.0 / kMostElongated);
 }
 
-/// Largest less smallest height; 0 if there is none. In one pass: files have a dozen channels, and each is asked.
+/// Largest less smallest height; 0 if there is none. In one pass: files have a dozen channels, and
+/// each is asked.
 /// - @p channel of type CV_64FC1
 double rangeOf(const FileChannel& channel) {
   double least = kLargestHeight;
@@ -88,8 +91,9 @@ bool isBeyondReach(const FileChannel& channel) {
          rangeOf(channel) > kReachMargin * channel.reach;
 }
 
-/// Heights that span more than the scan is wide, or than the instrument can move, are another quantity, whatever title
-/// and unit say: volts of a sensor that was never calibrated. Nothing is said of values without a unit.
+/// Heights that span more than the scan is wide, or than the instrument can move, are another
+/// quantity, whatever title and unit say: volts of a sensor that was never calibrated. Nothing is
+/// said of values without a unit.
 bool isSteep(const FileChannel& channel) {
   if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
   return isBeyondReach(channel) || rangeOf(channel) > std::max(channel.width, channel.height);
@@ -104,16 +108,18 @@ bool isUnmeasured(const FileChannel& channel) {
 /// Lower is likelier to be the height; kOtherSignal is never taken by itself.
 enum Likelihood { kSensor, kHeight, kUnknown, kOtherSignal };
 
-/// Signals that other channels carry in metres are told by one word anywhere. Signals that have another unit by nature
-/// can be in metres only by their file's mistake: they are told by a title that says nothing else, so that "Adhesion
-/// sample 4" may be a height.
+/// Signals that other channels carry in metres are told by one word anywhere. Signals that have
+/// another unit by nature can be in metres only by their file's mistake: they are told by a title
+/// that says nothing else, so that "Adhesion sample 4" may be a height.
 bool isOtherSignal(const std::string& letters) {
-  if (containsAny(letters, {"error", "deflection", "amplitude", "deformation", "indentation"})) return true;
-  static const Words kSignals = {"friction", "lateral", "current",     "potential", "adhesion",  "stiffness",
-                                 "modulus",  "force",   "dissipation", "peak",      "intensity", "log",
-                                 "dmt",      "sneddon", "voltage",     "peakforce", "frequency", "shift",
-                                 "df",       "i",       "quality"};
-  static const Words kManner = {"forward", "backward", "trace", "retrace", "fwd", "bwd", "left", "right", "channel"};
+  if (containsAny(letters, {"error", "deflection", "amplitude", "deformation", "indentation"}))
+    return true;
+  static const Words kSignals = {
+      "friction", "lateral",     "current",   "potential", "adhesion", "stiffness", "modulus",
+      "force",    "dissipation", "peak",      "intensity", "log",      "dmt",       "sneddon",
+      "voltage",  "peakforce",   "frequency", "shift",     "df",       "i",         "quality"};
+  static const Words kManner = {"forward", "backward", "trace", "retrace", "fwd",
+                                "bwd",     "left",     "right", "channel"};
   bool is_signal = false;
   for (const std::string& word : wordsOf(letters)) {
     if (isIn(kSignals, word)) {
@@ -125,29 +131,34 @@ bool isOtherSignal(const std::string& letters) {
   return is_signal;
 }
 
-/// Lower is taken first: steep (1) and empty (2) channels last, then what the title says, then backward.
+/// Lower is taken first: steep (1) and empty (2) channels last, then what the title says, then
+/// backward.
 using Rank = std::tuple<int, Likelihood, bool>;
 
 Likelihood likelihood(const FileChannel& channel) {
   const std::string letters = lettersOf(channel.title);
   if (isOtherSignal(letters)) return kOtherSignal;
   const Words words = wordsOf(letters);
-  const bool is_height =
-      letters == "z" || containsAny(letters, {"height", "topo", "depth", "surface", "z axis", "zaxis"});
-  if (containsAny(letters,
-                  {"zsensor", "z sensor", "height sensor", "heightsensor", "axissensor", "axis sensor", "z height"}) ||
-      (is_height && (isIn(words, "measured") || isIn(words, "sensor") || containsAny(letters, {"closed loop"})))) {
+  const bool is_height = letters == "z" || containsAny(letters, {"height", "topo", "depth",
+                                                                 "surface", "z axis", "zaxis"});
+  if (containsAny(letters, {"zsensor", "z sensor", "height sensor", "heightsensor", "axissensor",
+                            "axis sensor", "z height"}) ||
+      (is_height && (isIn(words, "measured") || isIn(words, "sensor") ||
+                     containsAny(letters, {"closed loop"})))) {
     return kSensor;
   }
   return is_height ? kHeight : kUnknown;
 }
 
 bool isBackward(const FileChannel& channel) {
-  if (endsWith(channel.title, " [Left]")) return true;  // RHK names the way that the tip went; it begins to the right
-  if (channel.title.find("<-") != std::string::npos || channel.title.find("\xE2\x86\x90") != std::string::npos) {
+  if (endsWith(channel.title, " [Left]"))
+    return true;  // RHK names the way that the tip went; it begins to the right
+  if (channel.title.find("<-") != std::string::npos ||
+      channel.title.find("\xE2\x86\x90") != std::string::npos) {
     return true;
   }
-  static const Words kBackward = {"backward", "backwards", "bwd", "back", "bw", "retrace", "reverse", "rev", "rl"};
+  static const Words kBackward = {"backward", "backwards", "bwd", "back", "bw",
+                                  "retrace",  "reverse",   "rev", "rl"};
   const Words words = wordsOf(lettersOf(channel.title));
   return std::any_of(words.begin(), words.end(), [](const std::string& word) {
     return isIn(kBackward, word) || containsAny(word, {"retrace", "backward"});
@@ -162,9 +173,12 @@ std::string list(const std::vector<FileChannel>& channels) {
     if (!channel.takes_settings) {
       text += "[" + (channel.unit_z.empty() ? "no unit" : channel.unit_z) + "]";
     } else {
-      text += "[" + std::to_string(channel.values.cols) + " x " + std::to_string(channel.values.rows) +
+      text += "[" + std::to_string(channel.values.cols) + " x " +
+              std::to_string(channel.values.rows) +
               (channel.unit_z.empty() ? "" : ", " + channel.unit_z) +
-              (isOneValue(channel) ? "]" : ", " + std::to_string(channel.values.channels()) + " values per pixel]");
+              (isOneValue(channel)
+                   ? "]"
+                   : ", " + std::to_string(channel.values.channels()) + " values per pixel]");
     }
   }
   return text;
@@ -176,7 +190,8 @@ std::string channelName(const FileChannel& channel) {
   return std::to_string(channel.id) + ": " + (channel.title.empty() ? "(no title)" : channel.title);
 }
 
-std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted) {
+std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels,
+                                const std::string& wanted) {
   if (channels.empty()) throw FileError("the file has no image channel");
   if (!wanted.empty()) {
     for (const bool by_number : {true, false}) {
@@ -196,7 +211,10 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
     const FileChannel& channel = channels[i];
     const Likelihood kind = likelihood(channel);
     if (!isLength(channel) || !isImage(channel) || kind == kOtherSignal) continue;
-    const int doubt = channels.size() == 1 ? 0 : isUnmeasured(channel) ? 2 : isSteep(channel) ? 1 : 0;
+    const int doubt = channels.size() == 1    ? 0
+                      : isUnmeasured(channel) ? 2
+                      : isSteep(channel)      ? 1
+                                              : 0;
     const Rank rank(doubt, kind, isBackward(channel));
     if (best == channels.size() || rank < rank_of_best) {
       best = i;
@@ -211,11 +229,14 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
                     " channels per pixel are a picture, a height map has 1");
   }
   if (best == channels.size()) {
-    throw FileError("the file has no channel of heights in metres over metres; there are: " + list(channels));
+    throw FileError("the file has no channel of heights in metres over metres; there are: " +
+                    list(channels));
   }
   if (equals > 1 && channels[best].takes_settings) {
-    throw FileError("the file does not say which of its images the heights are: name one with --channel; there are: " +
-                    list(channels));
+    throw FileError(
+        "the file does not say which of its images the heights are: name one with --channel; there "
+        "are: " +
+        list(channels));
   }
   return best;
 }
@@ -231,7 +252,8 @@ std::string passedOver(const std::vector<FileChannel>& channels, std::size_t cho
     if (isUnmeasured(channel)) return taken + channelName(channel) + " has no measured pixel";
     if (!isSteep(channel)) continue;
     return taken + "the heights of " + channelName(channel) +
-           (isBeyondReach(channel) ? " span more than the piezo can move" : " span more than the scan is wide");
+           (isBeyondReach(channel) ? " span more than the piezo can move"
+                                   : " span more than the scan is wide");
   }
   return "";
 }
@@ -239,15 +261,15 @@ std::string passedOver(const std::vector<FileChannel>& channels, std::size_t cho
 std::string othersOfOtherSize(const std::vector<FileChannel>& channels, std::size_t chosen) {
   const FileChannel& taken = channels[chosen];
   const auto size = [](const FileChannel& channel) {
-    return std::to_string(channel.values.cols) + " x " + std::to_string(channel.values.rows) + " pixels of " +
-           shortNumber(channel.width) + " x " + shortNumber(channel.height) + " m";
+    return std::to_string(channel.values.cols) + " x " + std::to_string(channel.values.rows) +
+           " pixels of " + shortNumber(channel.width) + " x " + shortNumber(channel.height) + " m";
   };
   constexpr int kMostNamed = 5;
   std::string others;
   int count = 0;
   for (const FileChannel& channel : channels) {
-    const bool is_alike =
-        isLength(channel) && isImage(channel) && !channel.takes_settings && likelihood(channel) <= likelihood(taken);
+    const bool is_alike = isLength(channel) && isImage(channel) && !channel.takes_settings &&
+                          likelihood(channel) <= likelihood(taken);
     if (!is_alike || size(channel) == size(taken)) continue;
     if (++count <= kMostNamed)
       others += (others.empty() ? "" : ", ") + channelName(channel) + " (" + size(channel) + ")";
@@ -260,16 +282,19 @@ std::string othersOfOtherSize(const std::vector<FileChannel>& channels, std::siz
 
 HeightMap surfaceOfChannel(const FileChannel& channel) {
   if (isBeyondReach(channel)) {
-    throw FileError("the heights of " + channelName(channel) + " span " + shortNumber(rangeOf(channel)) +
-                    " m, the piezo can move " + shortNumber(channel.reach) +
+    throw FileError("the heights of " + channelName(channel) + " span " +
+                    shortNumber(rangeOf(channel)) + " m, the piezo can move " +
+                    shortNumber(channel.reach) +
                     " m: they are no heights, or their scale is wrong");
   }
   if (channel.values.rows < 2 || channel.values.cols < 2) {
-    throw FileError("the channel " + channelName(channel) + " has only " + std::to_string(channel.values.cols) + " x " +
+    throw FileError("the channel " + channelName(channel) + " has only " +
+                    std::to_string(channel.values.cols) + " x " +
                     std::to_string(channel.values.rows) + " pixels");
   }
   try {
-    return {channel.values, channel.width / channel.values.cols, channel.height / channel.values.rows};
+    return {channel.values, channel.width / channel.values.cols,
+            channel.height / channel.values.rows};
   } catch (const SurfaceError& error) {
     throw FileError("the channel " + channelName(channel) + ": " + error.what());
   }

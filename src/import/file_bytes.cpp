@@ -15,7 +15,8 @@ void checkPixelCount(std::uint64_t cols, std::uint64_t rows) {
   const std::string size = std::to_string(cols) + " x " + std::to_string(rows) + " pixels";
   if (cols == 0 || rows == 0) throw FileError(size + " are no scan");
   if (cols > kMaxPixels / rows) {
-    throw FileError(size + " are more than the " + std::to_string(kMaxPixels) + " that a scan may have");
+    throw FileError(size + " are more than the " + std::to_string(kMaxPixels) +
+                    " that a scan may have");
   }
 }
 

@@ -18,7 +18,8 @@
 namespace mems_stiction {
 namespace {
 
-/// By chance, one line feed of 256 stands behind a carriage return, and one high byte of thousands begins such a group.
+/// By chance, one line feed of 256 stands behind a carriage return, and one high byte of thousands
+/// begins such a group.
 constexpr std::size_t kTooManyForChance = 64;
 constexpr const char* kReplaced = "\xEF\xBF\xBD";  // U+FFFD
 constexpr const char* kZip = "the zip archive";
@@ -28,13 +29,15 @@ constexpr std::uint64_t kNarrowLimit = 0xFFFFFFFF;  // larger sizes stand in a f
 constexpr std::size_t kCreatecHeader = 16384;       // [bytes]
 constexpr std::size_t kMostFiller = 16384;          // [bytes] that programs add behind the data
 
-ByteCursor at(const std::string& bytes, std::size_t offset, const char* what, ByteOrder order = ByteOrder::kLittle) {
+ByteCursor at(const std::string& bytes, std::size_t offset, const char* what,
+              ByteOrder order = ByteOrder::kLittle) {
   ByteCursor cursor(bytes.data(), bytes.size(), what, order);
   cursor.take(offset);
   return cursor;
 }
 
-/// Unpacks a stream of zlib, with a header or (window_bits < 0) without, as long as `take(piece, size)` wants more of it.
+/// Unpacks a stream of zlib, with a header or (window_bits < 0) without, as long as `take(piece,
+/// size)` wants more of it.
 /// @return Z_STREAM_END if it was there to its end, Z_OK if `take` has ended it, else an error
 template <typename Take>
 int unpack(const Bytef* data, std::uint64_t size, int window_bits, Take take) {
@@ -65,7 +68,8 @@ void checkMetroPro(const std::string& bytes) {
   cursor.take(2 + 4 + 4);
   const std::uint64_t phase_cols = cursor.number<std::uint16_t>();
   const std::uint64_t phase_rows = cursor.number<std::uint16_t>();
-  demandLength("MetroPro", bytes.size(), header + 2 * cols * rows * images + 4 * phase_cols * phase_rows);
+  demandLength("MetroPro", bytes.size(),
+               header + 2 * cols * rows * images + 4 * phase_cols * phase_rows);
 }
 
 /// A number in one of Alicona's tags of 52 bytes; 0 if it has none.
@@ -106,7 +110,8 @@ void checkAgilent(const std::string& bytes) {
   const std::uint64_t cols = header.count("xPixels");
   const std::uint64_t rows = header.count("yPixels");
   checkPixelCount(cols, rows);
-  demandLength("Agilent", bytes.size(), start + cols * rows * (is_wide ? 4 : 2) * header.times("bufferLabel"));
+  demandLength("Agilent", bytes.size(),
+               start + cols * rows * (is_wide ? 4 : 2) * header.times("bufferLabel"));
 }
 
 /// Aarhus: an index of images in blocks of 128 bytes, then each with a label.
@@ -119,13 +124,17 @@ void checkAarhus(const std::string& bytes) {
     const std::uint64_t address = index.number<std::uint32_t>();
     if (id == 0) continue;
     ByteCursor label =
-        at(bytes, static_cast<std::size_t>(std::min<std::uint64_t>(address * kBlock, bytes.size())), "the .mul file");
+        at(bytes, static_cast<std::size_t>(std::min<std::uint64_t>(address * kBlock, bytes.size())),
+           "the .mul file");
     const bool is_named = label.number<std::int16_t>() == id;
     const std::uint64_t blocks = label.number<std::uint16_t>();
-    const std::uint64_t pixels = std::uint64_t{label.number<std::uint16_t>()} * label.number<std::uint16_t>();
-    if (!is_named || blocks * kBlock < kBlock + 2 * pixels || blocks * kBlock >= 3 * kBlock + 2 * pixels) {
-      throw FileError("the image " + std::to_string(id) +
-                      " of the .mul file is not where or not as large as its index and label say: damaged");
+    const std::uint64_t pixels =
+        std::uint64_t{label.number<std::uint16_t>()} * label.number<std::uint16_t>();
+    if (!is_named || blocks * kBlock < kBlock + 2 * pixels ||
+        blocks * kBlock >= 3 * kBlock + 2 * pixels) {
+      throw FileError(
+          "the image " + std::to_string(id) +
+          " of the .mul file is not where or not as large as its index and label say: damaged");
     }
     end = std::max(end, address + blocks);
   }
@@ -137,20 +146,23 @@ std::uint64_t unpackedCreatec(const std::string& bytes, std::size_t start, std::
   std::uint64_t size = 0;
   bool is_filler = true;
   const auto* data = reinterpret_cast<const Bytef*>(bytes.data() + start);
-  const int state = unpack(data, bytes.size() - start, MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
-    for (std::size_t i = size < needed ? std::min<std::uint64_t>(needed - size, got) : 0; i < got; ++i) {
-      is_filler = is_filler && piece[i] == 0;
-    }
-    size += got;
-    return size <= needed + kMostFiller;
-  });
+  const int state =
+      unpack(data, bytes.size() - start, MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
+        for (std::size_t i = size < needed ? std::min<std::uint64_t>(needed - size, got) : 0;
+             i < got; ++i) {
+          is_filler = is_filler && piece[i] == 0;
+        }
+        size += got;
+        return size <= needed + kMostFiller;
+      });
   if (state != Z_STREAM_END && size <= needed + kMostFiller)
     throw FileError("the Createc data cannot be unpacked: cut off or damaged");
   return is_filler && size <= needed + kMostFiller ? std::min(size, needed) : size;
 }
 
 void checkCreatec(const std::string& bytes) {
-  if (bytes.size() <= kCreatecHeader) throw FileError("the Createc file ends in its header: cut off");
+  if (bytes.size() <= kCreatecHeader)
+    throw FileError("the Createc file ends in its header: cut off");
   const HeaderLines header(bytes.substr(0, kCreatecHeader), "=");
   const auto count = [&header](const std::string& key) {
     return header.has(key) ? header.count(key) : header.count(key + " / " + key);
@@ -166,8 +178,9 @@ void checkCreatec(const std::string& bytes) {
   }
   const std::uint64_t bytes_each = startsWith(bytes, "[Paramet32]") ? 4 : 2;
   const std::uint64_t end = kCreatecHeader + bytes_each * (pixels + 1);
-  const bool is_filled = bytes.size() > end && bytes.size() - end <= kMostFiller &&
-                         bytes.find_first_not_of('\0', static_cast<std::size_t>(end)) == std::string::npos;
+  const bool is_filled =
+      bytes.size() > end && bytes.size() - end <= kMostFiller &&
+      bytes.find_first_not_of('\0', static_cast<std::size_t>(end)) == std::string::npos;
   if (!is_filled) demandLength("Createc", bytes.size(), end);
 }
 
@@ -207,8 +220,9 @@ void checkMatrix(const std::string& bytes) {
     throw FileError("the MATRIX file states " + std::to_string(taken) + " points of 4 bytes, and " +
                     std::to_string(size) + " bytes of data: damaged");
   }
-  const bool is_filled = cursor.size() > size && cursor.size() - size <= 8 &&
-                         bytes.find_first_not_of('\0', data + 8 + static_cast<std::size_t>(size)) == std::string::npos;
+  const bool is_filled =
+      cursor.size() > size && cursor.size() - size <= 8 &&
+      bytes.find_first_not_of('\0', data + 8 + static_cast<std::size_t>(size)) == std::string::npos;
   if (!is_filled) demandLength("MATRIX", bytes.size(), data + 8 + size);
 }
 
@@ -219,9 +233,11 @@ void checkNanosurf(const std::string& bytes) {
   const std::string text = bytes.substr(0, mark + 1);
   std::uint64_t length = mark + 3;
   std::size_t next = 0;
-  for (std::size_t section = text.find("\n[DataSet-"); section != std::string::npos; section = next) {
+  for (std::size_t section = text.find("\n[DataSet-"); section != std::string::npos;
+       section = next) {
     next = text.find("\n[", section + 1);
-    const HeaderLines lines(text.substr(section, next == std::string::npos ? next : next + 1 - section), "=");
+    const HeaderLines lines(
+        text.substr(section, next == std::string::npos ? next : next + 1 - section), "=");
     if (!lines.has("SaveBits")) continue;
     if (lines.has("SaveMode") && lines.value("SaveMode") != "Binary") return;  // text
     length += lines.count("Points") * lines.count("Lines") * (lines.count("SaveBits") / 8);
@@ -248,7 +264,8 @@ void checkWyko(const std::string& bytes) {
 /// Every line feed of the binary part stands behind a carriage return.
 bool hasLineEndsOnly(const std::string& bytes, std::size_t binary) {
   std::size_t count = 0;
-  for (std::size_t at = bytes.find('\n', binary); at != std::string::npos; at = bytes.find('\n', at + 1)) {
+  for (std::size_t at = bytes.find('\n', binary); at != std::string::npos;
+       at = bytes.find('\n', at + 1)) {
     if (at == 0 || bytes[at - 1] != '\r') return false;
     ++count;
   }
@@ -279,7 +296,8 @@ struct Entry {
 void checkEntry(const std::string& bytes, const Entry& entry) {
   const std::string where = "the zip entry '" + shownPiece(entry.name) + "' ";
   ByteCursor local = at(bytes, entry.offset, kZip);
-  if (local.number<std::uint32_t>() != kZipLocal) throw FileError(where + "is not where the archive says: damaged");
+  if (local.number<std::uint32_t>() != kZipLocal)
+    throw FileError(where + "is not where the archive says: damaged");
   local.take(22);
   const auto name_size = local.number<std::uint16_t>();
   const auto extra_size = local.number<std::uint16_t>();
@@ -293,25 +311,28 @@ void checkEntry(const std::string& bytes, const Entry& entry) {
     size = entry.packed;
     checksum = crc32_z(checksum, data, static_cast<z_size_t>(size));
   } else if (entry.method == Z_DEFLATED) {
-    const int state = unpack(data, entry.packed, -MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
-      checksum = crc32_z(checksum, piece, got);
-      size += got;
-      return size <= entry.size;
-    });
+    const int state =
+        unpack(data, entry.packed, -MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
+          checksum = crc32_z(checksum, piece, got);
+          size += got;
+          return size <= entry.size;
+        });
     if (state != Z_STREAM_END) throw FileError(where + "cannot be unpacked: damaged");
   } else {
     return;  // a method that zlib does not know; who reads it must
   }
-  if (size != entry.size || checksum != entry.checksum) throw FileError(where + "does not have its checksum: damaged");
+  if (size != entry.size || checksum != entry.checksum)
+    throw FileError(where + "does not have its checksum: damaged");
 }
 
 }  // namespace
 
 void demandLength(const std::string& maker, std::uint64_t length, std::uint64_t stated) {
   if (length == stated) return;
-  throw FileError("the " + maker + " file has " + std::to_string(length) + " bytes, its header states " +
-                  std::to_string(stated) +
-                  (length < stated ? ": cut off" : ": transferred as text, or its header is damaged"));
+  throw FileError(
+      "the " + maker + " file has " + std::to_string(length) + " bytes, its header states " +
+      std::to_string(stated) +
+      (length < stated ? ": cut off" : ": transferred as text, or its header is damaged"));
 }
 
 void checkStatedLength(const std::string& bytes) {
@@ -320,13 +341,20 @@ void checkStatedLength(const std::string& bytes) {
     void (*check)(const std::string& bytes);
   };
   static const Format kFormats[] = {
-      {"\x88\x1b\x03\x6f", checkMetroPro},   {"\x88\x1b\x03\x70", checkMetroPro},
-      {"\x88\x1b\x03\x71", checkMetroPro},   {std::string("AliconaImaging\0\r\n", 17), checkAlicona},
-      {"fileType      Image", checkAgilent}, {"[Parameter]", checkCreatec},
-      {"[Paramet32]", checkCreatec},         {"[Paramco32]", checkCreatec},
-      {"aBCR-1.", checkSurfstandText},       {"aISO-1.", checkSurfstandText},
-      {"ONTMATRX0101", checkMatrix},         {std::string("\1\0\3\0\0\0", 6), checkAarhus},
-      {"[DataSet]\r\n", checkNanosurf},      {std::string("\1\0Directory\0", 12), checkWyko},
+      {"\x88\x1b\x03\x6f", checkMetroPro},
+      {"\x88\x1b\x03\x70", checkMetroPro},
+      {"\x88\x1b\x03\x71", checkMetroPro},
+      {std::string("AliconaImaging\0\r\n", 17), checkAlicona},
+      {"fileType      Image", checkAgilent},
+      {"[Parameter]", checkCreatec},
+      {"[Paramet32]", checkCreatec},
+      {"[Paramco32]", checkCreatec},
+      {"aBCR-1.", checkSurfstandText},
+      {"aISO-1.", checkSurfstandText},
+      {"ONTMATRX0101", checkMatrix},
+      {std::string("\1\0\3\0\0\0", 6), checkAarhus},
+      {"[DataSet]\r\n", checkNanosurf},
+      {std::string("\1\0Directory\0", 12), checkWyko},
   };
   for (const Format& format : kFormats) {
     if (startsWith(bytes, format.start)) return format.check(bytes);
@@ -336,7 +364,8 @@ void checkStatedLength(const std::string& bytes) {
 std::optional<std::string> withWholeCreatecHeader(const std::string& bytes) {
   const std::string mark = "DATA";
   if (!startsWith(bytes, "[Paramco32]")) return std::nullopt;
-  for (std::size_t at = bytes.find(mark); at < kCreatecHeader - mark.size(); at = bytes.find(mark, at + 1)) {
+  for (std::size_t at = bytes.find(mark); at < kCreatecHeader - mark.size();
+       at = bytes.find(mark, at + 1)) {
     const std::size_t data = at + mark.size();
     if (data + 1 >= bytes.size()) break;
     const auto* head = reinterpret_cast<const unsigned char*>(bytes.data() + data);
@@ -352,17 +381,21 @@ void checkTransfer(const std::string& bytes) {
   }
   const std::string start = lowered(bytes.substr(0, 15));
   if (startsWith(start, "<!doctype html") || startsWith(start, "<html")) {
-    throw FileError("is a web page, not a scan: what it was loaded from did not give the file itself");
+    throw FileError(
+        "is a web page, not a scan: what it was loaded from did not give the file itself");
   }
   const std::size_t binary = bytes.find('\0');
   if (binary == std::string::npos) return;  // text, where line ends may be of any kind
   if (hasLineEndsOnly(bytes, binary)) {
     throw FileError(
-        "was transferred as text: every line feed in its data stands behind a carriage return; copy it anew, as "
+        "was transferred as text: every line feed in its data stands behind a carriage return; "
+        "copy it anew, as "
         "binary");
   }
   if (hasReplacedBytes(bytes)) {
-    throw FileError("was transferred as text: bytes of its data were replaced by U+FFFD; copy it anew, as binary");
+    throw FileError(
+        "was transferred as text: bytes of its data were replaced by U+FFFD; copy it anew, as "
+        "binary");
   }
 }
 
@@ -376,11 +409,12 @@ std::vector<std::string> checkZip(const std::string& bytes) {
   cursor.take(4);
   const auto start = cursor.number<std::uint32_t>();
   cursor.take(cursor.number<std::uint16_t>());  // the archive's comment
-  if (start == kNarrowLimit) return names;      // a directory of the 64-bit kind: no scan is that large
+  if (start == kNarrowLimit) return names;  // a directory of the 64-bit kind: no scan is that large
   ByteCursor directory = at(bytes, start, kZip);
   std::uint64_t total = 0;
   for (int i = 0; i < count; ++i) {
-    if (directory.number<std::uint32_t>() != kZipEntry) throw FileError("the zip archive's directory is damaged");
+    if (directory.number<std::uint32_t>() != kZipEntry)
+      throw FileError("the zip archive's directory is damaged");
     directory.take(6);
     Entry entry;
     entry.method = directory.number<std::uint16_t>();
@@ -398,7 +432,8 @@ std::vector<std::string> checkZip(const std::string& bytes) {
     names.push_back(entry.name);
     if (entry.packed == kNarrowLimit || entry.size == kNarrowLimit) continue;
     total += entry.size;
-    if (total > kMaxFileBytes) throw FileError("the zip archive unpacks to more bytes than a scan has");
+    if (total > kMaxFileBytes)
+      throw FileError("the zip archive unpacks to more bytes than a scan has");
     checkEntry(bytes, entry);
   }
   return names;

@@ -32,10 +32,13 @@ std::string plainName(const std::string& name) {
 std::string statement(const std::string& value) {
   std::string text = oneLine(trimmed(toUtf8(value), " \t\r\n"));
   const std::string word = lowered(text);
-  if (isMissingWord(text) || word == "not available" || word == "unknown" || word == "not specified") return "";
+  if (isMissingWord(text) || word == "not available" || word == "unknown" ||
+      word == "not specified")
+    return "";
   if (text.size() <= kLongestStatement) return text;
   std::size_t end = kLongestStatement - 3;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // inside of a letter
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+    --end;  // inside of a letter
   return text.substr(0, end) + "...";
 }
 
@@ -67,18 +70,22 @@ std::string joined(const std::string& first, const char* between, const std::str
 }
 
 std::string timeOf(const Statements& said) {
-  const std::string day = said.first(
-      {"acquisitiondatetime", "acquisitiontime", "acquisitiondate", "measurementdate", "scandate", "datetime", "date"});
+  const std::string day = said.first({"acquisitiondatetime", "acquisitiontime", "acquisitiondate",
+                                      "measurementdate", "scandate", "datetime", "date"});
   const std::string time = said.first({"scantime", "time"});
-  const bool is_whole = day.empty() || day.find(':') != std::string::npos || time.find(':') == std::string::npos;
-  return acquisitionTime(is_whole ? day : joined(day, " ", time));  // a time without a colon is a duration
+  const bool is_whole =
+      day.empty() || day.find(':') != std::string::npos || time.find(':') == std::string::npos;
+  return acquisitionTime(
+      is_whole ? day : joined(day, " ", time));  // a time without a colon is a duration
 }
 
 std::string instrumentOf(const Statements& said) {
   const std::string maker = said.first({"manufacturer", "instrumentmanufacturer"});
-  const std::string model = said.first({"model", "instrumentmodel", "instrument", "instrumentname", "microscope",
-                                        "microscopename", "scannertype", "headtype", "headname"});
-  const std::string serial = said.first({"instrumentserialnumber", "serialnumber", "serial", "dulcineaserialnumber"});
+  const std::string model =
+      said.first({"model", "instrumentmodel", "instrument", "instrumentname", "microscope",
+                  "microscopename", "scannertype", "headtype", "headname"});
+  const std::string serial =
+      said.first({"instrumentserialnumber", "serialnumber", "serial", "dulcineaserialnumber"});
   return joined(joined(maker, " ", model), ", ", serial.empty() ? "" : "serial number " + serial);
 }
 
@@ -89,7 +96,8 @@ ScanIdentity identityFrom(const FileStatements& statements) {
   ScanIdentity identity;
   identity.acquisition_time = timeOf(said);
   identity.instrument = instrumentOf(said);
-  identity.operator_name = said.first({"operator", "operatorname", "username", "user", "creator", "measuredby"});
+  identity.operator_name =
+      said.first({"operator", "operatorname", "username", "user", "creator", "measuredby"});
   return identity;
 }
 

@@ -17,11 +17,13 @@ constexpr std::size_t kAlignment = 4;         // [bytes]; one to four NUL bytes 
 double gsfSide(const HeaderLines& header, const std::string& key) {
   if (!header.has(key)) return 0.0;
   const double side = plainNumber(header.value(key));
-  if (!(side > 0.0)) throw FileError("the .gsf file states " + key + " as '" + shownPiece(header.value(key)) + "'");
+  if (!(side > 0.0))
+    throw FileError("the .gsf file states " + key + " as '" + shownPiece(header.value(key)) + "'");
   return side;
 }
 
-/// A unit with its prefix: some programs then write the numbers in it, others in metres all the same.
+/// A unit with its prefix: some programs then write the numbers in it, others in metres all the
+/// same.
 std::string gsfUnit(const HeaderLines& header, const std::string& key) {
   const std::string unit = header.value(key);
   if (unit == "m" || !heightUnit(unit)) return unit;
@@ -36,7 +38,8 @@ FileChannel parseGsf(const std::string& bytes) {
   if (end == std::string::npos) throw FileError("the .gsf header has no end: cut off");
   const HeaderLines header(bytes.substr(0, end), "=");
   for (const char* key : {"XRes", "YRes", "XReal", "YReal", "XYUnits", "ZUnits"}) {
-    if (header.times(key) > 1) throw FileError("the .gsf header states " + std::string(key) + " twice: damaged");
+    if (header.times(key) > 1)
+      throw FileError("the .gsf header states " + std::string(key) + " twice: damaged");
   }
   const std::uint64_t cols = header.count("XRes");
   const std::uint64_t rows = header.count("YRes");
@@ -44,8 +47,9 @@ FileChannel parseGsf(const std::string& bytes) {
   const std::size_t begin = (end / kAlignment + 1) * kAlignment;
   const std::uint64_t size = cols * rows * sizeof(float);
   if (bytes.size() < begin || bytes.size() - begin != size) {
-    throw FileError("the .gsf file has " + std::to_string(bytes.size()) + " bytes, its header states " +
-                    std::to_string(begin + size) + ": cut off or damaged");
+    throw FileError("the .gsf file has " + std::to_string(bytes.size()) +
+                    " bytes, its header states " + std::to_string(begin + size) +
+                    ": cut off or damaged");
   }
   FileChannel channel;
   channel.takes_settings = true;
@@ -58,7 +62,8 @@ FileChannel parseGsf(const std::string& bytes) {
   ByteCursor data(bytes.data() + begin, bytes.size() - begin, kGsf);
   for (int row = 0; row < channel.values.rows; ++row) {
     double* line = channel.values.ptr<double>(row);
-    for (int col = 0; col < channel.values.cols; ++col) line[col] = static_cast<double>(data.number<float>());
+    for (int col = 0; col < channel.values.cols; ++col)
+      line[col] = static_cast<double>(data.number<float>());
   }
   if (channel.unit_xy != "m") channel.width = channel.height = 0.0;  // settings state the pitch
   return channel;

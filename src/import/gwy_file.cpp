@@ -86,7 +86,8 @@ std::string readUnit(ByteCursor unit) {
   return "";
 }
 
-/// Gwyddion writes metres; other programs that write .gwy also um and nm. In Gwyddion's units A is the ampere.
+/// Gwyddion writes metres; other programs that write .gwy also um and nm. In Gwyddion's units A is
+/// the ampere.
 void toMetres(FileChannel& channel) {
   const auto unit_xy = heightUnit(channel.unit_xy);
   const auto unit_z = heightUnit(channel.unit_z);
@@ -126,8 +127,8 @@ FileChannel readField(ByteCursor field) {
     }
   }
   constexpr std::int64_t kMaxSide = std::numeric_limits<int>::max();
-  if (cols <= 0 || rows <= 0 || cols > kMaxSide || rows > kMaxSide || data_count < 0 || data_count / cols != rows ||
-      data_count % cols != 0) {
+  if (cols <= 0 || rows <= 0 || cols > kMaxSide || rows > kMaxSide || data_count < 0 ||
+      data_count / cols != rows || data_count % cols != 0) {
     throw FileError("the .gwy container has a channel whose size does not match its data");
   }
   checkPixelCount(static_cast<std::uint64_t>(cols), static_cast<std::uint64_t>(rows));
@@ -176,7 +177,8 @@ int invalidateMasked(FileChannel& channel, const cv::Mat& mask) {
 
 std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
   ByteCursor file(bytes.data(), bytes.size(), kGwyContainer);
-  if (!startsWith(bytes, "GWYP")) throw FileError("not a .gwy container: it does not begin with GWYP");
+  if (!startsWith(bytes, "GWYP"))
+    throw FileError("not a .gwy container: it does not begin with GWYP");
   file.take(4);
   if (file.text() != "GwyContainer") throw FileError("the .gwy file does not hold a GwyContainer");
   const std::uint32_t size = file.number<std::uint32_t>();
@@ -204,10 +206,12 @@ std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
     channel.id = id;
     channel.title = titles[id];
     channel.identity = identities[id];
-    const int masked = masks.count(id) == 0 || ignore_mask ? 0 : invalidateMasked(channel, masks[id]);
+    const int masked =
+        masks.count(id) == 0 || ignore_mask ? 0 : invalidateMasked(channel, masks[id]);
     if (masked > 0) {
-      channel.notes.push_back(std::to_string(masked) +
-                              " pixels under the mask of the channel count as missing (--ignore-mask keeps them)");
+      channel.notes.push_back(
+          std::to_string(masked) +
+          " pixels under the mask of the channel count as missing (--ignore-mask keeps them)");
     }
     result.push_back(std::move(channel));
   }

@@ -6,7 +6,8 @@
 namespace mems_stiction {
 namespace {
 
-/// As channelsByPython() wants it. Where it reads no channel, it says which arrays of two dimensions there are, a line for each.
+/// As channelsByPython() wants it. Where it reads no channel, it says which arrays of two
+/// dimensions there are, a line for each.
 constexpr const char* kHdf5Script = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]

@@ -29,7 +29,8 @@ HeaderLines::HeaderLines(const std::string& text, const std::string& separator) 
     at = stop + 1;
     const std::size_t sign = line.find(separator);
     if (sign == std::string::npos) continue;
-    values_[lowered(withoutNul(line.substr(0, sign)))].push_back(withoutNul(line.substr(sign + separator.size())));
+    values_[lowered(withoutNul(line.substr(0, sign)))].push_back(
+        withoutNul(line.substr(sign + separator.size())));
   }
 }
 
@@ -46,7 +47,8 @@ std::string HeaderLines::value(const std::string& key) const {
 std::uint64_t HeaderLines::count(const std::string& key) const {
   const auto found = countIn(value(key));
   if (!found)
-    throw FileError("the header states '" + key + "' as '" + shownPiece(value(key)) + "', which is no count: damaged");
+    throw FileError("the header states '" + key + "' as '" + shownPiece(value(key)) +
+                    "', which is no count: damaged");
   return *found;
 }
 

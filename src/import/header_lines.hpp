@@ -11,7 +11,8 @@
 
 namespace mems_stiction {
 
-/// The integer that a text begins with, blanks aside; none if it does not begin with digits or has too many.
+/// The integer that a text begins with, blanks aside; none if it does not begin with digits or has
+/// too many.
 std::optional<std::uint64_t> countIn(const std::string& text);
 
 /// Keys with their values, blanks around both cut off. Keys are compared without regard to case.

@@ -11,7 +11,8 @@ std::string bareText(const std::string& text) { return trimmed(text, " \t\r\"'")
 
 std::string headingContent(const std::string& line) {
   std::string text = line.substr(std::min(line.find_first_not_of("#% \t"), line.size()));
-  for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"}) text = replaced(text, blank, " ");
+  for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"})
+    text = replaced(text, blank, " ");
   return bareText(replaced(text, "\xEF\xBC\x9A", ":"));
 }
 
@@ -25,7 +26,8 @@ bool splitEntry(const std::string& text, std::string& key, std::string& value) {
 
 std::vector<std::string> cellsOf(const std::string& line, char separator) {
   std::vector<std::string> cells;
-  for (const TextPiece& piece : piecesOf(line, separator)) cells.push_back(bareText(unquoted(line, piece)));
+  for (const TextPiece& piece : piecesOf(line, separator))
+    cells.push_back(bareText(unquoted(line, piece)));
   return cells;
 }
 
@@ -37,7 +39,8 @@ std::size_t headingCount(const std::string& value) {
 double headingNumber(const std::string& value) {
   if (value.find(',') == std::string::npos) return plainNumber(value);
   if (markUse(value, ',') != MarkUse::kDecimal) {
-    throw FileError("'" + shownPiece(value) + "' has a mark that may be decimal or group thousands: write a point");
+    throw FileError("'" + shownPiece(value) +
+                    "' has a mark that may be decimal or group thousands: write a point");
   }
   return plainNumber(withPlainMarks(value, ','));
 }
@@ -45,8 +48,8 @@ double headingNumber(const std::string& value) {
 void stateText(std::string& field, const std::string& value, const std::string& what) {
   const auto unit = heightUnit(value);
   if (!field.empty() && field != value && !(unit && heightUnit(field) == unit)) {
-    throw FileError("the heading states the " + what + " twice, as '" + shownPiece(field) + "' and '" +
-                    shownPiece(value) + "': remove one");
+    throw FileError("the heading states the " + what + " twice, as '" + shownPiece(field) +
+                    "' and '" + shownPiece(value) + "': remove one");
   }
   field = value;
 }

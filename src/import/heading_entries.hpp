@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The entries of a text's heading: "key: value" and "key = value", and what states a quantity a second time.
+/// The entries of a text's heading: "key: value" and "key = value", and what states a quantity a
+/// second time.
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,12 @@ namespace mems_stiction {
 /// Without blanks and quotes around it.
 std::string bareText(const std::string& text);
 
-/// A line of a heading without the signs of a comment. Blanks that do not break lines become plain ones, and wide colons.
+/// A line of a heading without the signs of a comment. Blanks that do not break lines become plain
+/// ones, and wide colons.
 std::string headingContent(const std::string& line);
 
-/// Parts the text at its first colon or equals sign, key in small letters. @return false if there is none
+/// Parts the text at its first colon or equals sign, key in small letters. @return false if there
+/// is none
 bool splitEntry(const std::string& text, std::string& key, std::string& value);
 
 /// The pieces of a line without quotes and the blanks around them.
@@ -38,8 +41,8 @@ void state(Number& field, Number value, const std::string& what) {
   const auto before = static_cast<double>(field);
   const auto now = static_cast<double>(value);
   if (field != Number() && std::abs(before - now) > kSame * std::abs(now)) {
-    throw FileError("the heading states the " + what + " twice, as " + numberText(before) + " and " + numberText(now) +
-                    ": remove one");
+    throw FileError("the heading states the " + what + " twice, as " + numberText(before) +
+                    " and " + numberText(now) + ": remove one");
   }
   field = value;
 }

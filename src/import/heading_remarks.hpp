@@ -12,8 +12,9 @@ bool isOtherUnit(const std::string& text);
 
 /// The first remarks of a heading.
 struct HeadingRemarks {
-  std::string side;   ///< a length, which was meant to be read: a warning
-  std::string doubt;  ///< a unit without a number, perhaps that of the heights, which then cannot be told
+  std::string side;  ///< a length, which was meant to be read: a warning
+  std::string
+      doubt;  ///< a unit without a number, perhaps that of the heights, which then cannot be told
 
   /// - @p where the line, in words
   /// - @p value what stands behind the key of the line, if there is one

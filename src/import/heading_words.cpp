@@ -7,9 +7,10 @@
 namespace mems_stiction {
 namespace {
 
-/// Gwyddion writes its headings by its translation: these are its words "Channel:", "Width:", "Height:", "Value units:" and
-/// "Lateral units:" in each of its languages (its translations of 2016 and 2.62), and "XYZ data:" over lists of points.
-/// What it has not translated it writes in English.
+/// Gwyddion writes its headings by its translation: these are its words "Channel:", "Width:",
+/// "Height:", "Value units:" and "Lateral units:" in each of its languages (its translations of
+/// 2016 and 2.62), and "XYZ data:" over lists of points. What it has not translated it writes in
+/// English.
 struct Language {
   const char* title;
   const char* width;
@@ -29,7 +30,8 @@ constexpr Language kLanguages[] = {
     {"チャネル", "幅", "高さ", "値の単位", "水平単位", "XYZ データ"},
     {"채널", "폭", "높이", "값 단위", nullptr, nullptr},
     {"Canal", "Largura", "Altura", "Unidades de valor", "Unidades de laterais", "Dados XYZ"},
-    {"Канал", "Ширина", "Высота", "Единицы измерения", "Единицы горизонтальных размеров", "Данные XYZ"},
+    {"Канал", "Ширина", "Высота", "Единицы измерения", "Единицы горизонтальных размеров",
+     "Данные XYZ"},
 };
 
 /// What other programs write.

@@ -39,7 +39,8 @@ void ignorePngWarning(png_structp, png_const_charp) {}
 
 /// libpng's two structures, freed with the object.
 struct PngReader {
-  PngReader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leavePng, ignorePngWarning)) {
+  PngReader()
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leavePng, ignorePngWarning)) {
     if (png != nullptr) info = png_create_info_struct(png);
   }
   ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
@@ -50,7 +51,8 @@ struct PngReader {
   png_infop info = nullptr;
 };
 
-/// Everything up to the pixels. No object with a destructor lives in the functions that libpng jumps out of.
+/// Everything up to the pixels. No object with a destructor lives in the functions that libpng
+/// jumps out of.
 bool readPngHeader(PngReader& reader, PngSource& source) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_set_read_fn(reader.png, &source, readPngSource);
@@ -76,7 +78,8 @@ class ExrSource : public Imf::IStream {
   explicit ExrSource(const std::string& bytes) : Imf::IStream("scan"), bytes_(bytes) {}
 
   bool read(char target[], int count) override {
-    if (count < 0 || static_cast<std::uint64_t>(count) > bytes_.size() - std::min<std::uint64_t>(at_, bytes_.size())) {
+    if (count < 0 || static_cast<std::uint64_t>(count) >
+                         bytes_.size() - std::min<std::uint64_t>(at_, bytes_.size())) {
       throw FileError("the EXR file is cut off");
     }
     std::memcpy(target, bytes_.data() + at_, static_cast<std::size_t>(count));
@@ -92,19 +95,22 @@ class ExrSource : public Imf::IStream {
 };
 
 /// The channel as float32, or double where it has integers of 32 bits.
-cv::Mat exrPixels(Imf::InputFile& file, const std::string& name, Imf::PixelType type, int cols, int rows) {
+cv::Mat exrPixels(Imf::InputFile& file, const std::string& name, Imf::PixelType type, int cols,
+                  int rows) {
   const bool is_integer = type == Imf::UINT;
   cv::Mat raw(rows, cols, is_integer ? CV_32SC1 : CV_32FC1);
   Imf::FrameBuffer frame;
-  frame.insert(name, Imf::Slice::Make(is_integer ? Imf::UINT : Imf::FLOAT, raw.data, file.header().dataWindow(),
-                                      sizeof(float), sizeof(float) * static_cast<std::size_t>(cols)));
+  frame.insert(name, Imf::Slice::Make(is_integer ? Imf::UINT : Imf::FLOAT, raw.data,
+                                      file.header().dataWindow(), sizeof(float),
+                                      sizeof(float) * static_cast<std::size_t>(cols)));
   file.setFrameBuffer(frame);
   file.readPixels(file.header().dataWindow().min.y, file.header().dataWindow().max.y);
   if (!is_integer) return raw;
   cv::Mat wide(rows, cols, CV_64FC1);
   for (int row = 0; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
-      wide.at<double>(row, col) = static_cast<double>(static_cast<std::uint32_t>(raw.at<std::int32_t>(row, col)));
+      wide.at<double>(row, col) =
+          static_cast<double>(static_cast<std::uint32_t>(raw.at<std::int32_t>(row, col)));
     }
   }
   return wide;
@@ -141,10 +147,12 @@ FileChannel readExr(const std::string& bytes) {
     names += (names.empty() ? "" : ", ") + std::string(entry.name());
   }
   if (count != 1) {
-    throw FileError(std::to_string(count) + " channels per pixel (" + names + ") are a picture, a height map has 1");
+    throw FileError(std::to_string(count) + " channels per pixel (" + names +
+                    ") are a picture, a height map has 1");
   }
   const Imf::Channel& only = channels.begin().channel();
-  if (only.xSampling != 1 || only.ySampling != 1) throw FileError("its channel does not have a value for each pixel");
+  if (only.xSampling != 1 || only.ySampling != 1)
+    throw FileError("its channel does not have a value for each pixel");
   FileChannel channel;
   channel.takes_settings = true;
   channel.title = names;
@@ -165,12 +173,14 @@ FileChannel parsePng(const std::string& bytes) {
   PngReader reader;
   PngSource source{bytes.data(), bytes.size()};
   if (reader.info == nullptr || !readPngHeader(reader, source)) throw FileError(damaged);
-  const bool has_table = (png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_PALETTE) != 0;
+  const bool has_table =
+      (png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_PALETTE) != 0;
   const int samples = has_table ? 3 : png_get_channels(reader.png, reader.info);
   const int depth = png_get_bit_depth(reader.png, reader.info) == 16 ? CV_16U : CV_8U;
   FileChannel channel;
   channel.takes_settings = true;
-  channel.values = cv::Mat::zeros(static_cast<int>(rows), static_cast<int>(cols), CV_MAKETYPE(depth, samples));
+  channel.values =
+      cv::Mat::zeros(static_cast<int>(rows), static_cast<int>(cols), CV_MAKETYPE(depth, samples));
   if (samples > 1) return channel;  // a picture: listed, not read
   std::vector<png_bytep> lines;
   lines.reserve(rows);

@@ -33,13 +33,15 @@ constexpr struct {
   const char* stem;
   double unit;
 } kSpelled[] = {
-    {"nanomet", 1e-9},      {"nanomèt", 1e-9},   {"nanómet", 1e-9},      {"nanômet", 1e-9},  {"нанометр", 1e-9},
-    {"纳米", 1e-9},         {"奈米", 1e-9},      {"ナノメートル", 1e-9}, {"나노미터", 1e-9}, {"micromet", 1e-6},
-    {"micromèt", 1e-6},     {"micrómet", 1e-6},  {"micrômet", 1e-6},     {"mikromet", 1e-6}, {"micron", 1e-6},
-    {"mikron", 1e-6},       {"микрометр", 1e-6}, {"микрон", 1e-6},       {"微米", 1e-6},     {"マイクロメートル", 1e-6},
-    {"마이크로미터", 1e-6}, {"millimet", 1e-3},  {"millimèt", 1e-3},     {"milimet", 1e-3},  {"milímet", 1e-3},
-    {"миллиметр", 1e-3},    {"毫米", 1e-3},      {"ミリメートル", 1e-3}, {"밀리미터", 1e-3}, {"angstr", 1e-10},
-    {"ångstr", 1e-10},      {"Ångstr", 1e-10},   {"ангстрем", 1e-10}};
+    {"nanomet", 1e-9},      {"nanomèt", 1e-9},   {"nanómet", 1e-9},  {"nanômet", 1e-9},
+    {"нанометр", 1e-9},     {"纳米", 1e-9},      {"奈米", 1e-9},     {"ナノメートル", 1e-9},
+    {"나노미터", 1e-9},     {"micromet", 1e-6},  {"micromèt", 1e-6}, {"micrómet", 1e-6},
+    {"micrômet", 1e-6},     {"mikromet", 1e-6},  {"micron", 1e-6},   {"mikron", 1e-6},
+    {"микрометр", 1e-6},    {"микрон", 1e-6},    {"微米", 1e-6},     {"マイクロメートル", 1e-6},
+    {"마이크로미터", 1e-6}, {"millimet", 1e-3},  {"millimèt", 1e-3}, {"milimet", 1e-3},
+    {"milímet", 1e-3},      {"миллиметр", 1e-3}, {"毫米", 1e-3},     {"ミリメートル", 1e-3},
+    {"밀리미터", 1e-3},     {"angstr", 1e-10},   {"ångstr", 1e-10},  {"Ångstr", 1e-10},
+    {"ангстрем", 1e-10}};
 
 std::optional<double> spelledUnit(const std::string& text) {
   constexpr std::size_t kLongestEnding = 6;  // [bytes]
@@ -63,9 +65,10 @@ std::optional<double> lengthUnit(const std::string& text) {
   unit = replaced(replaced(unit, "мк", "u"), "м", "m");  // as programs in Russian write them
   unit = replaced(unit, "н", "n");
   static const std::map<std::string, double> kUnits = {
-      {"m", 1.0},    {"meter", 1.0}, {"meters", 1.0}, {"metre", 1.0},  {"metres", 1.0}, {"cm", 1e-2},
-      {"mm", 1e-3},  {"um", 1e-6},   {"nm", 1e-9},    {"pm", 1e-12},   {"fm", 1e-15},   {"A", 1e-10},
-      {"AA", 1e-10}, {"Ang", 1e-10}, {"ang", 1e-10},  {"inch", 0.0254}};
+      {"m", 1.0},      {"meter", 1.0}, {"meters", 1.0}, {"metre", 1.0},
+      {"metres", 1.0}, {"cm", 1e-2},   {"mm", 1e-3},    {"um", 1e-6},
+      {"nm", 1e-9},    {"pm", 1e-12},  {"fm", 1e-15},   {"A", 1e-10},
+      {"AA", 1e-10},   {"Ang", 1e-10}, {"ang", 1e-10},  {"inch", 0.0254}};
   const auto found = kUnits.find(unit);
   if (found == kUnits.end()) return spelledUnit(withoutBrackets(text));
   return found->second;

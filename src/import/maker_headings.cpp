@@ -23,8 +23,8 @@ double lengthUnitOf(const std::string& text) {
   return *unit;
 }
 
-/// Wyko's text: blocks "name, type, length, value" between tabs, pitch in mm, heights in nm or in waves over `Mult`. Its
-/// "X Size" is the number of lines.
+/// Wyko's text: blocks "name, type, length, value" between tabs, pitch in mm, heights in nm or in
+/// waves over `Mult`. Its "X Size" is the number of lines.
 TextHeader wykoHeading(const std::vector<TextLine>& heading) {
   TextHeader header;
   header.unit_z = "nm";
@@ -33,14 +33,17 @@ TextHeader wykoHeading(const std::vector<TextLine>& heading) {
   for (const TextLine& line : heading) {
     const std::vector<std::string> cells = cellsOf(line.text, '\t');
     const std::string key = lowered(cells[0]);
-    if (cells.size() == 2 && key == "x size") state(header.rows, headingCount(cells[1]), "number of rows");
-    if (cells.size() == 2 && key == "y size") state(header.cols, headingCount(cells[1]), "number of columns");
+    if (cells.size() == 2 && key == "x size")
+      state(header.rows, headingCount(cells[1]), "number of rows");
+    if (cells.size() == 2 && key == "y size")
+      state(header.cols, headingCount(cells[1]), "number of columns");
     if (cells.size() < 4 || cells[3].empty()) continue;
     if (key == "pixel_size") header.pitch_x = header.pitch_y = 1e-3 * plainNumber(cells[3]);
     if (key == "wavelength") wavelength = plainNumber(cells[3]);
     if (key == "mult") divisor = plainNumber(cells[3]);
   }
-  const std::vector<std::string> flags = cellsOf(heading.front().text.substr(sizeof kWyko - 1), '\t');
+  const std::vector<std::string> flags =
+      cellsOf(heading.front().text.substr(sizeof kWyko - 1), '\t');
   if (flags.size() > 1 && flags[1] == "1") return header;
   if (!(wavelength > 0.0) || !(divisor > 0.0)) {
     throw FileError("Wyko's heights are in waves and the heading states no wavelength");
@@ -50,7 +53,9 @@ TextHeader wykoHeading(const std::vector<TextLine>& heading) {
 }
 
 /// Spreadsheets write semicolons where a comma is decimal, and leave quotes out.
-char keyenceSeparator(const std::string& line) { return line.find(';') != std::string::npos ? ';' : ','; }
+char keyenceSeparator(const std::string& line) {
+  return line.find(';') != std::string::npos ? ';' : ',';
+}
 
 bool isKeyence(const std::vector<TextLine>& heading) {
   return std::any_of(heading.begin(), heading.end(), [](const TextLine& line) {
@@ -58,7 +63,8 @@ bool isKeyence(const std::vector<TextLine>& heading) {
   });
 }
 
-/// Keyence's tables: "key","value","unit", of which pitch, numbers of pixels and unit of the heights count.
+/// Keyence's tables: "key","value","unit", of which pitch, numbers of pixels and unit of the
+/// heights count.
 TextHeader keyenceHeading(const std::vector<TextLine>& heading) {
   TextHeader header;
   for (const TextLine& line : heading) {
@@ -73,7 +79,8 @@ TextHeader keyenceHeading(const std::vector<TextLine>& heading) {
     if (key == "unit") stateText(header.unit_z, cells[1], "unit of the heights");
     if (key == "output image data") header.title = cells[1];
   }
-  if (header.unit_z.empty()) header.unit_doubt = "Keyence's heading states no unit of the heights (\"Unit\",\"mm\")";
+  if (header.unit_z.empty())
+    header.unit_doubt = "Keyence's heading states no unit of the heights (\"Unit\",\"mm\")";
   return header;
 }
 
@@ -108,13 +115,14 @@ double lengthEntry(const Entries& entries, const std::string& key, double unit) 
   if (value.empty()) return 0.0;
   const double length = std::abs(headingNumber(value)) * unit;
   if (!(length > 0.0) || !std::isfinite(length)) {
-    throw FileError("the heading states '" + key + "' as '" + shownPiece(value) + "', which is no length > 0");
+    throw FileError("the heading states '" + key + "' as '" + shownPiece(value) +
+                    "', which is no length > 0");
   }
   return length;
 }
 
-/// SPIP: sides in nm whatever the unit of the heights; these in "z-unit", else "Bit2nm" nm for each count. Where
-/// "voidpixels" counts some, a second matrix behind the heights is 0 at each.
+/// SPIP: sides in nm whatever the unit of the heights; these in "z-unit", else "Bit2nm" nm for each
+/// count. Where "voidpixels" counts some, a second matrix behind the heights is 0 at each.
 TextHeader spipHeading(const Entries& entries) {
   TextHeader header;
   header.cols = countEntry(entries, "x-pixels");
@@ -142,15 +150,18 @@ TextHeader attocubeHeading(const Entries& entries) {
   const std::string unit_y = entryText(entries, "y-unit");
   if (!unit_x.empty()) {
     header.width = lengthEntry(entries, "x-length", lengthUnitOf(unit_x));
-    header.height = lengthEntry(entries, "y-length", lengthUnitOf(unit_y.empty() ? unit_x : unit_y));
+    header.height =
+        lengthEntry(entries, "y-length", lengthUnitOf(unit_y.empty() ? unit_x : unit_y));
   }
   header.unit_z = entryText(entries, "z-unit");
-  if (header.unit_z.empty()) header.unit_doubt = "Daisy's heading states no unit of the heights (\"# z-unit: nm\")";
+  if (header.unit_z.empty())
+    header.unit_doubt = "Daisy's heading states no unit of the heights (\"# z-unit: nm\")";
   header.title = entryText(entries, "display");
   return header;
 }
 
-/// NT-MDT's Nova: the sides of a pixel in a unit of their own; heights in theirs, over a scale where it is needed.
+/// NT-MDT's Nova: the sides of a pixel in a unit of their own; heights in theirs, over a scale
+/// where it is needed.
 TextHeader novaHeading(const Entries& entries) {
   TextHeader header;
   header.cols = countEntry(entries, "nx");
@@ -159,17 +170,22 @@ TextHeader novaHeading(const Entries& entries) {
   const std::string unit_y = entryText(entries, "unit y");
   if (!unit_x.empty()) {
     header.pitch_x = lengthEntry(entries, "scale x", lengthUnitOf(unit_x));
-    header.pitch_y = lengthEntry(entries, "scale y", lengthUnitOf(unit_y.empty() ? unit_x : unit_y));
+    header.pitch_y =
+        lengthEntry(entries, "scale y", lengthUnitOf(unit_y.empty() ? unit_x : unit_y));
   }
   header.unit_z = entryText(entries, "unit data");
-  if (header.unit_z.empty()) header.unit_doubt = "Nova's heading states no unit of the heights (\"Unit Data = nm\")";
+  if (header.unit_z.empty())
+    header.unit_doubt = "Nova's heading states no unit of the heights (\"Unit Data = nm\")";
   const std::string is_needed = lowered(entryText(entries, "datascaleneeded"));
-  const double scale = entryText(entries, "scale data").empty() ? 1.0 : headingNumber(entryText(entries, "scale data"));
+  const double scale = entryText(entries, "scale data").empty()
+                           ? 1.0
+                           : headingNumber(entryText(entries, "scale data"));
   if (is_needed == "yes") {
     header.scale = scale;
   } else if (is_needed != "no" && scale != 1.0) {
     throw FileError(
-        "Nova's heading states 'Scale Data' and does not say by 'DataScaleNeeded = Yes' or 'No' whether the "
+        "Nova's heading states 'Scale Data' and does not say by 'DataScaleNeeded = Yes' or 'No' "
+        "whether the "
         "numbers are to be multiplied by it");
   }
   return header;
@@ -182,8 +198,9 @@ std::optional<TextHeader> makerHeading(const std::vector<TextLine>& heading) {
   if (startsWith(heading.front().text, kWyko)) return wykoHeading(heading);
   if (isKeyence(heading)) return keyenceHeading(heading);
   const auto begins = [&heading](const char* start) {
-    return std::any_of(heading.begin(), heading.end(),
-                       [start](const TextLine& line) { return startsWith(lowered(headingContent(line.text)), start); });
+    return std::any_of(heading.begin(), heading.end(), [start](const TextLine& line) {
+      return startsWith(lowered(headingContent(line.text)), start);
+    });
   };
   if (begins("created by nova")) return novaHeading(entriesOf(heading));
   if (begins("daisy ")) return attocubeHeading(entriesOf(heading));

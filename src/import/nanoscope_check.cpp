@@ -18,7 +18,9 @@ using namespace nanoscope;
 
 constexpr double kAgreement = 0.01;
 
-bool differ(double a, double b) { return !(std::abs(a - b) <= kAgreement * std::max(std::abs(a), std::abs(b))); }
+bool differ(double a, double b) {
+  return !(std::abs(a - b) <= kAgreement * std::max(std::abs(a), std::abs(b)));
+}
 
 void checkImage(const List& list, std::uint64_t length, std::uint64_t bytes_each) {
   const HeaderLines& lines = list.lines;
@@ -26,16 +28,18 @@ void checkImage(const List& list, std::uint64_t length, std::uint64_t bytes_each
   const std::uint64_t cols = lines.count("Samps/line");
   const std::uint64_t rows = lines.count("Number of lines");
   if (cols > kMostHeader || rows > kMostHeader || cols * rows * bytes_each != length) {
-    throw FileError("the NanoScope header contradicts itself: " + std::to_string(cols) + " samples a line, " +
-                    std::to_string(rows) + " lines and " + std::to_string(bytes_each) + " bytes each are not the " +
+    throw FileError("the NanoScope header contradicts itself: " + std::to_string(cols) +
+                    " samples a line, " + std::to_string(rows) + " lines and " +
+                    std::to_string(bytes_each) + " bytes each are not the " +
                     std::to_string(length) + " bytes that it states for the image");
   }
   const Size size = scanSize(lines);
   const bool is_square = lines.value("Aspect Ratio") == "1:1";
-  if (is_square && size.x > 0.0 && differ(size.x / static_cast<double>(cols), size.y / static_cast<double>(rows))) {
-    throw FileError("the NanoScope header contradicts itself: aspect ratio 1:1, but " + std::to_string(cols) +
-                    " samples a line and " + std::to_string(rows) + " lines over a scan size of " +
-                    shownPiece(lines.value("Scan Size")));
+  if (is_square && size.x > 0.0 &&
+      differ(size.x / static_cast<double>(cols), size.y / static_cast<double>(rows))) {
+    throw FileError("the NanoScope header contradicts itself: aspect ratio 1:1, but " +
+                    std::to_string(cols) + " samples a line and " + std::to_string(rows) +
+                    " lines over a scan size of " + shownPiece(lines.value("Scan Size")));
   }
 }
 
@@ -53,8 +57,9 @@ void checkParts(const std::vector<List>& lists, std::size_t size) {
   std::sort(parts.begin(), parts.end());
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (parts[i].first < parts[i - 1].second) {
-      throw FileError("the NanoScope header contradicts itself: the data at " + std::to_string(parts[i].first) +
-                      " begin inside of those before, which end at " + std::to_string(parts[i - 1].second));
+      throw FileError(
+          "the NanoScope header contradicts itself: the data at " + std::to_string(parts[i].first) +
+          " begin inside of those before, which end at " + std::to_string(parts[i - 1].second));
     }
   }
   demandLength("NanoScope", size, parts.back().second);
@@ -63,7 +68,8 @@ void checkParts(const std::vector<List>& lists, std::size_t size) {
 ScanIdentity identityOf(const std::vector<List>& lists) {
   FileStatements statements;
   for (const List& list : lists) {
-    for (const char* key : {"Date", "Microscope", "Scanner type", "Head Type", "Serial Number", "Operator"}) {
+    for (const char* key :
+         {"Date", "Microscope", "Scanner type", "Head Type", "Serial Number", "Operator"}) {
       if (list.lines.has(key)) statements.emplace(key, list.lines.value(key));
     }
   }
@@ -94,8 +100,8 @@ std::vector<std::string> notesOf(const std::vector<List>& lists) {
     const Size size = scanSize(list.lines);
     if (!isImage(list) && endsWith(list.name, "scan list") && size.x > 0.0) whole = size;
     if (!isImage(list) || !(whole.x > 0.0) || !(size.x > 0.0) || !differ(size.x, whole.x)) continue;
-    return {"the header states a scan size of " + numberText(whole.x) + " m for the scan and " + numberText(size.x) +
-            " m for its image, which is taken"};
+    return {"the header states a scan size of " + numberText(whole.x) + " m for the scan and " +
+            numberText(size.x) + " m for its image, which is taken"};
   }
   return {};
 }

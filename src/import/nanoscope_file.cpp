@@ -49,7 +49,8 @@ struct Scale {
   std::string unit;
 };
 
-/// "V [Sens. Zsens] (0.0067 V/LSB) 330.0000 V" with "@Sens. Zsens: V 34.55678 nm/V", or without a length: in the hard unit.
+/// "V [Sens. Zsens] (0.0067 V/LSB) 330.0000 V" with "@Sens. Zsens: V 34.55678 nm/V", or without a
+/// length: in the hard unit.
 /// @return none where that is said in another way
 std::optional<Scale> scaleOf(const List& image, const std::vector<List>& lists) {
   const std::string text = image.lines.value(kScale);
@@ -57,7 +58,8 @@ std::optional<Scale> scaleOf(const List& image, const std::vector<List>& lists) 
   const std::string hard = between(text, '(', ')');
   const double range = hardValue(text);
   const std::string unit = hardUnit(text);
-  if (!startsWith(text, "V [") || soft.empty() || !endsWith(hard, "/LSB") || !(range > 0.0) || unit.empty()) {
+  if (!startsWith(text, "V [") || soft.empty() || !endsWith(hard, "/LSB") || !(range > 0.0) ||
+      unit.empty()) {
     return std::nullopt;
   }
   const std::string sensitivity = onlyValue(lists, "@" + soft);
@@ -83,13 +85,16 @@ cv::Mat valuesOf(const char* data, int rows, int cols, double scale) {
   return values;
 }
 
-std::optional<FileChannel> channelOf(const List& image, const std::vector<List>& lists, const std::string& bytes) {
+std::optional<FileChannel> channelOf(const List& image, const std::vector<List>& lists,
+                                     const std::string& bytes) {
   const HeaderLines& lines = image.lines;
-  for (const char* key : {"Data offset", "Data length", "Samps/line", "Number of lines", "@2:Image Data", kScale}) {
+  for (const char* key :
+       {"Data offset", "Data length", "Samps/line", "Number of lines", "@2:Image Data", kScale}) {
     if (lines.times(key) != 1) return std::nullopt;
   }
   const std::uint64_t bytes_each = bytesOfNumber(lists);
-  if (lines.has("@4:Z scale") || (lines.has("Bytes/pixel") && lines.count("Bytes/pixel") != bytes_each)) {
+  if (lines.has("@4:Z scale") ||
+      (lines.has("Bytes/pixel") && lines.count("Bytes/pixel") != bytes_each)) {
     return std::nullopt;
   }
   const std::uint64_t cols = lines.count("Samps/line");
@@ -101,12 +106,14 @@ std::optional<FileChannel> channelOf(const List& image, const std::vector<List>&
   channel.title = between(lines.value("@2:Image Data"), '[', ']');
   if (!scale || channel.title.empty() || !(size.x > 0.0) || !(size.y > 0.0)) return std::nullopt;
   checkPixelCount(cols, rows);
-  if (offset > bytes.size() || cols * rows * bytes_each > bytes.size() - offset) return std::nullopt;
+  if (offset > bytes.size() || cols * rows * bytes_each > bytes.size() - offset)
+    return std::nullopt;
   const char* data = bytes.data() + offset;
   const int height = static_cast<int>(rows);
   const int width = static_cast<int>(cols);
-  channel.values = bytes_each == 4 ? valuesOf<std::int32_t>(data, height, width, scale->range / 4294967296.0)
-                                   : valuesOf<std::int16_t>(data, height, width, scale->range / 65536.0);
+  channel.values = bytes_each == 4
+                       ? valuesOf<std::int32_t>(data, height, width, scale->range / 4294967296.0)
+                       : valuesOf<std::int16_t>(data, height, width, scale->range / 65536.0);
   channel.width = size.x;
   channel.height = size.y;
   channel.unit_xy = "m";

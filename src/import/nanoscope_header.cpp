@@ -20,11 +20,13 @@ bool isNanoscope(const std::string& bytes) {
 }
 
 std::vector<List> listsOf(const std::string& bytes) {
-  const std::string header = bytes.substr(0, std::min({bytes.find('\x1a'), bytes.find('\0'), kMostHeader}));
+  const std::string header =
+      bytes.substr(0, std::min({bytes.find('\x1a'), bytes.find('\0'), kMostHeader}));
   std::vector<List> lists;
   for (std::size_t at = header.find("\\*"); at != std::string::npos;) {
     const std::size_t next = header.find("\n\\*", at);
-    const std::string part = header.substr(at + 2, next == std::string::npos ? next : next - at - 1);
+    const std::string part =
+        header.substr(at + 2, next == std::string::npos ? next : next - at - 1);
     std::string name = part.substr(0, std::min(part.find_first_of("\r\n"), part.size()));
     std::string rest = part.substr(name.size());
     rest.erase(std::remove(rest.begin(), rest.end(), '\\'), rest.end());

@@ -37,7 +37,8 @@ struct Size {
 /// "10 10 ~m", or "10000 nm" for both
 Size scanSize(const HeaderLines& lines);
 
-/// "V [Sens. Zsens] (0.0067 V/LSB) 330.0000 V": the number behind the bracket, in its unit; 0 = not stated
+/// "V [Sens. Zsens] (0.0067 V/LSB) 330.0000 V": the number behind the bracket, in its unit; 0 = not
+/// stated
 double hardValue(const std::string& text);
 
 /// "V 34.55678 nm/V" [m/V]; 0 = not stated

@@ -22,7 +22,8 @@ namespace {
 
 constexpr std::size_t kMostColumns = 64;
 
-/// What the heading states of the scan; the first entry of a key counts, as the file lists the scan before its images.
+/// What the heading states of the scan; the first entry of a key counts, as the file lists the scan
+/// before its images.
 struct Heading {
   std::size_t cols = 0, rows = 0;
   double width = 0.0, height = 0.0;  ///< [m]
@@ -76,16 +77,17 @@ FileChannel channelOf(const std::string& name, const Heading& heading, int id) {
   channel.unit_z = name.substr(open + 1, name.size() - open - 2);
   channel.values.create(static_cast<int>(heading.rows), static_cast<int>(heading.cols), CV_64FC1);
   channel.width = heading.width;
-  channel.height = heading.height > 0.0
-                       ? heading.height
-                       : heading.width * static_cast<double>(heading.rows) / static_cast<double>(heading.cols);
+  channel.height = heading.height > 0.0 ? heading.height
+                                        : heading.width * static_cast<double>(heading.rows) /
+                                              static_cast<double>(heading.cols);
   if (channel.width > 0.0) channel.unit_xy = "m";
   return channel;
 }
 
 double numberOf(std::string word) {
   plainNans(word);
-  const double number = isMissingWord(word) ? std::numeric_limits<double>::quiet_NaN() : plainNumber(word);
+  const double number =
+      isMissingWord(word) ? std::numeric_limits<double>::quiet_NaN() : plainNumber(word);
   return std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -112,7 +114,8 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
     heading.names = words;
   }
   if (heading.names.empty()) throw FileError("the file ends before its numbers");
-  if (heading.cols < 2 || heading.rows < 2) throw FileError("the heading states no Samps/line and Lines");
+  if (heading.cols < 2 || heading.rows < 2)
+    throw FileError("the heading states no Samps/line and Lines");
   checkPixelCount(heading.cols, heading.rows);
   const ScanIdentity identity = identityFrom(heading.statements);
   std::vector<FileChannel> channels;
@@ -122,8 +125,8 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
   }
   std::size_t pixel = 0;
   const auto setNext = [&](FileChannel& channel, const std::string& word) {
-    channel.values.at<double>(static_cast<int>(pixel / heading.cols), static_cast<int>(pixel % heading.cols)) =
-        numberOf(word);
+    channel.values.at<double>(static_cast<int>(pixel / heading.cols),
+                              static_cast<int>(pixel % heading.cols)) = numberOf(word);
   };
   while (std::getline(stream, line)) {
     ++number;
@@ -132,10 +135,13 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
     const std::string where = "line " + std::to_string(number) + ": ";
     const bool is_line = channels.size() == 1 && words.size() == heading.cols;  // of a matrix
     if (!is_line && words.size() != channels.size()) {
-      throw FileError(where + std::to_string(words.size()) + " numbers under " + std::to_string(channels.size()) +
-                      " names: the file is cut off, or neither points in columns nor the matrix of one channel");
+      throw FileError(where + std::to_string(words.size()) + " numbers under " +
+                      std::to_string(channels.size()) +
+                      " names: the file is cut off, or neither points in columns nor the matrix of "
+                      "one channel");
     }
-    if (pixel == heading.cols * heading.rows) throw FileError(where + "more points than the heading states");
+    if (pixel == heading.cols * heading.rows)
+      throw FileError(where + "more points than the heading states");
     for (std::size_t at = 0; at < words.size(); ++at) {
       try {
         setNext(channels[is_line ? 0 : at], words[at]);
@@ -147,8 +153,9 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
     if (!is_line) ++pixel;
   }
   if (pixel != heading.cols * heading.rows) {
-    throw FileError("the heading states " + std::to_string(heading.cols) + " x " + std::to_string(heading.rows) +
-                    " points, the file has " + std::to_string(pixel) + ": it is cut off");
+    throw FileError("the heading states " + std::to_string(heading.cols) + " x " +
+                    std::to_string(heading.rows) + " points, the file has " +
+                    std::to_string(pixel) + ": it is cut off");
   }
   for (FileChannel& channel : channels) {
     const auto unit = heightUnit(channel.unit_z);

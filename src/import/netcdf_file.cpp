@@ -24,7 +24,8 @@ enum Type { kByte = 1, kChar, kShort, kInt, kFloat, kDouble };
 
 std::size_t sizeOf(std::uint32_t type) {
   constexpr std::size_t kSizes[] = {1, 1, 2, 4, 4, 8};
-  if (type < kByte || type > kDouble) throw FileError("the NetCDF file has a type that is not known: damaged");
+  if (type < kByte || type > kDouble)
+    throw FileError("the NetCDF file has a type that is not known: damaged");
   return kSizes[type - 1];
 }
 
@@ -53,8 +54,8 @@ struct Variable {
   std::vector<std::uint32_t> dimensions;
   Attributes attributes;
   std::uint32_t type = 0;
-  std::uint32_t bytes =
-      0;  ///< of all its numbers, filled up to a multiple of four; the largest number if there are more
+  std::uint32_t bytes = 0;  ///< of all its numbers, filled up to a multiple of four; the largest
+                            ///< number if there are more
   std::uint64_t begin = 0;
 };
 
@@ -78,12 +79,14 @@ class Netcdf {
       Variable variable;
       for (std::uint32_t axes = limited(cursor.number<std::uint32_t>()); axes > 0; --axes) {
         variable.dimensions.push_back(cursor.number<std::uint32_t>());
-        if (variable.dimensions.back() >= lengths_.size()) throw FileError("the NetCDF file has a damaged header");
+        if (variable.dimensions.back() >= lengths_.size())
+          throw FileError("the NetCDF file has a damaged header");
       }
       variable.attributes = attributes(cursor);
       variable.type = cursor.number<std::uint32_t>();
       variable.bytes = cursor.number<std::uint32_t>();
-      variable.begin = version == 1 ? cursor.number<std::uint32_t>() : cursor.number<std::uint64_t>();
+      variable.begin =
+          version == 1 ? cursor.number<std::uint32_t>() : cursor.number<std::uint64_t>();
       variables_[variable_name] = variable;
     }
   }
@@ -93,13 +96,16 @@ class Netcdf {
     return found == variables_.end() ? nullptr : &found->second;
   }
 
-  std::uint64_t length(const Variable& variable, std::size_t axis) const { return lengths_[variable.dimensions[axis]]; }
+  std::uint64_t length(const Variable& variable, std::size_t axis) const {
+    return lengths_[variable.dimensions[axis]];
+  }
 
   const std::string& dimension(const Variable& variable, std::size_t axis) const {
     return dimension_names_[variable.dimensions[axis]];
   }
 
-  /// Its numbers, the last dimension fastest. @throw FileError if they lie beyond the end of the file
+  /// Its numbers, the last dimension fastest. @throw FileError if they lie beyond the end of the
+  /// file
   ByteCursor data(const Variable& variable, std::uint64_t numbers) const {
     ByteCursor cursor(bytes_.data(), bytes_.size(), kNetcdfFile, ByteOrder::kBig);
     if (variable.begin > bytes_.size()) throw FileError("the NetCDF file is cut off");
@@ -162,23 +168,27 @@ double sizeAlong(const Netcdf& file, const char* axis) {
   return unit ? variable->attributes.at("length").number * *unit : 0.0;
 }
 
-/// A variable that is one number in metres, which GXSM keeps in Angstrom; none if the file has no such variable.
+/// A variable that is one number in metres, which GXSM keeps in Angstrom; none if the file has no
+/// such variable.
 std::optional<double> gxsmLength(const Netcdf& file, const char* name) {
   const Variable* variable = file.find(name);
   if (variable == nullptr || !variable->dimensions.empty()) return std::nullopt;
   ByteCursor data = file.data(*variable, 1);
-  return std::abs(numberOf(data, variable->type)) * lengthUnit(textOf(*variable, "var_unit")).value_or(1e-10);
+  return std::abs(numberOf(data, variable->type)) *
+         lengthUnit(textOf(*variable, "var_unit")).value_or(1e-10);
 }
 
 /// [m]; 0 = not stated
-double gxsmPitch(const Netcdf& file, const char* step_name, const char* range_name, std::uint64_t pixels) {
+double gxsmPitch(const Netcdf& file, const char* step_name, const char* range_name,
+                 std::uint64_t pixels) {
   const auto step = gxsmLength(file, step_name);
   const auto range = gxsmLength(file, range_name);
   const double steps = static_cast<double>(pixels) - 1.0;
   if (!(steps > 0.0)) return 0.0;
   if (step && range && std::abs(*range - *step * steps) > 0.01 * *range) {
-    throw FileError("the NetCDF file contradicts itself: " + std::string(step_name) + " " + numberText(*step) + " m, " +
-                    range_name + " " + numberText(*range) + " m, " + std::to_string(pixels) + " pixels");
+    throw FileError("the NetCDF file contradicts itself: " + std::string(step_name) + " " +
+                    numberText(*step) + " m, " + range_name + " " + numberText(*range) + " m, " +
+                    std::to_string(pixels) + " pixels");
   }
   return step ? *step : range.value_or(0.0) / steps;
 }
@@ -189,7 +199,8 @@ std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
   const Netcdf file(bytes);
   const Variable* heights = file.find("heights");
   if (heights == nullptr) return std::nullopt;
-  if (heights->dimensions.size() != 2 || file.dimension(*heights, 0) != "x" || file.dimension(*heights, 1) != "y") {
+  if (heights->dimensions.size() != 2 || file.dimension(*heights, 0) != "x" ||
+      file.dimension(*heights, 1) != "y") {
     throw FileError("the variable 'heights' of the NetCDF file is no surface over x and y");
   }
   const std::uint64_t cols = file.length(*heights, 0);
@@ -215,7 +226,8 @@ std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
     for (int row = 0; row < channel.values.rows; ++row) {
       const double value = numberOf(data, heights->type) * unit.value_or(1.0);
       const bool is_missing = mask != nullptr && numberOf(masked, mask->type) != 0.0;
-      channel.values.at<double>(row, col) = is_missing ? std::numeric_limits<double>::quiet_NaN() : value;
+      channel.values.at<double>(row, col) =
+          is_missing ? std::numeric_limits<double>::quiet_NaN() : value;
     }
   }
   return channel;
@@ -233,7 +245,8 @@ GxsmStatements gxsmStatements(const std::string& bytes) {
     }
     for (const char* attribute : {"unit", "units", "var_unit", "var_units", "ZSrcUnit"}) {
       const std::string unit = textOf(*variable, attribute);
-      if (stated.other_unit.empty() && !unit.empty() && unit != "1" && !heightUnit(unit)) stated.other_unit = unit;
+      if (stated.other_unit.empty() && !unit.empty() && unit != "1" && !heightUnit(unit))
+        stated.other_unit = unit;
     }
   }
   return stated;

@@ -26,9 +26,11 @@ std::string entry(const std::string& header, const std::string& key) {
 /// "(480, 640": two numbers.
 void readShape(const std::string& shape, std::uint64_t& rows, std::uint64_t& cols) {
   const std::size_t comma = shape.find(',');
-  const std::size_t second = comma == std::string::npos ? comma : shape.find_first_of("0123456789", comma);
+  const std::size_t second =
+      comma == std::string::npos ? comma : shape.find_first_of("0123456789", comma);
   if (second == std::string::npos || shape.find(',', second) != std::string::npos) {
-    throw FileError("an array of the shape " + shownPiece(shape) + ") is no scan: it must have two dimensions");
+    throw FileError("an array of the shape " + shownPiece(shape) +
+                    ") is no scan: it must have two dimensions");
   }
   const auto size = [&shape](const std::string& digits) {
     const auto count = countIn(digits);
@@ -48,12 +50,14 @@ double numberAs(ByteCursor& cursor) {
 
 /// "<f8": order, kind, bytes. @throw FileError
 Reader readerOf(const std::string& type, std::size_t& size, ByteOrder& order) {
-  const std::string name = type.size() > 2 ? type.substr(2, type.size() - 3) : "";  // without quotes and order
+  const std::string name =
+      type.size() > 2 ? type.substr(2, type.size() - 3) : "";  // without quotes and order
   order = type.size() > 2 && type[1] == '>' ? ByteOrder::kBig : ByteOrder::kLittle;
   size = name.empty() ? 0 : static_cast<std::size_t>(name[name.size() - 1] - '0');
   if (name == "f8") return numberAs<double>;
   if (name == "f4") return numberAs<float>;
-  if (name == "f2") return [](ByteCursor& cursor) { return halfToFloat(cursor.number<std::uint16_t>()); };
+  if (name == "f2")
+    return [](ByteCursor& cursor) { return halfToFloat(cursor.number<std::uint16_t>()); };
   if (name == "i1") return numberAs<std::int8_t>;
   if (name == "i2") return numberAs<std::int16_t>;
   if (name == "i4") return numberAs<std::int32_t>;
@@ -73,7 +77,8 @@ FileChannel parseNpy(const std::string& bytes) {
   cursor.take(6);
   const int version = cursor.number<std::uint8_t>();
   cursor.take(1);
-  const std::size_t header_size = version == 1 ? cursor.number<std::uint16_t>() : cursor.number<std::uint32_t>();
+  const std::size_t header_size =
+      version == 1 ? cursor.number<std::uint16_t>() : cursor.number<std::uint32_t>();
   const std::string header(cursor.take(header_size), header_size);
   std::uint64_t rows = 0;
   std::uint64_t cols = 0;
@@ -84,8 +89,8 @@ FileChannel parseNpy(const std::string& bytes) {
   const Reader read = readerOf(entry(header, "descr"), size, order);
   const bool is_transposed = startsWith(entry(header, "fortran_order"), "True");
   if (cursor.size() != rows * cols * size) {
-    throw FileError("the .npy file has " + std::to_string(cursor.size()) + " bytes of numbers, its header states " +
-                    std::to_string(rows * cols * size));
+    throw FileError("the .npy file has " + std::to_string(cursor.size()) +
+                    " bytes of numbers, its header states " + std::to_string(rows * cols * size));
   }
   const std::size_t data_size = cursor.size();
   ByteCursor data(cursor.take(data_size), data_size, "the .npy file", order);

@@ -4,8 +4,8 @@
 namespace mems_stiction {
 namespace {
 
-/// As channelsByPython() wants it. SurfaceTopography recognises some formats by nothing but that the file can be read so: those
-/// are left out, and so are those that are read here.
+/// As channelsByPython() wants it. SurfaceTopography recognises some formats by nothing but that
+/// the file can be read so: those are left out, and so are those that are read here.
 constexpr const char* kPackageScript = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]

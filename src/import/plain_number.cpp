@@ -25,7 +25,8 @@ bool isDigit(const std::string& text, std::size_t at) {
 std::size_t wordLength(const std::string& text, std::size_t at) {
   for (const char* word : {"infinity", "inf", "nan"}) {
     const std::size_t length = std::char_traits<char>::length(word);
-    if (at + length <= text.size() && strncasecmp(text.c_str() + at, word, length) == 0) return length;
+    if (at + length <= text.size() && strncasecmp(text.c_str() + at, word, length) == 0)
+      return length;
   }
   return 0;
 }
@@ -52,15 +53,20 @@ std::size_t digitsBefore(const std::string& text, std::size_t at, std::size_t mo
   return count;
 }
 
-/// True if the mark at `at` stands between groups of thousands: up to three digits before the first, three after each.
-/// - @p not_before what cannot stand before the first group: there it would end the decimals of another number
-bool groupsAt(const std::string& text, std::size_t at, const std::string& mark, const char* not_before) {
+/// True if the mark at `at` stands between groups of thousands: up to three digits before the
+/// first, three after each.
+/// - @p not_before what cannot stand before the first group: there it would end the decimals of
+/// another number
+bool groupsAt(const std::string& text, std::size_t at, const std::string& mark,
+              const char* not_before) {
   for (int groups = 0; groups < kMostGroups; ++groups) {
     if (digitsFrom(text, at + mark.size(), kGroup + 1) != kGroup) return false;
     const std::size_t head = digitsBefore(text, at, kGroup + 1);
     const std::size_t begin = at - head;
-    if (head != kGroup || begin < mark.size() || text.compare(begin - mark.size(), mark.size(), mark) != 0) {
-      const bool is_after_decimals = begin > 0 && std::string(not_before).find(text[begin - 1]) != std::string::npos;
+    if (head != kGroup || begin < mark.size() ||
+        text.compare(begin - mark.size(), mark.size(), mark) != 0) {
+      const bool is_after_decimals =
+          begin > 0 && std::string(not_before).find(text[begin - 1]) != std::string::npos;
       return head > 0 && head <= kGroup && text[begin] != '0' && !is_after_decimals;
     }
     at = begin - mark.size();
@@ -73,8 +79,9 @@ std::size_t windowsNanEnd(const std::string& text, std::size_t at) {
   if (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1])) != 0) return at;
   std::size_t end = at;
   if (end < text.size() && (text[end] == '+' || text[end] == '-')) ++end;
-  const bool is_old = end + 3 < text.size() && text[end] == '1' && (text[end + 1] == '.' || text[end + 1] == ',') &&
-                      text[end + 2] == '#' && std::isalpha(static_cast<unsigned char>(text[end + 3])) != 0;
+  const bool is_old = end + 3 < text.size() && text[end] == '1' &&
+                      (text[end + 1] == '.' || text[end + 1] == ',') && text[end + 2] == '#' &&
+                      std::isalpha(static_cast<unsigned char>(text[end + 3])) != 0;
   const bool is_new = lowered(text.substr(end, 4)) == "nan(";
   if (!is_old && !is_new) return at;
   end += is_old ? 3 : 4;
@@ -113,15 +120,16 @@ double plainNumber(const std::string& text) {
   const double value = is_word && text.find_first_of("aA") != std::string::npos
                            ? std::numeric_limits<double>::quiet_NaN()
                            : valueOf(text);
-  if (std::isinf(value) && !is_word) throw FileError("'" + shownPiece(text) + "' is too large for a number");
+  if (std::isinf(value) && !is_word)
+    throw FileError("'" + shownPiece(text) + "' is too large for a number");
   return value;
 }
 
 bool isMissingWord(const std::string& text) {
   if (text.size() > 8 || text.find_first_of("0123456789") != std::string::npos) return false;
   const std::string word = lowered(text);
-  for (const char* missing :
-       {"na", "n/a", "#n/a", "#nv", "null", "none", "bad", "missing", "no data", "nodata", "void", "--", "---", "*"}) {
+  for (const char* missing : {"na", "n/a", "#n/a", "#nv", "null", "none", "bad", "missing",
+                              "no data", "nodata", "void", "--", "---", "*"}) {
     if (word == missing) return true;
   }
   return false;
@@ -175,13 +183,15 @@ void plainSigns(std::string& text) {
     const char* not_before;
   };
   // Blanks also stand between cells, where decimals of either kind may end.
-  for (const Mark& mark : {Mark{"'", "."}, Mark{"_", "."}, Mark{"\xE2\x80\x99", "."}, Mark{"\xC2\xA0", ".,"},
-                           Mark{"\xE2\x80\xAF", ".,"}, Mark{"\xE2\x80\x89", ".,"}, Mark{"\xE2\x80\x87", ".,"}}) {
+  for (const Mark& mark :
+       {Mark{"'", "."}, Mark{"_", "."}, Mark{"\xE2\x80\x99", "."}, Mark{"\xC2\xA0", ".,"},
+        Mark{"\xE2\x80\xAF", ".,"}, Mark{"\xE2\x80\x89", ".,"}, Mark{"\xE2\x80\x87", ".,"}}) {
     const std::string sign = mark.sign;
     if (text.find(sign) == std::string::npos) continue;
     std::string plain;
     std::size_t from = 0;
-    for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign, at + sign.size())) {
+    for (std::size_t at = text.find(sign); at != std::string::npos;
+         at = text.find(sign, at + sign.size())) {
       if (!groupsAt(text, at, sign, mark.not_before)) continue;
       plain += text.substr(from, at - from);
       from = at + sign.size();
@@ -202,7 +212,8 @@ bool isGroupBlank(const std::string& text, std::size_t at) { return groupsAt(tex
 
 std::string ambiguousMark(const std::string& number) {
   return "'" + shownPiece(number) +
-         "' has a mark that may be decimal or group thousands: state decimal_mark: point or comma in the sidecar "
+         "' has a mark that may be decimal or group thousands: state decimal_mark: point or comma "
+         "in the sidecar "
          "(SCAN.yaml), or as scan/decimal_mark";
 }
 

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 ChildResult runScript(const std::string& python, const std::string& script, const std::string& path,
                       const std::string& folder, double timeout) {
-  return runChild({python, "-c", script, path, folder}, environmentWithout({}, {"PYTHONIOENCODING=utf-8"}),
-                  folder + "/log", timeout);
+  return runChild({python, "-c", script, path, folder},
+                  environmentWithout({}, {"PYTHONIOENCODING=utf-8"}), folder + "/log", timeout);
 }
 
 FileChannel channelOf(const std::string& line, const std::string& npy, int id) {
@@ -46,8 +46,8 @@ FileChannel channelOf(const std::string& line, const std::string& npy, int id) {
 
 }  // namespace
 
-PythonReading channelsByPython(const std::string& script, const std::string& library, const std::string& path,
-                               double timeout) {
+PythonReading channelsByPython(const std::string& script, const std::string& library,
+                               const std::string& path, double timeout) {
   const PrivateFolder folder;
   const std::string target = folder.path().string();
   const std::string file = fs::absolute(path).string();
@@ -57,22 +57,26 @@ PythonReading channelsByPython(const std::string& script, const std::string& lib
     if (other.started) result = other;
   }
   if (result.timed_out) {
-    throw FileError(library + " did not finish within " + numberText(timeout) + " s and was stopped");
+    throw FileError(library + " did not finish within " + numberText(timeout) +
+                    " s and was stopped");
   }
   if (result.signal != 0) throw FileError(library + " crashed on this file: it is damaged");
   PythonReading read;
   read.is_library_missing = !result.started || result.exit_code == kPythonHasNoLibrary;
   if (result.exit_code == kPythonReadsNoChannel || result.exit_code == kPythonRefuses) {
     std::ifstream remark(target + "/remark");
-    for (std::string line; std::getline(remark, line);) read.remark += (read.remark.empty() ? "" : ", ") + line;
+    for (std::string line; std::getline(remark, line);)
+      read.remark += (read.remark.empty() ? "" : ", ") + line;
   }
   if (result.exit_code == kPythonRefuses) throw FileError(read.remark);
   if (read.is_library_missing || result.exit_code == kPythonReadsNoChannel) return read;
   std::ifstream list(target + "/channels");
-  if (result.exit_code != 0 || !list) throw FileError("its layout is known, but what it should have is not there");
+  if (result.exit_code != 0 || !list)
+    throw FileError("its layout is known, but what it should have is not there");
   int id = 0;
   for (std::string line; std::getline(list, line); ++id) {
-    read.channels.push_back(channelOf(line, readFileBytes(target + "/" + std::to_string(id) + ".npy"), id));
+    read.channels.push_back(
+        channelOf(line, readFileBytes(target + "/" + std::to_string(id) + ".npy"), id));
   }
   return read;
 }

@@ -44,7 +44,8 @@ bool isThere(const std::string& path) {
   return fs::exists(fs::symlink_status(path, error));
 }
 
-/// Whether a file states something of a scan and nothing else. "scan.yaml" may be the configuration of anything.
+/// Whether a file states something of a scan and nothing else. "scan.yaml" may be the configuration
+/// of anything.
 bool looksLikeSidecar(const std::string& path) {
   std::set<std::string> known;
   const auto learn = [&known](const std::string& key, const auto&) { known.insert(key); };
@@ -63,8 +64,10 @@ bool looksLikeSidecar(const std::string& path) {
   }
 }
 
-/// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
-Settings withSidecar(const std::string& path, const ScanOptions& given, const ScanIdentity& stated = {}) {
+/// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the
+/// same key.
+Settings withSidecar(const std::string& path, const ScanOptions& given,
+                     const ScanIdentity& stated = {}) {
   const std::string sidecar = sidecarOf(path);
   Settings settings{given, stated, false, {}};
   if (sidecar.empty()) return settings;
@@ -85,8 +88,9 @@ Settings withSidecar(const std::string& path, const ScanOptions& given, const Sc
       scan = tree;
     }
     const YAML::Node nested = scan["scan"];
-    settings.has_scale = scan["scan/height_scale"].IsDefined() ||
-                         (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
+    settings.has_scale =
+        scan["scan/height_scale"].IsDefined() ||
+        (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
     lines = readYaml(scan, [&settings](OptionVisitor& visitor) {
       settings.options.describe(visitor);
       settings.identity.describe(visitor);
@@ -94,8 +98,10 @@ Settings withSidecar(const std::string& path, const ScanOptions& given, const Sc
   } catch (const YAML::Exception& error) {
     throw FileError(sidecar + ": not a file of settings: " + error.what());
   }
-  if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
-  for (std::string& line : identityComplaints(settings.identity, "scan/")) lines.push_back(std::move(line));
+  if (options.height_scale == 0.0)
+    lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
+  for (std::string& line : identityComplaints(settings.identity, "scan/"))
+    lines.push_back(std::move(line));
   for (std::string& line : lines) line.insert(0, sidecar + ": ");
   if (!lines.empty()) throw OptionsError(std::move(lines));
   return settings;
@@ -103,7 +109,8 @@ Settings withSidecar(const std::string& path, const ScanOptions& given, const Sc
 
 /// What a file states goes before the settings, its sidecar before the file.
 /// @throw FileError without a file name where file and sidecar both state the unit of the heights
-Settings settingsFor(const std::string& path, const FileChannel& channel, const ScanOptions& given) {
+Settings settingsFor(const std::string& path, const FileChannel& channel,
+                     const ScanOptions& given) {
   ScanOptions stated = given;
   if (channel.unit_z == "m") {
     stated.height_scale = 1.0;
@@ -119,7 +126,8 @@ Settings settingsFor(const std::string& path, const FileChannel& channel, const 
   ScanOptions& options = settings.options;
   if (channel.unit_z == "m" && options.height_scale != 1.0) {
     throw FileError("the file states the unit of its heights, its sidecar a height_scale of " +
-                    numberText(options.height_scale) + ": heights are in metres already, remove it");
+                    numberText(options.height_scale) +
+                    ": heights are in metres already, remove it");
   }
   if (!has_pitch && channel.width > 0.0) {  // in the unit of the values
     const double unit = std::abs(options.height_scale);
@@ -133,70 +141,89 @@ void checkPitchStated(const std::string& path, const ScanOptions& settings) {
   if (settings.pitch_x != 0.0 && settings.pitch_y != 0.0) return;
   if (settings.pitch_x != 0.0 || settings.pitch_y != 0.0) {
     const std::string missing = settings.pitch_x != 0.0 ? "pitch_y" : "pitch_x";
-    throw FileError(path + ": its " + missing + " is not stated, only the other pitch: give --pitch, or scan/" +
-                    missing + " where the other is given");
+    throw FileError(path + ": its " + missing +
+                    " is not stated, only the other pitch: give --pitch, or scan/" + missing +
+                    " where the other is given");
   }
-  throw FileError(path +
-                  ": its pixel pitch is not stated: give --pitch, or scan/pitch_x and scan/pitch_y in the "
-                  "configuration or in " +
-                  fs::path(path).filename().string() + ".yaml");
+  throw FileError(
+      path +
+      ": its pixel pitch is not stated: give --pitch, or scan/pitch_x and scan/pitch_y in the "
+      "configuration or in " +
+      fs::path(path).filename().string() + ".yaml");
 }
 
-/// A pitch that is given by hand and one in the file that differ by more than a hundredth: perhaps a slip.
-void notePitch(const FileChannel& channel, const HeightMap& surface, std::vector<std::string>& notes) {
+/// A pitch that is given by hand and one in the file that differ by more than a hundredth: perhaps
+/// a slip.
+void notePitch(const FileChannel& channel, const HeightMap& surface,
+               std::vector<std::string>& notes) {
   if (channel.unit_xy != "m" || channel.is_pitch_a_guess) return;
   const double stated_x = channel.width / channel.values.cols;
   const double stated_y = channel.height / channel.values.rows;
-  const auto differs = [](double taken, double stated) { return std::abs(taken - stated) > 0.01 * stated; };
+  const auto differs = [](double taken, double stated) {
+    return std::abs(taken - stated) > 0.01 * stated;
+  };
   if (!differs(surface.pitchX(), stated_x) && !differs(surface.pitchY(), stated_y)) return;
-  notes.push_back("the file states a pitch of " + numberText(stated_x) + " x " + numberText(stated_y) + " m, " +
-                  numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) + " m is given and taken");
+  notes.push_back("the file states a pitch of " + numberText(stated_x) + " x " +
+                  numberText(stated_y) + " m, " + numberText(surface.pitchX()) + " x " +
+                  numberText(surface.pitchY()) + " m is given and taken");
 }
 
 /// Whether a pitch that is stated (not 0) is another one, by more than a hundredth.
-bool isOther(double stated, double taken) { return stated > 0.0 && std::abs(stated - taken) > 0.01 * taken; }
+bool isOther(double stated, double taken) {
+  return stated > 0.0 && std::abs(stated - taken) > 0.01 * taken;
+}
 
-/// What configuration and sidecar state and the file's own statements go before, and what else is odd beside the file.
+/// What configuration and sidecar state and the file's own statements go before, and what else is
+/// odd beside the file.
 /// - @p given by the configuration
 /// - @p has_pitch_option an option goes before all of them
-void noteUnused(const std::string& path, const FileChannel& channel, const ScanOptions& given, bool has_pitch_option,
-                const HeightMap& surface, std::vector<std::string>& notes) {
+void noteUnused(const std::string& path, const FileChannel& channel, const ScanOptions& given,
+                bool has_pitch_option, const HeightMap& surface, std::vector<std::string>& notes) {
   const std::string sidecar = sidecarOf(path);
   const std::string of_stem = sidecarsOf(path)[1];
   if (sidecar.empty() && of_stem != path && isThere(of_stem)) {
-    notes.push_back(of_stem +
-                    " is not read as its sidecar: it cannot be read, or has other keys than those of a scan; " +
-                    fs::path(path).filename().string() + ".yaml is the name of one");
+    notes.push_back(
+        of_stem +
+        " is not read as its sidecar: it cannot be read, or has other keys than those of a scan; " +
+        fs::path(path).filename().string() + ".yaml is the name of one");
   }
   const Settings beside = withSidecar(path, given);
   notes.insert(notes.end(), beside.empty_parts.begin(), beside.empty_parts.end());
   const ScanOptions& stated = beside.options;
-  const auto sourceOf = [&](bool is_of_sidecar) { return is_of_sidecar ? sidecar : "the configuration"; };
-  if (!has_pitch_option && (isOther(stated.pitch_x, surface.pitchX()) || isOther(stated.pitch_y, surface.pitchY()))) {
+  const auto sourceOf = [&](bool is_of_sidecar) {
+    return is_of_sidecar ? sidecar : "the configuration";
+  };
+  if (!has_pitch_option &&
+      (isOther(stated.pitch_x, surface.pitchX()) || isOther(stated.pitch_y, surface.pitchY()))) {
     const bool is_of_sidecar = stated.pitch_x != given.pitch_x || stated.pitch_y != given.pitch_y;
     notes.push_back("the file states a pitch of " + numberText(surface.pitchX()) + " x " +
-                    numberText(surface.pitchY()) + " m, which is taken, " + numberText(stated.pitch_x) + " x " +
-                    numberText(stated.pitch_y) + " m of " + sourceOf(is_of_sidecar) +
-                    " is not; --pitch goes before both");
+                    numberText(surface.pitchY()) + " m, which is taken, " +
+                    numberText(stated.pitch_x) + " x " + numberText(stated.pitch_y) + " m of " +
+                    sourceOf(is_of_sidecar) + " is not; --pitch goes before both");
   }
   const bool is_sidecar_applied = channel.takes_settings;
   if (is_sidecar_applied && channel.unit_z != "m") return;
   const ScanOptions& ignored = is_sidecar_applied ? given : stated;
   const auto note = [&](const char* key, double value, double of_configuration) {
-    notes.push_back(std::string(key) + " " + numberText(value) + " of " + sourceOf(value != of_configuration) +
+    notes.push_back(std::string(key) + " " + numberText(value) + " of " +
+                    sourceOf(value != of_configuration) +
                     " is not applied: the file states the unit of its heights");
   };
-  if (ignored.height_scale != 1.0) note("scan/height_scale", ignored.height_scale, given.height_scale);
-  if (ignored.height_offset != 0.0) note("scan/height_offset", ignored.height_offset, given.height_offset);
+  if (ignored.height_scale != 1.0)
+    note("scan/height_scale", ignored.height_scale, given.height_scale);
+  if (ignored.height_offset != 0.0)
+    note("scan/height_offset", ignored.height_offset, given.height_offset);
   if (is_sidecar_applied || std::isnan(ignored.invalid_value)) return;
   notes.push_back("scan/invalid_value " + numberText(ignored.invalid_value) + " of " +
                   sourceOf(ignored.invalid_value != given.invalid_value) +
                   " is not applied: the file's format marks what is missing itself");
 }
 
-/// @throw FileError where the file says something of the unit that is not understood, and no setting says more
+/// @throw FileError where the file says something of the unit that is not understood, and no
+/// setting says more
 void checkUnitTold(const FileChannel& channel, const Settings& settings) {
-  if (channel.unit_doubt.empty() || settings.has_scale || settings.options.height_scale != 1.0) return;
+  if (channel.unit_doubt.empty() || settings.has_scale || settings.options.height_scale != 1.0)
+    return;
   throw FileError(channel.unit_doubt + ". Or state the unit as scan/height_scale, 1e-9 for nm");
 }
 
@@ -226,7 +253,8 @@ HeightMap measuredOnly(const HeightMap& surface, std::vector<std::string>& notes
 }
 
 /// What a text file does not say of itself, its sidecar or the settings may.
-ImportOptions withTextOptions(const std::string& path, const ScanOptions& given, ImportOptions options) {
+ImportOptions withTextOptions(const std::string& path, const ScanOptions& given,
+                              ImportOptions options) {
   options.text = withSidecar(path, given).options.text;
   return options;
 }
@@ -258,23 +286,28 @@ auto naming(const std::string& path, Function&& function) {
 
 }  // namespace
 
-ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
+ScanFile openScanFile(const std::string& path, const ScanOptions& scan,
+                      const ScanFileOptions& options) {
   return naming(path, [&] {
     const fs::path extension = fs::path(path).extension();
-    if (extension == ".yaml" || extension == ".yml") throw FileError("is a file of settings, not a scan");
-    const std::vector<FileChannel> channels = readChannels(path, withTextOptions(path, scan, options.import));
+    if (extension == ".yaml" || extension == ".yml")
+      throw FileError("is a file of settings, not a scan");
+    const std::vector<FileChannel> channels =
+        readChannels(path, withTextOptions(path, scan, options.import));
     const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
     const FileChannel& channel = channels[chosen];
-    ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes,
-                  identityOf(path, channel)};
+    ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()),
+                  channel.notes, identityOf(path, channel)};
     file.surface = measuredOnly(file.surface, file.notes);
     if (cv::countNonZero(validMask(file.surface.heights())) == 0) {
-      throw FileError("has no measured pixel: all of its " + std::to_string(file.surface.cols()) + " x " +
-                      std::to_string(file.surface.rows()) + " heights are missing");
+      throw FileError("has no measured pixel: all of its " + std::to_string(file.surface.cols()) +
+                      " x " + std::to_string(file.surface.rows()) + " heights are missing");
     }
-    const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
+    const std::string passed_over =
+        options.import.channel.empty() ? passedOver(channels, chosen) : "";
     if (!passed_over.empty()) file.notes.push_back(passed_over);
-    const std::string others = options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";
+    const std::string others =
+        options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";
     if (!others.empty()) file.notes.push_back(others);
     notePitch(channel, file.surface, file.notes);
     noteUnused(path, channel, scan, options.pitch_x > 0.0, file.surface, file.notes);
@@ -285,7 +318,8 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
 std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan,
                                           const ScanFileOptions& options) {
   return naming(path, [&] {
-    const std::vector<FileChannel> channels = readChannels(path, withTextOptions(path, scan, options.import));
+    const std::vector<FileChannel> channels =
+        readChannels(path, withTextOptions(path, scan, options.import));
     if (channels.empty()) throw FileError("the file has no image channel");
     std::vector<ScanChannel> list;
     for (const FileChannel& channel : channels) {
@@ -337,7 +371,8 @@ std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths) 
   return scans;
 }
 
-HeightMap readScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
+HeightMap readScanFile(const std::string& path, const ScanOptions& scan,
+                       const ScanFileOptions& options) {
   return openScanFile(path, scan, options).surface;
 }
 

@@ -32,8 +32,9 @@ bool beginsWithOneOf(const std::string& bytes, std::initializer_list<std::string
 Channels readTiff(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (hasInstrumentTags(bytes)) return channelsByGwyddion(path, options);
   Channels channels = parseTiff(bytes);
-  const bool is_picture = std::all_of(channels.begin(), channels.end(),
-                                      [](const FileChannel& channel) { return channel.values.channels() > 2; });
+  const bool is_picture =
+      std::all_of(channels.begin(), channels.end(),
+                  [](const FileChannel& channel) { return channel.values.channels() > 2; });
   if (!is_picture) return channels;
   try {
     Channels inside = channelsByGwyddion(path, options);
@@ -44,19 +45,23 @@ Channels readTiff(const std::string& path, const std::string& bytes, const Impor
   }
 }
 
-Channels readNetcdf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+Channels readNetcdf(const std::string& path, const std::string& bytes,
+                    const ImportOptions& options) {
   if (auto heights = parseNetcdfHeights(bytes)) return {*heights};
   const GxsmStatements stated = gxsmStatements(bytes);
   Channels channels = channelsByGwyddion(path, options);
   for (FileChannel& channel : channels) {
     if (!stated.other_unit.empty()) channel.unit_z = stated.other_unit;
-    if (stated.pitch_x > 0.0 && channel.unit_xy == "m") channel.width = stated.pitch_x * channel.values.cols;
-    if (stated.pitch_y > 0.0 && channel.unit_xy == "m") channel.height = stated.pitch_y * channel.values.rows;
+    if (stated.pitch_x > 0.0 && channel.unit_xy == "m")
+      channel.width = stated.pitch_x * channel.values.cols;
+    if (stated.pitch_y > 0.0 && channel.unit_xy == "m")
+      channel.height = stated.pitch_y * channel.values.rows;
   }
   return channels;
 }
 
-/// x3p wants its files at the top of the archive; who packs the folder instead of its content moves them down.
+/// x3p wants its files at the top of the archive; who packs the folder instead of its content moves
+/// them down.
 void checkX3pFolder(const std::vector<std::string>& names) {
   const std::string file = "main.xml";
   for (const std::string& name : names) {
@@ -65,28 +70,34 @@ void checkX3pFolder(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const std::size_t slash = name.rfind('/');
     if (slash == std::string::npos || name.substr(slash + 1) != file) continue;
-    throw FileError("the archive has its " + file + " in the folder '" + shownPiece(name.substr(0, slash)) +
+    throw FileError("the archive has its " + file + " in the folder '" +
+                    shownPiece(name.substr(0, slash)) +
                     "': pack what is in the folder, not the folder itself");
   }
 }
 
-/// Gwyddion's container of another version than the one that is read here: if at all, Gwyddion reads it.
-Channels readOtherGwy(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+/// Gwyddion's container of another version than the one that is read here: if at all, Gwyddion
+/// reads it.
+Channels readOtherGwy(const std::string& path, const std::string& bytes,
+                      const ImportOptions& options) {
   try {
     Channels channels = channelsByGwyddion(path, options);
     if (channels.empty()) throw FileError("gwyddion finds no image in it");
     return channels;
   } catch (const FileError& error) {
-    throw FileError(std::string(error.what()) + " (a Gwyddion file of the kind " + bytes.substr(0, 4) +
-                    ": open it in the Gwyddion that wrote it, and save it as one of version 2, GWYP)");
+    throw FileError(
+        std::string(error.what()) + " (a Gwyddion file of the kind " + bytes.substr(0, 4) +
+        ": open it in the Gwyddion that wrote it, and save it as one of version 2, GWYP)");
   }
 }
 
 /// Other bytes in place of the file's, which gwyddion can read.
-Channels readRewritten(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+Channels readRewritten(const std::string& path, const std::string& bytes,
+                       const ImportOptions& options) {
   checkStatedLength(bytes);
   const PrivateFolder folder;
-  const std::string copy = (folder.path() / ("copy" + std::filesystem::path(path).extension().string())).string();
+  const std::string copy =
+      (folder.path() / ("copy" + std::filesystem::path(path).extension().string())).string();
   writeFile(copy, bytes);
   try {
     return channelsByGwyddion(copy, options);
@@ -100,8 +111,8 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
 std::string packageFor(const std::string& path) {
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
   if (name_end == ".asd") return "AFMReader";
-  for (const char* known : {".mnt", ".zmg", ".zon", ".os3d", ".qep", ".vk3", ".vk4", ".vk6", ".vk7", ".plux", ".poir",
-                            ".oir", ".lext", ".frt", ".opdx", ".mdt"}) {
+  for (const char* known : {".mnt", ".zmg", ".zon", ".os3d", ".qep", ".vk3", ".vk4", ".vk6", ".vk7",
+                            ".plux", ".poir", ".oir", ".lext", ".frt", ".opdx", ".mdt"}) {
     if (name_end == known) return "SurfaceTopography";
   }
   return "";
@@ -115,9 +126,10 @@ Channels channelsByOthers(const std::string& path, const ImportOptions& options)
     Channels channels = channelsByPackages(path, options.timeout);
     if (!channels.empty()) return channels;
     const std::string package = packageFor(path);
-    throw FileError(error.what() + (package.empty() ? ""
-                                                    : " (such files are read by the Python package " + package +
-                                                          ", where the python3 of the PATH has it)"));
+    throw FileError(error.what() + (package.empty()
+                                        ? ""
+                                        : " (such files are read by the Python package " + package +
+                                              ", where the python3 of the PATH has it)"));
   }
 }
 
@@ -125,22 +137,28 @@ Channels channelsByOthers(const std::string& path, const ImportOptions& options)
 void checkMatrixParameters(const std::string& path, const std::string& bytes) {
   if (!beginsWithOneOf(bytes, {"ONTMATRX0101"})) return;
   if (beginsWithOneOf(bytes, {"ONTMATRX0101ATEM"})) {
-    throw FileError("holds the parameters of MATRIX scans, none of their images: give one of those, NAME--1_1.Z_mtrx");
+    throw FileError(
+        "holds the parameters of MATRIX scans, none of their images: give one of those, "
+        "NAME--1_1.Z_mtrx");
   }
   const std::string whole = std::filesystem::absolute(path).string();
   const std::size_t dashes = whole.find("--");
   if (dashes == std::string::npos) {
     throw FileError(
-        "is a MATRIX scan under another name: its parameters are found by that, NAME_0001.mtrx beside "
+        "is a MATRIX scan under another name: its parameters are found by that, NAME_0001.mtrx "
+        "beside "
         "NAME--1_1.Z_mtrx");
   }
   const std::string parameters = whole.substr(0, dashes) + "_0001.mtrx";
   if (std::filesystem::exists(parameters)) return;
-  throw FileError("needs the file of its parameters, " + parameters + ", which is not there: copy it, too");
+  throw FileError("needs the file of its parameters, " + parameters +
+                  ", which is not there: copy it, too");
 }
 
-/// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
-Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+/// What gwyddion reads, after the file's own statements have been held against each other and
+/// against its bytes.
+Channels readByGwyddion(const std::string& path, const std::string& bytes,
+                        const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
   const NanoscopeStatements stated = checkedNanoscope(bytes);
   checkMatrixParameters(path, bytes);
@@ -157,7 +175,8 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   return channels;
 }
 
-/// True for HDF5, whose signature stands at the beginning or behind a block of 512, 1024, 2048 ... bytes.
+/// True for HDF5, whose signature stands at the beginning or behind a block of 512, 1024, 2048 ...
+/// bytes.
 bool isHdf5(const std::string& bytes) {
   const std::string signature = "\x89HDF\r\n\x1a\n";
   for (std::size_t at = 0; at < bytes.size(); at = at == 0 ? 512 : 2 * at) {
@@ -166,14 +185,16 @@ bool isHdf5(const std::string& bytes) {
   return false;
 }
 
-/// HDF5 has arrays of any meaning under any names: some layouts are read by h5py, some by gwyddion, no other is guessed.
-/// Without h5py none is: nothing else tells whether links in the file lead to others.
+/// HDF5 has arrays of any meaning under any names: some layouts are read by h5py, some by gwyddion,
+/// no other is guessed. Without h5py none is: nothing else tells whether links in the file lead to
+/// others.
 Channels readHdf5(const std::string& path, const ImportOptions& options) {
   const Hdf5Channels read = channelsByH5py(path, options.timeout);
   if (!read.channels.empty()) return read.channels;
   if (read.is_library_missing) {
     throw FileError(
-        "needs h5py to be read (an HDF5 file: .h5-jpk, .topostats, NetCDF-4 and others), which is not "
+        "needs h5py to be read (an HDF5 file: .h5-jpk, .topostats, NetCDF-4 and others), which is "
+        "not "
         "installed (Debian package: python3-h5py)");
   }
   try {
@@ -186,9 +207,10 @@ Channels readHdf5(const std::string& path, const ImportOptions& options) {
 }
 
 /// OpenCV's and the project's own formats with a signature. @return false if it is none of them
-bool readKnown(const std::string& path, const std::string& bytes, const ImportOptions& options, Channels& channels) {
-  if (beginsWithOneOf(bytes, {std::string("II*\0", 4), std::string("MM\0*", 4), std::string("II+\0", 4),
-                              std::string("MM\0+", 4)})) {
+bool readKnown(const std::string& path, const std::string& bytes, const ImportOptions& options,
+               Channels& channels) {
+  if (beginsWithOneOf(bytes, {std::string("II*\0", 4), std::string("MM\0*", 4),
+                              std::string("II+\0", 4), std::string("MM\0+", 4)})) {
     channels = readTiff(path, bytes, options);
   } else if (beginsWithOneOf(bytes, {"\x89PNG"})) {
     channels = {parsePng(bytes)};
@@ -219,11 +241,13 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
 }
 
 /// Of the file with these bytes.
-Channels channelsOf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+Channels channelsOf(const std::string& path, const std::string& bytes,
+                    const ImportOptions& options) {
   Channels channels;
   if (readKnown(path, bytes, options, channels)) return channels;
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
-  if (beginsWithOneOf(bytes, {":NANONIS_VERSION:", "[Parameter]", "[Paramet32]", "[Paramco32]", "ONTMATRX0101"})) {
+  if (beginsWithOneOf(bytes, {":NANONIS_VERSION:", "[Parameter]", "[Paramet32]", "[Paramco32]",
+                              "ONTMATRX0101"})) {
     return readByGwyddion(path, bytes, options);  // under whatever name
   }
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
@@ -236,7 +260,8 @@ Channels channelsOf(const std::string& path, const std::string& bytes, const Imp
   }
   if (beginsWithOneOf(bytes, {"GWYO", "GWYQ"})) return readOtherGwy(path, bytes, options);
   for (const char* image : {".tif", ".tiff", ".png", ".exr", ".npy", ".gwy"}) {
-    if (name_end == image) throw FileError("is not a " + name_end.substr(1) + " image: damaged, or misnamed");
+    if (name_end == image)
+      throw FileError("is not a " + name_end.substr(1) + " image: damaged, or misnamed");
   }
   return readByGwyddion(path, bytes, options);
 }

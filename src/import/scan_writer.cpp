@@ -26,16 +26,19 @@ namespace {
 
 /// Distance of float32 numbers near the largest height [m].
 double singleSpacing(const HeightStatistics& statistics) {
-  const auto largest = static_cast<float>(std::max(std::abs(statistics.min), std::abs(statistics.max)));
-  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest;
+  const auto largest =
+      static_cast<float>(std::max(std::abs(statistics.min), std::abs(statistics.max)));
+  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) -
+         largest;
 }
 
-/// A little-endian TIFF of one strip of floating-point numbers (TIFF 6.0, section 2), uncompressed: every reader takes it,
-/// and nothing is lost.
+/// A little-endian TIFF of one strip of floating-point numbers (TIFF 6.0, section 2), uncompressed:
+/// every reader takes it, and nothing is lost.
 std::string tiffOf(const cv::Mat& pixels) {
   const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
   const std::size_t size = whole.total() * whole.elemSize();
-  if (size > std::numeric_limits<std::uint32_t>::max() - 1024) throw FileError("too many pixels for a TIFF");
+  if (size > std::numeric_limits<std::uint32_t>::max() - 1024)
+    throw FileError("too many pixels for a TIFF");
   constexpr std::uint32_t kShort = 3;
   constexpr std::uint32_t kLong = 4;
   struct Entry {
@@ -89,14 +92,16 @@ std::string identityLines(const ScanIdentity& identity) {
 
 std::string checksum(const std::string& bytes) {
   char text[16];
-  std::snprintf(text, sizeof text, "%08lx",
-                crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  std::snprintf(
+      text, sizeof text, "%08lx",
+      crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
   return text;
 }
 
 /// First line of a sidecar: checksums of the image and of the lines that follow.
 std::string seal(const std::string& tiff, const std::string& lines) {
-  return "# Written with the image beside it; checksums " + checksum(tiff) + " and " + checksum(lines) + "\n";
+  return "# Written with the image beside it; checksums " + checksum(tiff) + " and " +
+         checksum(lines) + "\n";
 }
 
 }  // namespace
@@ -122,10 +127,11 @@ void writeScan(const std::string& path, const HeightMap& surface, const std::str
   cv::Mat pixels = heights;
   if (isSinglePrecision(heights)) heights.convertTo(pixels, CV_32F);
   const std::string bytes = tiffOf(pixels);
-  const std::string lines = "# " + oneLine(note) +
-                            "\n# Heights in metres: height = pixel x height_scale + height_offset.\n" +
-                            "pitch_x: " + yamlNumber(surface.pitchX()) + "\npitch_y: " + yamlNumber(surface.pitchY()) +
-                            "\nheight_scale: 1.0\nheight_offset: 0.0\n" + identityLines(identity);
+  const std::string lines =
+      "# " + oneLine(note) +
+      "\n# Heights in metres: height = pixel x height_scale + height_offset.\n" +
+      "pitch_x: " + yamlNumber(surface.pitchX()) + "\npitch_y: " + yamlNumber(surface.pitchY()) +
+      "\nheight_scale: 1.0\nheight_offset: 0.0\n" + identityLines(identity);
   writeFile(path, bytes);
   writeFile(path + ".yaml", seal(bytes, lines) + lines);
 }

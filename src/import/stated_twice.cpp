@@ -21,8 +21,9 @@ class StatedOnce {
   void add(const std::string& key, const std::string& value) {
     const auto [stated, is_new] = values_.emplace(key, value);
     if (is_new || stated->second == value) return;
-    throw FileError("the header states '" + shownPiece(key) + "' twice, as '" + shownPiece(stated->second) + "' and '" +
-                    shownPiece(value) + "': damaged, or joined from two files");
+    throw FileError("the header states '" + shownPiece(key) + "' twice, as '" +
+                    shownPiece(stated->second) + "' and '" + shownPiece(value) +
+                    "': damaged, or joined from two files");
   }
 
  private:
@@ -35,7 +36,8 @@ std::string joinedWords(const std::string& text) {
   return joined;
 }
 
-/// Nanonis: ":KEY:" on a line, its value on those below. The table of channels, DATA_INFO, is one value.
+/// Nanonis: ":KEY:" on a line, its value on those below. The table of channels, DATA_INFO, is one
+/// value.
 void checkSxm(const std::string& bytes) {
   std::istringstream header(bytes.substr(0, std::min(bytes.find(":SCANIT_END:"), kMostSxmText)));
   StatedOnce once;
@@ -43,7 +45,8 @@ void checkSxm(const std::string& bytes) {
   std::string value;
   const auto end = [&] {
     const bool counts = key == "scanit_type" || key == "data_info" || startsWith(key, "scan_") ||
-                        key.find("gain") != std::string::npos || key.find("calibration") != std::string::npos ||
+                        key.find("gain") != std::string::npos ||
+                        key.find("calibration") != std::string::npos ||
                         key.find("calib") != std::string::npos;
     if (counts) once.add(key, joinedWords(value));
     value.clear();
@@ -63,8 +66,9 @@ void checkSxm(const std::string& bytes) {
 /// Createc: "Num.X=512", or "GainX / GainX=10" with the name of before beside the new one.
 void checkCreatecKeys(const std::string& bytes) {
   static const std::vector<std::string> kKeys = {
-      "num.x",       "num.y",       "delta x",     "delta y",     "gainx",    "gainy",    "gainz",      "xpiezoconst",
-      "ypiezoconst", "zpiezoconst", "length x[a]", "length y[a]", "dac-type", "channels", "dacto[a]xy", "dacto[a]z"};
+      "num.x",    "num.y",       "delta x",     "delta y",     "gainx",       "gainy",
+      "gainz",    "xpiezoconst", "ypiezoconst", "zpiezoconst", "length x[a]", "length y[a]",
+      "dac-type", "channels",    "dacto[a]xy",  "dacto[a]z"};
   const std::size_t data = bytes.find('\0');
   std::istringstream header(bytes.substr(0, std::min({bytes.size(), kCreatecText, data})));
   StatedOnce once;

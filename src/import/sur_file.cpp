@@ -38,8 +38,8 @@ std::string dateIn(ByteCursor numbers) {
   std::array<int, 6> part{};
   for (int& number : part) number = numbers.number<std::int16_t>();
   char text[64];
-  std::snprintf(text, sizeof text, "%04d-%02d-%02d %02d:%02d:%02d", part[5], part[4], part[3], part[2], part[1],
-                part[0]);
+  std::snprintf(text, sizeof text, "%04d-%02d-%02d %02d:%02d:%02d", part[5], part[4], part[3],
+                part[2], part[1], part[0]);
   return text;
 }
 
@@ -48,8 +48,10 @@ Header readHeader(ByteCursor& file) {
   Header header;
   const std::string code = cursor.field(12);
   header.is_compressed = code == "DSCOMPRESSED";
-  if (!header.is_compressed && code != "DIGITAL SURF") throw FileError("the .sur file has a damaged header");
-  if (cursor.number<std::int16_t>() != 0) throw FileError("a .sur file of Macintosh byte order is not read");
+  if (!header.is_compressed && code != "DIGITAL SURF")
+    throw FileError("the .sur file has a damaged header");
+  if (cursor.number<std::int16_t>() != 0)
+    throw FileError("a .sur file of Macintosh byte order is not read");
   header.objects = cursor.number<std::int16_t>();
   cursor.take(2);
   header.kind = cursor.number<std::int16_t>();
@@ -80,14 +82,16 @@ Header readHeader(ByteCursor& file) {
   header.comment = cursor.number<std::uint16_t>();
   header.hidden = cursor.number<std::uint16_t>();
   const bool is_count_right = points == 0 || points == std::int64_t{header.cols} * header.rows;
-  if (header.cols <= 0 || header.rows <= 0 || !is_count_right || (header.bits != 16 && header.bits != 32)) {
+  if (header.cols <= 0 || header.rows <= 0 || !is_count_right ||
+      (header.bits != 16 && header.bits != 32)) {
     throw FileError("the .sur file has a damaged header");
   }
   checkPixelCount(static_cast<std::uint64_t>(header.cols), static_cast<std::uint64_t>(header.rows));
   return header;
 }
 
-/// The numbers of a compressed object: a count of streams, their sizes unpacked and packed, then the streams.
+/// The numbers of a compressed object: a count of streams, their sizes unpacked and packed, then
+/// the streams.
 std::string unpacked(ByteCursor& file, std::uint64_t size) {
   const auto count = file.number<std::uint32_t>();
   ByteCursor sizes = file.array(count, 8);
@@ -113,27 +117,32 @@ std::string unpacked(ByteCursor& file, std::uint64_t size) {
 double unitOf(const std::string& text, const char* axis) {
   const auto unit = lengthUnit(text);
   if (!unit)
-    throw FileError(std::string("the .sur file states ") + axis + " in '" + shownPiece(text) + "', which is no length");
+    throw FileError(std::string("the .sur file states ") + axis + " in '" + shownPiece(text) +
+                    "', which is no length");
   return *unit;
 }
 
 /// Gwyddion writes the same two words into every file.
-bool isGwyddions(const Header& header) { return header.name == "SCRATCH" && header.operator_name == "csm"; }
+bool isGwyddions(const Header& header) {
+  return header.name == "SCRATCH" && header.operator_name == "csm";
+}
 
 /// The next object of the file.
 FileChannel readObject(ByteCursor& file, const Header& header) {
   file.take(static_cast<std::size_t>(header.comment) + static_cast<std::size_t>(header.hidden));
-  const auto points = static_cast<std::uint64_t>(header.cols) * static_cast<std::uint64_t>(header.rows);
+  const auto points =
+      static_cast<std::uint64_t>(header.cols) * static_cast<std::uint64_t>(header.rows);
   const std::uint64_t size = points * static_cast<std::uint64_t>(header.bits / 8);
-  const std::string data =
-      header.is_compressed ? unpacked(file, size) : std::string(file.take(static_cast<std::size_t>(size)), size);
+  const std::string data = header.is_compressed
+                               ? unpacked(file, size)
+                               : std::string(file.take(static_cast<std::size_t>(size)), size);
   const auto unit_z = heightUnit(header.unit_z);
   const bool is_turned = header.inversion >= 1 && header.inversion <= 3;
   const double scale = header.step_z * unit_z.value_or(1.0) * (is_turned ? -1.0 : 1.0);
   FileChannel channel;
   channel.title = header.title;
-  channel.identity =
-      identityFrom({{"Date", header.date}, {"Operator", isGwyddions(header) ? "" : header.operator_name}});
+  channel.identity = identityFrom(
+      {{"Date", header.date}, {"Operator", isGwyddions(header) ? "" : header.operator_name}});
   channel.unit_xy = "m";
   channel.unit_z = unit_z ? "m" : header.unit_z;
   channel.width = header.step_x * unitOf(header.unit_x, "x") * header.cols;
@@ -144,10 +153,12 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
   for (int i = 0; i < header.rows; ++i) {
     double* line = channel.values.ptr<double>(header.inversion == 3 ? header.rows - 1 - i : i);
     for (int j = 0; j < header.cols; ++j) {
-      const std::int64_t value = header.bits == 16 ? cursor.number<std::int16_t>() : cursor.number<std::int32_t>();
+      const std::int64_t value =
+          header.bits == 16 ? cursor.number<std::int16_t>() : cursor.number<std::int32_t>();
       const bool is_missing = header.special_points == 1 && value == missing;
       line[header.inversion == 2 ? header.cols - 1 - j : j] =
-          is_missing ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * scale;
+          is_missing ? std::numeric_limits<double>::quiet_NaN()
+                     : static_cast<double>(value) * scale;
     }
   }
   return channel;
@@ -155,7 +166,8 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
 
 /// Gwyddion calls the surfaces that it writes profiles.
 bool isSurface(const Header& header) {
-  return header.kind == kSurface || header.kind == kSurfaceSeries || header.kind == kColourSurface ||
+  return header.kind == kSurface || header.kind == kSurfaceSeries ||
+         header.kind == kColourSurface ||
          (header.kind == kProfile && header.rows > 1 && isGwyddions(header));
 }
 
@@ -166,7 +178,8 @@ std::vector<FileChannel> parseSur(const std::string& bytes) {
   std::vector<FileChannel> channels;
   Header header = readHeader(file);
   if (!isSurface(header)) {
-    throw FileError("the .sur file holds an object of kind " + std::to_string(header.kind) + ", not a surface");
+    throw FileError("the .sur file holds an object of kind " + std::to_string(header.kind) +
+                    ", not a surface");
   }
   const bool is_series = header.kind == kSurfaceSeries;
   const int objects = is_series ? std::max(1, header.objects) : 1;
@@ -176,9 +189,11 @@ std::vector<FileChannel> parseSur(const std::string& bytes) {
     channels.back().id = i;
     channels.back().takes_settings = false;
   }
-  if (header.kind == kSurface && header.objects <= 1) demandLength(".sur", bytes.size(), bytes.size() - file.size());
+  if (header.kind == kSurface && header.objects <= 1)
+    demandLength(".sur", bytes.size(), bytes.size() - file.size());
   if (is_series && channels.size() > 1) {
-    channels.front().notes.push_back("the first of " + std::to_string(channels.size()) + " surfaces of a series");
+    channels.front().notes.push_back("the first of " + std::to_string(channels.size()) +
+                                     " surfaces of a series");
   }
   return channels;
 }

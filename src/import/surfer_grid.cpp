@@ -28,7 +28,8 @@ class Numbers {
 
   void checkEnd() {
     std::string word;
-    if (words_ >> word) throw FileError("more numbers than the heading states: '" + shownPiece(word) + "'");
+    if (words_ >> word)
+      throw FileError("more numbers than the heading states: '" + shownPiece(word) + "'");
   }
 
  private:
@@ -62,7 +63,8 @@ FileChannel parseSurferGrid(const std::string& bytes) {
   for (int row = rows - 1; row >= 0; --row) {  // the lowest y comes first
     for (int col = 0; col < cols; ++col) {
       const double height = numbers.next("a height");
-      channel.values.at<double>(row, col) = height >= kBlank ? std::numeric_limits<double>::quiet_NaN() : height;
+      channel.values.at<double>(row, col) =
+          height >= kBlank ? std::numeric_limits<double>::quiet_NaN() : height;
     }
   }
   numbers.checkEnd();

@@ -53,8 +53,9 @@ class CellReader {
   TextCells finish(std::size_t cols, std::size_t rows) {
     cells_.cols = cols;
     cells_.rows = rows;
-    cells_.is_last_shorter = has_previous_ && (last_.length < least_.length || last_.decimals < least_.decimals ||
-                                               last_.exponent < least_.exponent);
+    cells_.is_last_shorter =
+        has_previous_ && (last_.length < least_.length || last_.decimals < least_.decimals ||
+                          last_.exponent < least_.exponent);
     return std::move(cells_);
   }
 
@@ -73,7 +74,8 @@ class CellReader {
       if (is_last && style_.has_end && !is_open) return;
       if (is_open || is_last) {
         throw FileError(lineName(line) + "an empty cell between tabs, column " +
-                        std::to_string(column + (is_open ? 0 : 1)) + ": write nan for missing values");
+                        std::to_string(column + (is_open ? 0 : 1)) +
+                        ": write nan for missing values");
       }
       is_open = true;
       ++column;
@@ -102,7 +104,8 @@ class CellReader {
   TextStyle style_;
   TextCells cells_;
   NumberShape last_;
-  NumberShape least_{std::string::npos, std::string::npos, std::string::npos};  ///< of those before the last
+  NumberShape least_{std::string::npos, std::string::npos,
+                     std::string::npos};  ///< of those before the last
   bool has_last_ = false, has_previous_ = false;
 };
 

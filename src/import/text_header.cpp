@@ -45,7 +45,8 @@ char decimalMarkOf(const std::string& number, const Marks& marks) {
   if (comma != MarkUse::kEither && point != MarkUse::kEither) return '.';
   if (marks.decimal != '\0') return marks.decimal;
   if ((comma == MarkUse::kEither) == (marks.of_data == ',')) return marks.of_data;
-  throw FileError("'" + shownPiece(number) + "' has a mark that may be decimal or group thousands: write the length " +
+  throw FileError("'" + shownPiece(number) +
+                  "' has a mark that may be decimal or group thousands: write the length " +
                   "without groups and with a decimal point, as 1.2 or 1200");
 }
 
@@ -53,7 +54,8 @@ char decimalMarkOf(const std::string& number, const Marks& marks) {
 double lengthOf(const std::string& value, const Marks& marks) {
   const std::size_t end = markedNumberEnd(value);
   const std::string number = value.substr(0, end);
-  const auto stated = statedLength(withPlainMarks(number, decimalMarkOf(number, marks)) + value.substr(end));
+  const auto stated =
+      statedLength(withPlainMarks(number, decimalMarkOf(number, marks)) + value.substr(end));
   if (!stated) throw FileError("'" + shownPiece(value) + "' is not a length");
   if (stated->unit.empty()) return 0.0;
   const auto unit = lengthUnit(stated->unit);
@@ -71,8 +73,8 @@ bool splitKey(const std::string& text, std::string& key, std::string& value) {
   if (at == std::string::npos) return false;
   key = lowered(text.substr(0, at));
   value = bareText(text.substr(at));
-  return isOneOf(key,
-                 {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner", "xllcenter", "yllcenter"});
+  return isOneOf(key, {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner",
+                       "xllcenter", "yllcenter"});
 }
 
 /// "x [nm]", "X/um", "x_nm"
@@ -120,25 +122,30 @@ struct PointHeading {
   std::string unit_z;    ///< as it is spelt; empty = none
 };
 
-/// Units stand in brackets, or behind "/" or "_". None if the line does not name the columns x, y and z.
-/// @throw FileError without a file name for columns in another order, and for units that some of them lack
+/// Units stand in brackets, or behind "/" or "_". None if the line does not name the columns x, y
+/// and z.
+/// @throw FileError without a file name for columns in another order, and for units that some of
+/// them lack
 std::optional<PointHeading> pointHeading(const std::string& text) {
   std::string axes;
   const std::vector<PointColumn> columns = pointColumns(text);
   for (const PointColumn& column : columns) axes += column.axis;
   const auto is_axis = [&axes](char axis) { return axes.find(axis) < 3; };
   if (!is_axis('x') || !is_axis('y') || !is_axis('z')) return std::nullopt;
-  if (!startsWith(axes, "xyz")) throw FileError("the columns of a list must be x, y and z, in this order");
+  if (!startsWith(axes, "xyz"))
+    throw FileError("the columns of a list must be x, y and z, in this order");
   const std::string& unit_z = columns[2].unit;
   if (columns[0].unit.empty() && columns[1].unit.empty() && unit_z.empty()) return PointHeading();
   const auto unit = lengthUnit(columns[0].unit);
   if (!unit || lengthUnit(columns[1].unit) != unit || unit_z.empty()) {
-    throw FileError("x and y must have one unit of length, and z its own: write x [nm], y [nm], z [nm]");
+    throw FileError(
+        "x and y must have one unit of length, and z its own: write x [nm], y [nm], z [nm]");
   }
   return PointHeading{*unit, unit_z};
 }
 
-/// @return false if the text does not name the columns of a list. A comment does so if it states their units
+/// @return false if the text does not name the columns of a list. A comment does so if it states
+/// their units
 bool readPointHeading(const std::string& text, bool is_comment, TextHeader& header) {
   const auto stated = pointHeading(text);
   if (!stated || (is_comment && stated->unit_xy == 0.0)) return false;
@@ -148,7 +155,8 @@ bool readPointHeading(const std::string& text, bool is_comment, TextHeader& head
   return true;
 }
 
-/// WSxM writes two lines before its texts, "WSxM file copyright UAM" and "WSxM ASCII XYZ file" or "WSxM ASCII Matrix file".
+/// WSxM writes two lines before its texts, "WSxM file copyright UAM" and "WSxM ASCII XYZ file" or
+/// "WSxM ASCII Matrix file".
 bool readWsxmLine(const std::string& text, TextHeader& header) {
   if (startsWith(text, "WSxM file copyright") || startsWith(text, "WSxM ASCII Matrix")) return true;
   if (!startsWith(text, "WSxM ASCII XYZ")) return false;
@@ -157,13 +165,14 @@ bool readWsxmLine(const std::string& text, TextHeader& header) {
 }
 
 /// A side of the image or of a pixel. A number without a unit does not count, and is said.
-void readLength(const std::string& value, const std::string& what, const Marks& marks, double& field,
-                TextHeader& header) {
+void readLength(const std::string& value, const std::string& what, const Marks& marks,
+                double& field, TextHeader& header) {
   const double length = lengthOf(value, marks);
   if (length > 0.0) {
     state(field, length, what);
   } else {
-    header.notes.push_back("the " + what + " '" + shownPiece(value) + "' has no unit and does not count");
+    header.notes.push_back("the " + what + " '" + shownPiece(value) +
+                           "' has no unit and does not count");
   }
 }
 
@@ -172,7 +181,8 @@ bool readCounts(const std::string& text, TextHeader& header) {
   const std::vector<std::string> words = cellsOf(text, ' ');
   if (words.size() != 2 || words[0][0] == words[1][0]) return false;
   for (const std::string& word : words) {
-    const bool is_count = word.size() > 2 && word.size() < 12 && (word[0] == 'h' || word[0] == 'w') && word[1] == '=' &&
+    const bool is_count = word.size() > 2 && word.size() < 12 &&
+                          (word[0] == 'h' || word[0] == 'w') && word[1] == '=' &&
                           word.find_first_not_of("0123456789", 2) == std::string::npos;
     if (!is_count) return false;
   }
@@ -184,17 +194,22 @@ bool readCounts(const std::string& text, TextHeader& header) {
 }
 
 /// The unit of "Z Amplitude: 25 nm", WSxM's: that of its numbers.
-std::string unitOfAmplitude(const std::string& value) { return bareText(value.substr(markedNumberEnd(value))); }
+std::string unitOfAmplitude(const std::string& value) {
+  return bareText(value.substr(markedNumberEnd(value)));
+}
 
 constexpr char kFactor[] = "height conversion factor (->";
 
-/// "height conversion factor (-> m)=6.3e-8": what makes lengths of numbers in another unit, as radians of a phase.
-void readFactor(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
+/// "height conversion factor (-> m)=6.3e-8": what makes lengths of numbers in another unit, as
+/// radians of a phase.
+void readFactor(const std::string& key, const std::string& value, const Marks& marks,
+                TextHeader& header) {
   const std::string unit = trimmed(key.substr(sizeof kFactor - 1), " \t)");
   if (!lengthUnit(unit)) throw FileError("'" + shownPiece(unit) + "' is not a unit of length");
   const std::size_t end = markedNumberEnd(value);
   double factor = 0.0;
-  if (end > 0 && end == value.size()) factor = plainNumber(withPlainMarks(value, decimalMarkOf(value, marks)));
+  if (end > 0 && end == value.size())
+    factor = plainNumber(withPlainMarks(value, decimalMarkOf(value, marks)));
   if (!(factor > 0.0) || !std::isfinite(factor)) {
     throw FileError("the height conversion factor '" + shownPiece(value) + "' is not a number > 0");
   }
@@ -203,7 +218,8 @@ void readFactor(const std::string& key, const std::string& value, const Marks& m
 }
 
 /// @return true if the key is known
-bool readEntry(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
+bool readEntry(const std::string& key, const std::string& value, const Marks& marks,
+               TextHeader& header) {
   const auto count = [&value] { return headingCount(value); };
   const HeadingWord word = headingWord(key);
   if (word == HeadingWord::kWidth) {
@@ -211,7 +227,8 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
   } else if (word == HeadingWord::kHeight) {
     readLength(value, "height", marks, header.height, header);
   } else if (word == HeadingWord::kUnitZ && value.empty()) {
-    header.unit_doubt = "'" + shownPiece(key) + "' of the heading is empty: its numbers have no unit";
+    header.unit_doubt =
+        "'" + shownPiece(key) + "' of the heading is empty: its numbers have no unit";
   } else if (word == HeadingWord::kUnitZ) {
     stateText(header.unit_z, value, "unit of the heights");
   } else if (startsWith(key, kFactor)) {
@@ -237,7 +254,8 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
   } else if (isOneOf(key, {"pitch_y", "scale y"})) {
     readLength(value, "pitch of rows", marks, header.pitch_y, header);
   } else if (key == "cellsize") {
-    header.notes.push_back("the cell size " + shownPiece(value) + " has no unit and does not count");
+    header.notes.push_back("the cell size " + shownPiece(value) +
+                           " has no unit and does not count");
   } else if (key == "nodata_value") {
     const double missing = plainNumber(value);
     if (header.missing_value) state(*header.missing_value, missing, "missing value");
@@ -252,7 +270,8 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
 bool readNameAndUnit(const std::string& text, TextHeader& header) {
   if (text.empty()) return false;
   const std::size_t open = text.find_first_of("([");
-  const bool is_named = open != std::string::npos && open > 0 && (text.back() == ')' || text.back() == ']') &&
+  const bool is_named = open != std::string::npos && open > 0 &&
+                        (text.back() == ')' || text.back() == ']') &&
                         text.find_first_of("([", open + 1) == std::string::npos &&
                         text.find_first_of("\t,;:=") == std::string::npos;
   if (!is_named) return false;
@@ -275,8 +294,10 @@ char headingMark(const std::vector<TextLine>& heading) {
     const std::size_t end = markedNumberEnd(value);
     if (end == 0 || !lengthUnit(value.substr(end))) continue;
     const std::string number = value.substr(0, end);
-    const bool is_comma = markUse(number, ',') == MarkUse::kDecimal || markUse(number, '.') == MarkUse::kGroups;
-    const bool is_point = markUse(number, '.') == MarkUse::kDecimal || markUse(number, ',') == MarkUse::kGroups;
+    const bool is_comma =
+        markUse(number, ',') == MarkUse::kDecimal || markUse(number, '.') == MarkUse::kGroups;
+    const bool is_point =
+        markUse(number, '.') == MarkUse::kDecimal || markUse(number, ',') == MarkUse::kGroups;
     has_comma = has_comma || is_comma;
     has_point = has_point || is_point;
   }
@@ -306,9 +327,10 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
     }
     if (!is_comment) {
       const std::string word = text.substr(0, text.find_first_of(" \t,;"));
-      throw FileError(where + "'" + shownPiece(word) +
-                      "' is not a number, column 1, and begins no known heading: keep the numbers, " +
-                      "and state \"# Width: 2 um\", \"# Height: 2 um\" and \"# Value units: nm\"");
+      throw FileError(
+          where + "'" + shownPiece(word) +
+          "' is not a number, column 1, and begins no known heading: keep the numbers, " +
+          "and state \"# Width: 2 um\", \"# Height: 2 um\" and \"# Value units: nm\"");
     }
     remarks.read(where, text, value);
   }
@@ -324,8 +346,8 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
   TextHeader of_title;
   if (header.unit_doubt.empty() && readNameAndUnit(header.title, of_title)) {
     header.unit_doubt = "the channel is named '" + shownPiece(header.title) +
-                        "' and the heading states no unit of its numbers: state \"# Value units: " + of_title.unit_z +
-                        "\"";
+                        "' and the heading states no unit of its numbers: state \"# Value units: " +
+                        of_title.unit_z + "\"";
   }
   if (!remarks.side.empty()) header.notes.push_back(remarks.side);
   return header;

@@ -41,10 +41,12 @@ std::string fromUtf16(const std::string& bytes, bool is_big_endian) {
 std::string decoded(const std::string& bytes) {
   if (startsWith(bytes, "\xEF\xBB\xBF")) return bytes.substr(3);
   const bool is_wide = bytes.size() >= 4;
-  if (startsWith(bytes, "\xFF\xFE") || (is_wide && bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0)) {
+  if (startsWith(bytes, "\xFF\xFE") ||
+      (is_wide && bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0)) {
     return fromUtf16(bytes, false);
   }
-  if (startsWith(bytes, "\xFE\xFF") || (is_wide && bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0 && bytes[3] != 0)) {
+  if (startsWith(bytes, "\xFE\xFF") ||
+      (is_wide && bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0 && bytes[3] != 0)) {
     return fromUtf16(bytes, true);
   }
   return bytes;
@@ -57,11 +59,13 @@ std::string wordFrom(const std::string& text, std::size_t at, const char* separa
   return text.substr(at, std::min(text.find_first_of(separators, at), text.size()) - at);
 }
 
-/// Where the comment begins; the size of the text if there is none. "#N/A" of spreadsheets is a cell.
+/// Where the comment begins; the size of the text if there is none. "#N/A" of spreadsheets is a
+/// cell.
 std::size_t commentStart(const std::string& text) {
   for (std::size_t at = 0; at < text.size(); ++at) {
     if (text[at] != '#' && text[at] != '%') continue;
-    if ((at == 0 || isBlank(text[at - 1])) && !isMissingWord(wordFrom(text, at, " \t\r,;"))) return at;
+    if ((at == 0 || isBlank(text[at - 1])) && !isMissingWord(wordFrom(text, at, " \t\r,;")))
+      return at;
   }
   return text.size();
 }
@@ -75,7 +79,9 @@ std::string withoutBlanks(const std::string& text) {
   return text.substr(begin, end - begin);
 }
 
-bool isEmpty(const std::string& text) { return text.find_first_not_of(" \t\r\f\v") == std::string::npos; }
+bool isEmpty(const std::string& text) {
+  return text.find_first_not_of(" \t\r\f\v") == std::string::npos;
+}
 
 /// A letter that does not begin "nan", "inf" or another word for no number.
 bool isHeading(const std::string& text) {
@@ -84,7 +90,8 @@ bool isHeading(const std::string& text) {
   const auto first = static_cast<unsigned char>(text[at]);
   if (first >= 0x80 || first == '[' || first == '(') return true;
   if (std::isalpha(first) == 0) return false;
-  if (isMissingWord(wordFrom(text, at, " \t,;")) || isMissingWord(wordFrom(text, at, "\t,;"))) return false;
+  if (isMissingWord(wordFrom(text, at, " \t,;")) || isMissingWord(wordFrom(text, at, "\t,;")))
+    return false;
   const std::string start = lowered(text.substr(at, 3));
   return start != "nan" && start != "inf";
 }
@@ -99,8 +106,9 @@ void joinNoData(std::string& text) {
 
 /// Signs that may group thousands: seldom, so that nothing is copied for the lines without.
 bool hasSignsBeyondNumbers(const std::string& text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](char c) { return c == '\'' || c == '_' || static_cast<unsigned char>(c) >= 0x80; });
+  return std::any_of(text.begin(), text.end(), [](char c) {
+    return c == '\'' || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+  });
 }
 
 }  // namespace
@@ -120,10 +128,10 @@ TextLines textLines(const std::string& bytes) {
     at = end + 1;
     ++number;
     if (line.find('\0') != std::string::npos) {
-      throw FileError(
-          "line " + std::to_string(number) +
-          ": binary data where numbers are expected: damaged, or a scan of another format, which needs that "
-          "format's file name extension");
+      throw FileError("line " + std::to_string(number) +
+                      ": binary data where numbers are expected: damaged, or a scan of another "
+                      "format, which needs that "
+                      "format's file name extension");
     }
     const std::size_t comment = commentStart(line);
     std::string content = withoutBlanks(line.substr(0, comment));
@@ -134,7 +142,8 @@ TextLines textLines(const std::string& bytes) {
     }
     if (isEmpty(content)) {
       begins_block = true;
-      if (comment < line.size()) lines.heading.push_back({number, toUtf8(withoutBlanks(line.substr(comment)))});
+      if (comment < line.size())
+        lines.heading.push_back({number, toUtf8(withoutBlanks(line.substr(comment)))});
     } else if (lines.data.empty() && isHeading(content)) {
       lines.heading.push_back({number, toUtf8(content)});
     } else {

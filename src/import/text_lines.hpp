@@ -19,14 +19,15 @@ std::string lineName(const TextLine& line);
 
 /// The lines of a file, heading and data apart.
 struct TextLines {
-  std::vector<TextLine> heading;    ///< comments, and lines before the data that begin with a letter
-  std::vector<TextLine> data;       ///< lines that begin with a number, a delimiter or a quote
-  std::vector<std::size_t> blocks;  ///< where in `data` a block begins: after an empty line or a comment
+  std::vector<TextLine> heading;  ///< comments, and lines before the data that begin with a letter
+  std::vector<TextLine> data;     ///< lines that begin with a number, a delimiter or a quote
+  std::vector<std::size_t>
+      blocks;  ///< where in `data` a block begins: after an empty line or a comment
   bool ends_with_line_end = true;
 };
 
-/// UTF-8 with or without byte order mark, UTF-16, or bytes of a Western code page. '#' and '%' begin a comment, at the
-/// start of a line or after a blank.
+/// UTF-8 with or without byte order mark, UTF-16, or bytes of a Western code page. '#' and '%'
+/// begin a comment, at the start of a line or after a blank.
 /// @throw FileError without a file name, with the line, for binary data.
 TextLines textLines(const std::string& bytes);
 

@@ -13,7 +13,8 @@ bool isSpaceOrTab(char c) { return c == ' ' || c == '\t'; }
 bool isQuote(char c) { return c == '"' || c == '\''; }
 
 const std::string kBlankAdvice =
-    "the blanks separate numbers, or they group thousands: write numbers without groups, or separate by semicolons";
+    "the blanks separate numbers, or they group thousands: write numbers without groups, or "
+    "separate by semicolons";
 
 /// What stands between the numbers of a file, gathered over all lines.
 struct Signs {
@@ -25,7 +26,9 @@ struct Signs {
 
 void gather(const TextLine& line, Signs& signs) {
   const std::string& text = line.text;
-  const auto is_digit = [&text](std::size_t i) { return std::isdigit(static_cast<unsigned char>(text[i])) != 0; };
+  const auto is_digit = [&text](std::size_t i) {
+    return std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
   bool is_quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -45,7 +48,8 @@ void gather(const TextLine& line, Signs& signs) {
     if (isSpaceOrTab(c)) {
       const std::size_t next = text.find_first_not_of(" \t", i);
       const bool is_inside = i > 0 && next != std::string::npos;
-      if (is_inside && text[i - 1] != ',' && text[i - 1] != ';' && text[next] != ',' && text[next] != ';') {
+      if (is_inside && text[i - 1] != ',' && text[i - 1] != ';' && text[next] != ',' &&
+          text[next] != ';') {
         signs.bare_gap = &line;
       }
       i = std::min(next, text.size()) - 1;
@@ -53,7 +57,8 @@ void gather(const TextLine& line, Signs& signs) {
   }
 }
 
-/// Cells between commas that look like the two halves of numbers with decimal commas: "0,437,1,041".
+/// Cells between commas that look like the two halves of numbers with decimal commas:
+/// "0,437,1,041".
 bool looksHalved(const std::vector<TextLine>& lines) {
   std::size_t digits = 0;  // of every second cell, as long as all are the same
   bool is_first_different = false;
@@ -63,7 +68,8 @@ bool looksHalved(const std::vector<TextLine>& lines) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       std::string cell = unquoted(line.text, pieces[i]);
       cell.erase(std::min(cell.find_first_of("eE"), cell.size()));
-      const bool is_unsigned = !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
+      const bool is_unsigned =
+          !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
       if (is_unsigned && cell.size() > 1 && cell[0] == '0') return true;
       if (i % 2 == 0) {
         if (cell.size() != digits) is_first_different = true;
@@ -98,7 +104,8 @@ std::size_t countOfJoined(const std::string& text, char separator) {
     const bool is_near = separator != ' ' || (piece.begin == last_end + 1 && text[last_end] == ' ');
     const std::size_t digits = std::min(cell.find_first_not_of("0123456789"), cell.size());
     const bool is_whole = digits == cell.size();
-    if (is_open && is_near && digits == 3 && (is_whole || marks.find(cell[digits]) != std::string::npos)) {
+    if (is_open && is_near && digits == 3 &&
+        (is_whole || marks.find(cell[digits]) != std::string::npos)) {
       is_open = is_whole;
     } else {
       ++count;
@@ -109,12 +116,14 @@ std::size_t countOfJoined(const std::string& text, char separator) {
   return count;
 }
 
-/// Every line has the same number of cells, 2 or more, if its groups of three digits are joined: "1,500,-2,250".
+/// Every line has the same number of cells, 2 or more, if its groups of three digits are joined:
+/// "1,500,-2,250".
 bool looksGrouped(const std::vector<TextLine>& lines, char separator) {
   std::size_t cols = 0;
   for (const TextLine& line : lines) {
     const std::size_t joined = countOfJoined(line.text, separator);
-    if (joined == piecesOf(line.text, separator).size() || (cols != 0 && joined != cols)) return false;
+    if (joined == piecesOf(line.text, separator).size() || (cols != 0 && joined != cols))
+      return false;
     cols = joined;
   }
   return cols > 1;
@@ -141,7 +150,8 @@ char decimalOf(const std::vector<TextLine>& lines, char mark, char hint, TextSty
   if (has_groups) return other(mark);
   if (line_of_either == nullptr) return mark;
   if (hint != '\0') return hint;
-  if (mark == ',' || style.separator == ';') throw FileError(lineName(*line_of_either) + ambiguousMark(either));
+  if (mark == ',' || style.separator == ';')
+    throw FileError(lineName(*line_of_either) + ambiguousMark(either));
   style.guess = either;
   return mark;
 }
@@ -154,12 +164,14 @@ void joinInCells(std::vector<TextLine>& lines, bool is_sure) {
     const std::string& text = line.text;
     for (std::size_t i = text.find(' '); i != std::string::npos; i = text.find(' ', i + 1)) {
       const std::string separators = " \t;,";
-      const bool is_inside = i > 0 && i + 1 < text.size() && separators.find(text[i - 1]) == std::string::npos &&
+      const bool is_inside = i > 0 && i + 1 < text.size() &&
+                             separators.find(text[i - 1]) == std::string::npos &&
                              separators.find(text[i + 1]) == std::string::npos;
       if (!is_inside) continue;
       if (!isGroupBlank(text, i)) return;
       has_groups = true;
-      const bool has_decimals = i + 4 < text.size() && (text[i + 4] == '.' || text[i + 4] == ',' || text[i + 4] == ' ');
+      const bool has_decimals =
+          i + 4 < text.size() && (text[i + 4] == '.' || text[i + 4] == ',' || text[i + 4] == ' ');
       if (!has_decimals) whole = &line;
     }
   }
@@ -182,9 +194,10 @@ std::vector<TextPiece> piecesOf(const std::string& text, char separator) {
   char quote = '\0';
   for (std::size_t i = 0; i <= text.size(); ++i) {
     const bool is_end = i == text.size();
-    if (!is_end && isQuote(text[i]) && (quote == '\0' || quote == text[i])) quote = quote == '\0' ? text[i] : '\0';
-    const bool separates =
-        !is_end && quote == '\0' && (separator == ' ' ? isSpaceOrTab(text[i]) : text[i] == separator);
+    if (!is_end && isQuote(text[i]) && (quote == '\0' || quote == text[i]))
+      quote = quote == '\0' ? text[i] : '\0';
+    const bool separates = !is_end && quote == '\0' &&
+                           (separator == ' ' ? isSpaceOrTab(text[i]) : text[i] == separator);
     if (!is_end && !separates) continue;
     piece.end = i;
     while (piece.begin < piece.end && isSpaceOrTab(text[piece.begin])) ++piece.begin;
@@ -207,8 +220,9 @@ std::string unquoted(const std::string& text, const TextPiece& piece) {
 
 void joinThousands(std::vector<TextLine>& lines) {
   const auto all_have = [&lines](char sign) {
-    return std::all_of(lines.begin(), lines.end(),
-                       [sign](const TextLine& line) { return line.text.find(sign) != std::string::npos; });
+    return std::all_of(lines.begin(), lines.end(), [sign](const TextLine& line) {
+      return line.text.find(sign) != std::string::npos;
+    });
   };
   if (all_have(';')) {
     joinInCells(lines, true);
@@ -228,24 +242,30 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
     style.separator = ';';
   } else if (signs.tight_comma != nullptr && signs.bare_gap != nullptr) {
     if (signs.loose_comma != nullptr) {
-      throw FileError(lineName(*signs.loose_comma) + "commas and blanks both stand between the numbers: " + advice);
+      throw FileError(lineName(*signs.loose_comma) +
+                      "commas and blanks both stand between the numbers: " + advice);
     }
   } else if (signs.comma) {
     style.separator = ',';
     const bool is_halved =
-        !signs.point && ((signs.tight_comma != nullptr && signs.loose_comma != nullptr) || looksHalved(lines));
-    if (!signs.quoted_comma && (stated == ',' || (stated == '\0' && (is_halved || looksGrouped(lines, ','))))) {
-      throw FileError(lineName(lines.front()) +
-                      "the commas separate numbers, or they are decimal commas or group thousands: " + advice +
-                      " and no other, or separate by semicolons; decimal_mark: point in the sidecar (SCAN.yaml) says "
-                      "that they separate");
+        !signs.point &&
+        ((signs.tight_comma != nullptr && signs.loose_comma != nullptr) || looksHalved(lines));
+    if (!signs.quoted_comma &&
+        (stated == ',' || (stated == '\0' && (is_halved || looksGrouped(lines, ','))))) {
+      throw FileError(
+          lineName(lines.front()) +
+          "the commas separate numbers, or they are decimal commas or group thousands: " + advice +
+          " and no other, or separate by semicolons; decimal_mark: point in the sidecar "
+          "(SCAN.yaml) says "
+          "that they separate");
     }
   }
   const bool has_comma = signs.quoted_comma || (signs.comma && style.separator != ',');
   if (stated != '\0') {
     style.decimal = stated;
   } else if (has_comma && signs.point) {
-    throw FileError(lineName(lines.front()) + "points and decimal commas both stand inside numbers: " + advice +
+    throw FileError(lineName(lines.front()) +
+                    "points and decimal commas both stand inside numbers: " + advice +
                     " and no other, or state decimal_mark in the sidecar (SCAN.yaml)");
   } else if (has_comma || (signs.point && style.separator != ',')) {
     style.decimal = decimalOf(lines, has_comma ? ',' : '.', hint, style);

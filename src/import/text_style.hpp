@@ -15,7 +15,8 @@ struct TextStyle {
   char separator = ' ';  ///< ',' or ';'; ' ' is blanks and tabs
   char decimal = '.';    ///< or ','; the other one groups thousands
   bool has_end = false;  ///< every line ends with a separator, which begins no cell
-  std::string guess;     ///< a number whose point may group thousands, as that of every other number; empty = sure
+  std::string guess;  ///< a number whose point may group thousands, as that of every other number;
+                      ///< empty = sure
 };
 
 /// A piece of a line between separators.
@@ -23,7 +24,8 @@ struct TextPiece {
   std::size_t begin = 0, end = 0;
 };
 
-/// Pieces between separators outside quotes, without the blanks around them. For blanks as separator none is empty.
+/// Pieces between separators outside quotes, without the blanks around them. For blanks as
+/// separator none is empty.
 std::vector<TextPiece> piecesOf(const std::string& text, char separator);
 
 /// The piece without the quotes around it.
@@ -33,7 +35,8 @@ std::string unquoted(const std::string& text, const TextPiece& piece);
 /// @throw FileError without a file name, with a line, where the blanks may part numbers as well.
 void joinThousands(std::vector<TextLine>& lines);
 
-/// The style that fits every line. A comma between two digits is decimal if other characters separate the cells.
+/// The style that fits every line. A comma between two digits is decimal if other characters
+/// separate the cells.
 /// - @p stated the decimal sign, '.' or ','; 0 = not stated
 /// - @p hint the decimal sign of other numbers in the file, for marks that may be either; 0 = none
 /// @throw FileError without a file name, with a line, where two readings are possible.

@@ -29,7 +29,8 @@ tmsize_t readSource(thandle_t handle, void* buffer, tmsize_t size) {
   auto& source = *static_cast<Source*>(handle);
   const std::uint64_t left = source.at < source.bytes.size() ? source.bytes.size() - source.at : 0;
   const auto count = static_cast<std::size_t>(std::min(left, static_cast<std::uint64_t>(size)));
-  std::memcpy(buffer, source.bytes.data() + std::min<std::uint64_t>(source.at, source.bytes.size()), count);
+  std::memcpy(buffer, source.bytes.data() + std::min<std::uint64_t>(source.at, source.bytes.size()),
+              count);
   source.at += count;
   return static_cast<tmsize_t>(count);
 }
@@ -59,7 +60,8 @@ std::string textTag(TIFF* tiff, ttag_t name) {
   return TIFFGetField(tiff, name, &text) == 1 && text != nullptr ? text : "";
 }
 
-/// A tag that libtiff does not know comes with a count, unless another library of this process has introduced it.
+/// A tag that libtiff does not know comes with a count, unless another library of this process has
+/// introduced it.
 std::string privateTextTag(TIFF* tiff, ttag_t name) {
   const TIFFField* field = TIFFFindField(tiff, name, TIFF_ASCII);
   if (field == nullptr) return "";
@@ -86,20 +88,22 @@ Layout layoutOf(TIFF* tiff) {
   layout.bits = tag<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1);
   layout.samples = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
   layout.format = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
-  layout.is_separate = tag<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+  layout.is_separate =
+      tag<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
   checkPixelCount(layout.cols, layout.rows);
   const bool is_float = layout.format == SAMPLEFORMAT_IEEEFP;
-  const bool is_integer =
-      layout.format == SAMPLEFORMAT_UINT || layout.format == SAMPLEFORMAT_INT || layout.format == SAMPLEFORMAT_VOID;
-  if ((is_float && layout.bits != 16 && layout.bits != 32 && layout.bits != 64) || (is_integer && layout.bits > 32) ||
-      (!is_float && !is_integer)) {
+  const bool is_integer = layout.format == SAMPLEFORMAT_UINT || layout.format == SAMPLEFORMAT_INT ||
+                          layout.format == SAMPLEFORMAT_VOID;
+  if ((is_float && layout.bits != 16 && layout.bits != 32 && layout.bits != 64) ||
+      (is_integer && layout.bits > 32) || (!is_float && !is_integer)) {
     throw FileError("pixels of " + std::to_string(layout.bits) + " bits of sample format " +
                     std::to_string(layout.format) + " are not read");
   }
   return layout;
 }
 
-/// The page's type in OpenCV: the smallest that ScanOptions scale and that shows every value, else double.
+/// The page's type in OpenCV: the smallest that ScanOptions scale and that shows every value, else
+/// double.
 int typeOf(const Layout& layout) {
   const bool is_signed = layout.format == SAMPLEFORMAT_INT;
   int depth = CV_64F;
@@ -113,7 +117,8 @@ int typeOf(const Layout& layout) {
   return CV_MAKETYPE(depth, layout.samples);
 }
 
-/// Sample `index` of a line in the machine's byte order, packed without gaps from the highest bit on.
+/// Sample `index` of a line in the machine's byte order, packed without gaps from the highest bit
+/// on.
 double sampleAt(const unsigned char* line, std::size_t index, const Layout& layout) {
   const auto as = [line, index](auto number) {
     std::memcpy(&number, line + index * sizeof number, sizeof number);
@@ -124,17 +129,21 @@ double sampleAt(const unsigned char* line, std::size_t index, const Layout& layo
     return layout.bits == 32 ? static_cast<double>(as(float{})) : as(double{});
   }
   const bool is_signed = layout.format == SAMPLEFORMAT_INT;
-  if (layout.bits == 8) return is_signed ? static_cast<double>(as(std::int8_t{})) : as(std::uint8_t{});
-  if (layout.bits == 16) return is_signed ? static_cast<double>(as(std::int16_t{})) : as(std::uint16_t{});
-  if (layout.bits == 32) return is_signed ? static_cast<double>(as(std::int32_t{})) : as(std::uint32_t{});
+  if (layout.bits == 8)
+    return is_signed ? static_cast<double>(as(std::int8_t{})) : as(std::uint8_t{});
+  if (layout.bits == 16)
+    return is_signed ? static_cast<double>(as(std::int16_t{})) : as(std::uint16_t{});
+  if (layout.bits == 32)
+    return is_signed ? static_cast<double>(as(std::int32_t{})) : as(std::uint32_t{});
   std::uint64_t value = 0;
   const std::size_t first = index * static_cast<std::size_t>(layout.bits);
   for (std::size_t bit = first; bit < first + static_cast<std::size_t>(layout.bits); ++bit) {
     value = value << 1 | (line[bit / 8] >> (7 - bit % 8) & 1u);
   }
   const std::uint64_t sign = std::uint64_t{1} << (layout.bits - 1);
-  return is_signed && (value & sign) != 0 ? static_cast<double>(value) - 2.0 * static_cast<double>(sign)
-                                          : static_cast<double>(value);
+  return is_signed && (value & sign) != 0
+             ? static_cast<double>(value) - 2.0 * static_cast<double>(sign)
+             : static_cast<double>(value);
 }
 
 void setSample(cv::Mat& pixels, int row, int index, double value) {
@@ -157,8 +166,8 @@ void setSample(cv::Mat& pixels, int row, int index, double value) {
 }
 
 /// One rectangle of decoded samples into the page.
-void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& layout, const cv::Rect& place, int sample,
-            cv::Mat& pixels) {
+void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& layout,
+            const cv::Rect& place, int sample, cv::Mat& pixels) {
   const int in_line = layout.is_separate ? 1 : layout.samples;
   const int last_row = std::min(place.y + place.height, pixels.rows);
   const int last_col = std::min(place.x + place.width, pixels.cols);
@@ -167,45 +176,51 @@ void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& lay
     for (int col = place.x; col < last_col; ++col) {
       for (int i = 0; i < in_line; ++i) {
         const auto index =
-            static_cast<std::size_t>(col - place.x) * static_cast<std::size_t>(in_line) + static_cast<std::size_t>(i);
+            static_cast<std::size_t>(col - place.x) * static_cast<std::size_t>(in_line) +
+            static_cast<std::size_t>(i);
         setSample(pixels, row, col * layout.samples + sample + i, sampleAt(line, index, layout));
       }
     }
   }
 }
 
-/// Without compression the bytes of a page follow from its size: where they are others, size or bits are damaged. Strips
-/// and tiles may be padded by a line.
+/// Without compression the bytes of a page follow from its size: where they are others, size or
+/// bits are damaged. Strips and tiles may be padded by a line.
 void checkByteCount(TIFF* tiff, const Layout& layout, std::uint64_t line_bytes) {
-  if (tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE || TIFFIsTiled(tiff) != 0) {
+  if (tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE ||
+      TIFFIsTiled(tiff) != 0) {
     return;
   }
   const std::uint32_t strips = TIFFNumberOfStrips(tiff);
   std::uint64_t stated = 0;
-  for (std::uint32_t strip = 0; strip < strips; ++strip) stated += TIFFGetStrileByteCount(tiff, strip);
-  const std::uint64_t needed =
-      line_bytes * layout.rows * static_cast<std::uint64_t>(layout.is_separate ? layout.samples : 1);
+  for (std::uint32_t strip = 0; strip < strips; ++strip)
+    stated += TIFFGetStrileByteCount(tiff, strip);
+  const std::uint64_t needed = line_bytes * layout.rows *
+                               static_cast<std::uint64_t>(layout.is_separate ? layout.samples : 1);
   if (stated > needed + line_bytes * strips) {
-    throw FileError("a page states " + std::to_string(stated) + " bytes of pixels, its size needs " +
-                    std::to_string(needed) + ": damaged");
+    throw FileError("a page states " + std::to_string(stated) +
+                    " bytes of pixels, its size needs " + std::to_string(needed) + ": damaged");
   }
 }
 
 cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
-  const std::string damaged = "the image cannot be read: cut off, damaged, or of a compression that libtiff lacks";
+  const std::string damaged =
+      "the image cannot be read: cut off, damaged, or of a compression that libtiff lacks";
   const bool is_tiled = TIFFIsTiled(tiff) != 0;
   const tmsize_t size = is_tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff);
   const tmsize_t line_bytes = is_tiled ? TIFFTileRowSize(tiff) : TIFFScanlineSize(tiff);
-  const std::uint32_t high = is_tiled
-                                 ? tag<std::uint32_t>(tiff, TIFFTAG_TILELENGTH, 0)
-                                 : std::min(tag<std::uint32_t>(tiff, TIFFTAG_ROWSPERSTRIP, layout.rows), layout.rows);
-  const std::uint32_t wide = is_tiled ? tag<std::uint32_t>(tiff, TIFFTAG_TILEWIDTH, 0) : layout.cols;
+  const std::uint32_t high =
+      is_tiled ? tag<std::uint32_t>(tiff, TIFFTAG_TILELENGTH, 0)
+               : std::min(tag<std::uint32_t>(tiff, TIFFTAG_ROWSPERSTRIP, layout.rows), layout.rows);
+  const std::uint32_t wide =
+      is_tiled ? tag<std::uint32_t>(tiff, TIFFTAG_TILEWIDTH, 0) : layout.cols;
   if (size <= 0 || line_bytes <= 0 || high == 0 || wide == 0 || high > (1u << 20) + layout.rows ||
       static_cast<std::uint64_t>(size) > kMaxFileBytes) {
     throw FileError(damaged);
   }
   checkByteCount(tiff, layout, static_cast<std::uint64_t>(line_bytes));
-  cv::Mat pixels = cv::Mat::zeros(static_cast<int>(layout.rows), static_cast<int>(layout.cols), typeOf(layout));
+  cv::Mat pixels =
+      cv::Mat::zeros(static_cast<int>(layout.rows), static_cast<int>(layout.cols), typeOf(layout));
   std::vector<unsigned char> buffer(static_cast<std::size_t>(size));
   const int planes = layout.is_separate ? layout.samples : 1;
   for (int plane = 0; plane < planes; ++plane) {
@@ -215,12 +230,16 @@ cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
         const auto sample = static_cast<std::uint16_t>(plane);
         const tmsize_t got = is_tiled
                                  ? TIFFReadTile(tiff, buffer.data(), x, y, 0, sample)
-                                 : TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, sample), buffer.data(), size);
-        if (got < static_cast<tmsize_t>(is_tiled ? high : lines) * line_bytes) throw FileError(damaged);
-        const std::uint32_t columns = std::min(wide, layout.cols - x);  // a tile may reach over the page
+                                 : TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, sample),
+                                                        buffer.data(), size);
+        if (got < static_cast<tmsize_t>(is_tiled ? high : lines) * line_bytes)
+          throw FileError(damaged);
+        const std::uint32_t columns =
+            std::min(wide, layout.cols - x);  // a tile may reach over the page
         unpack(buffer.data(), static_cast<std::size_t>(line_bytes), layout,
-               {static_cast<int>(x), static_cast<int>(y), static_cast<int>(columns), static_cast<int>(lines)}, plane,
-               pixels);
+               {static_cast<int>(x), static_cast<int>(y), static_cast<int>(columns),
+                static_cast<int>(lines)},
+               plane, pixels);
       }
     }
   }
@@ -232,7 +251,9 @@ cv::Mat upright(const cv::Mat& pixels, int orientation) {
   if (orientation <= ORIENTATION_TOPLEFT) return pixels;
   if (orientation > ORIENTATION_BOTLEFT)
     throw FileError("its orientation tag turns rows into columns: turn it upright");
-  const int axes = orientation == ORIENTATION_TOPRIGHT ? 1 : orientation == ORIENTATION_BOTLEFT ? 0 : -1;  // -1: both
+  const int axes = orientation == ORIENTATION_TOPRIGHT  ? 1
+                   : orientation == ORIENTATION_BOTLEFT ? 0
+                                                        : -1;  // -1: both
   cv::Mat turned;
   cv::flip(pixels, turned, axes);
   return turned;
@@ -252,7 +273,8 @@ TiffNotes notesOf(TIFF* tiff) {
 
 /// Small copies for a quick look, and masks.
 bool isAside(TIFF* tiff) {
-  return (tag<std::uint32_t>(tiff, TIFFTAG_SUBFILETYPE, 0) & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
+  return (tag<std::uint32_t>(tiff, TIFFTAG_SUBFILETYPE, 0) &
+          (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
 }
 
 /// The page's name, or a description that is one: a short line that no program wrote for itself.
@@ -260,7 +282,8 @@ std::string titleOf(TIFF* tiff) {
   std::string title = textTag(tiff, TIFFTAG_PAGENAME);
   if (!title.empty()) return title;
   title = textTag(tiff, TIFFTAG_IMAGEDESCRIPTION);
-  const bool is_for_programs = title.size() > 60 || title.find_first_of("{}<>=\n\r") != std::string::npos;
+  const bool is_for_programs =
+      title.size() > 60 || title.find_first_of("{}<>=\n\r") != std::string::npos;
   return is_for_programs ? "" : title;
 }
 
@@ -276,7 +299,8 @@ FileChannel channelOf(TIFF* tiff, int page, int pages, const std::string& page_z
                                     CV_8UC(std::clamp(layout.samples, 3, 4)));
     return channel;
   }
-  channel.values = upright(pixelsOf(tiff, layout), tag<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT));
+  channel.values = upright(pixelsOf(tiff, layout),
+                           tag<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT));
   TiffNotes notes = notesOf(tiff);
   if (notes.description.empty()) notes.description = page_zero_description;
   applyTiffNotes(notes, pages, channel);
@@ -289,8 +313,8 @@ std::vector<FileChannel> parseTiff(const std::string& bytes) {
   TIFFSetErrorHandler(nullptr);  // what is wrong is said by us, in one line
   TIFFSetWarningHandler(nullptr);
   Source source{bytes};
-  const Tiff tiff(TIFFClientOpen("scan", "rm", &source, readSource, writeNothing, seekSource, closeNothing,
-                                 sizeOfSource, nullptr, nullptr),
+  const Tiff tiff(TIFFClientOpen("scan", "rm", &source, readSource, writeNothing, seekSource,
+                                 closeNothing, sizeOfSource, nullptr, nullptr),
                   &TIFFClose);
   if (!tiff) throw FileError("the image cannot be read: cut off or damaged");
   const std::string description = textTag(tiff.get(), TIFFTAG_IMAGEDESCRIPTION);
@@ -299,7 +323,8 @@ std::vector<FileChannel> parseTiff(const std::string& bytes) {
     ++pages;
   } while (pages < kMostPages && TIFFReadDirectory(tiff.get()) != 0);
   if (TIFFLastDirectory(tiff.get()) == 0 || pageCount(bytes, kMostPages) != pages)
-    throw FileError("the list of its pages is damaged, or longer than " + std::to_string(kMostPages));
+    throw FileError("the list of its pages is damaged, or longer than " +
+                    std::to_string(kMostPages));
 
   std::vector<FileChannel> channels;
   std::uint64_t pixels = 0;

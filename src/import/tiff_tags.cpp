@@ -77,7 +77,8 @@ void applyImageJ(const TiffNotes& notes, int pages, FileChannel& channel) {
   const std::string& text = notes.description;
   const std::string images = lineValue(text, "images");
   if (!images.empty() && number(images, "images") > pages) {
-    throw FileError("ImageJ wrote a stack of " + images + " images: save the one that is a scan by itself");
+    throw FileError("ImageJ wrote a stack of " + images +
+                    " images: save the one that is a scan by itself");
   }
   const std::string own_of_y = lineValue(text, "yunit");  // where y has another than x
   const auto unit = lengthUnit(lineValue(text, "unit"));
@@ -88,7 +89,8 @@ void applyImageJ(const TiffNotes& notes, int pages, FileChannel& channel) {
   const std::string value_unit = lineValue(text, "vunit");
   const std::string function = lineValue(text, "cf");
   if (function.empty()) return;
-  if (number(function, "cf") != 0.0) throw FileError("ImageJ's calibration function of the values is no straight line");
+  if (number(function, "cf") != 0.0)
+    throw FileError("ImageJ's calibration function of the values is no straight line");
   scaleValues(channel, number(lineValue(text, "c1"), "c1"), number(lineValue(text, "c0"), "c0"));
   const auto height_unit = heightUnit(value_unit);
   if (value_unit.empty() || value_unit == "Gray Value") return;
@@ -131,7 +133,8 @@ void applyGdal(const TiffNotes& notes, FileChannel& channel) {
   const double offset = gdalItem(notes.gdal_metadata, "offset", 0.0);
   if (scale != 1.0 || offset != 0.0) {
     scaleValues(channel, scale, offset);
-    channel.notes.push_back("GDAL's scale " + numberText(scale) + " and offset " + numberText(offset) + " are applied");
+    channel.notes.push_back("GDAL's scale " + numberText(scale) + " and offset " +
+                            numberText(offset) + " are applied");
   }
 }
 
@@ -155,7 +158,8 @@ int pageCount(const std::string& bytes, int most) {
   for (std::uint64_t next = offset(start); next != 0 && pages < most; ++pages) {
     ByteCursor page = startOf(bytes);
     page.take(static_cast<std::size_t>(next));
-    const std::uint64_t entries = is_big ? page.number<std::uint64_t>() : page.number<std::uint16_t>();
+    const std::uint64_t entries =
+        is_big ? page.number<std::uint64_t>() : page.number<std::uint16_t>();
     page.array(static_cast<std::size_t>(entries), is_big ? 20 : 12);
     next = offset(page);
   }
@@ -201,7 +205,8 @@ void applyTiffNotes(const TiffNotes& notes, int pages, FileChannel& channel) {
     return;
   }
   if (isPrintResolution(notes.resolution_x / notes.resolution_unit)) return;
-  setPitch(channel, notes.resolution_unit / notes.resolution_x, notes.resolution_unit / notes.resolution_y);
+  setPitch(channel, notes.resolution_unit / notes.resolution_x,
+           notes.resolution_unit / notes.resolution_y);
   channel.is_pitch_a_guess = true;
 }
 

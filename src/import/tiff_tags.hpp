@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What tags and texts of a TIFF file say beside the pixels: calibration, and whose tags make heights of them.
+/// What tags and texts of a TIFF file say beside the pixels: calibration, and whose tags make
+/// heights of them.
 
 #include <string>
 
@@ -9,14 +10,16 @@
 
 namespace mems_stiction {
 
-/// Some instruments write TIFF files whose pages are pictures or bare counts, with what makes them heights in tags or texts
-/// of their own: Park Systems, JPK and Olympus LEXT.
-/// @return true if the first directory of the TIFF file has Park's tag 50432 with its magic number 0x0E031301, JPK's tags
-///         32768 and 32769 (versions of file and program), or LEXT's description; false also for one that is damaged
+/// Some instruments write TIFF files whose pages are pictures or bare counts, with what makes them
+/// heights in tags or texts of their own: Park Systems, JPK and Olympus LEXT.
+/// @return true if the first directory of the TIFF file has Park's tag 50432 with its magic number
+/// 0x0E031301, JPK's tags
+///         32768 and 32769 (versions of file and program), or LEXT's description; false also for
+///         one that is damaged
 bool hasInstrumentTags(const std::string& bytes);
 
-/// Pages by the list of them alone, whatever is on them; `most` if there are as many or more. libtiff takes a list that is
-/// damaged for one that ends.
+/// Pages by the list of them alone, whatever is on them; `most` if there are as many or more.
+/// libtiff takes a list that is damaged for one that ends.
 /// @throw FileError without a file name where the list leaves the file
 int pageCount(const std::string& bytes, int most);
 

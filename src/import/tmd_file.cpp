@@ -17,7 +17,8 @@ constexpr double kTmdUnit = 1e-3;          // [m], of sides and heights
 
 FileChannel parseTmd(const std::string& bytes) {
   const std::size_t end = bytes.substr(0, kTmdMagic + kMostComment).find('\0', kTmdMagic);
-  if (end == std::string::npos) throw FileError("the .tmd file's comment has no end: cut off or damaged");
+  if (end == std::string::npos)
+    throw FileError("the .tmd file's comment has no end: cut off or damaged");
   ByteCursor cursor(bytes.data() + end + 1, bytes.size() - end - 1, kTmd);
   const std::uint64_t cols = cursor.number<std::uint32_t>();
   const std::uint64_t rows = cursor.number<std::uint32_t>();
@@ -28,9 +29,11 @@ FileChannel parseTmd(const std::string& bytes) {
   channel.height = kTmdUnit * static_cast<double>(cursor.number<float>());
   channel.unit_xy = channel.unit_z = "m";
   cursor.take(2 * sizeof(float));  // where in a larger field of view
-  if (!(channel.width > 0.0) || !(channel.height > 0.0)) throw FileError("the .tmd file states sides that are not > 0");
+  if (!(channel.width > 0.0) || !(channel.height > 0.0))
+    throw FileError("the .tmd file states sides that are not > 0");
   if (cursor.size() != cols * rows * sizeof(float)) {
-    throw FileError("the .tmd file has " + std::to_string(cursor.size()) + " bytes of heights, its header states " +
+    throw FileError("the .tmd file has " + std::to_string(cursor.size()) +
+                    " bytes of heights, its header states " +
                     std::to_string(cols * rows * sizeof(float)) + ": cut off or damaged");
   }
   channel.values.create(static_cast<int>(rows), static_cast<int>(cols), CV_64FC1);

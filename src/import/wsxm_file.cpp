@@ -46,7 +46,8 @@ const std::string& entry(const std::map<std::string, std::string>& header, const
 
 std::uint64_t countOf(const std::map<std::string, std::string>& header, const std::string& key) {
   const double count = plainNumber(entry(header, key));
-  if (!(count >= 1.0 && count <= 1e9)) throw FileError("the WSxM header states " + key + " " + entry(header, key));
+  if (!(count >= 1.0 && count <= 1e9))
+    throw FileError("the WSxM header states " + key + " " + entry(header, key));
   return static_cast<std::uint64_t>(count);
 }
 
@@ -55,7 +56,8 @@ double sideOf(const std::map<std::string, std::string>& header, const std::strin
   const auto stated = statedLength(entry(header, key));
   const auto unit = stated ? lengthUnit(stated->unit) : std::nullopt;
   if (!unit || !(stated->number > 0.0)) {
-    throw FileError("the WSxM header states " + key + " '" + shownPiece(entry(header, key)) + "', which is no length");
+    throw FileError("the WSxM header states " + key + " '" + shownPiece(entry(header, key)) +
+                    "', which is no length");
   }
   return stated->number * *unit;
 }
@@ -64,28 +66,32 @@ enum class NumberType { kShort, kFloat, kDouble };
 
 NumberType typeOf(const std::map<std::string, std::string>& header) {
   const auto found = header.find("General Info/Image Data Type");
-  if (found == header.end() || found->second == "short" || found->second == "integer") return NumberType::kShort;
+  if (found == header.end() || found->second == "short" || found->second == "integer")
+    return NumberType::kShort;
   if (found->second == "float") return NumberType::kFloat;
   if (found->second == "double") return NumberType::kDouble;
   throw FileError("the WSxM data type '" + shownPiece(found->second) + "' is not known");
 }
 
-std::size_t bytesOf(NumberType type) { return type == NumberType::kShort ? 2 : type == NumberType::kFloat ? 4 : 8; }
+std::size_t bytesOf(NumberType type) {
+  return type == NumberType::kShort ? 2 : type == NumberType::kFloat ? 4 : 8;
+}
 
 double next(ByteCursor& cursor, NumberType type) {
   if (type == NumberType::kShort) return cursor.number<std::int16_t>();
-  return type == NumberType::kFloat ? static_cast<double>(cursor.number<float>()) : cursor.number<double>();
+  return type == NumberType::kFloat ? static_cast<double>(cursor.number<float>())
+                                    : cursor.number<double>();
 }
 
 /// The header states the smallest and the largest number, rounded to six digits.
-void checkExtreme(const std::map<std::string, std::string>& header, const std::string& key, double found,
-                  double range) {
+void checkExtreme(const std::map<std::string, std::string>& header, const std::string& key,
+                  double found, double range) {
   const auto stated = header.find(key);
   if (stated == header.end() || numberEnd(stated->second, 0) != stated->second.size()) return;
   const double number = plainNumber(stated->second);
   if (std::abs(number - found) <= 1e-4 * std::max(std::abs(range), std::abs(number))) return;
-  throw FileError("the WSxM header states " + key + " " + shownPiece(stated->second) + ", the data have " +
-                  numberText(found) + ": damaged");
+  throw FileError("the WSxM header states " + key + " " + shownPiece(stated->second) +
+                  ", the data have " + numberText(found) + ": damaged");
 }
 
 }  // namespace
@@ -108,7 +114,8 @@ FileChannel parseWsxm(const std::string& bytes) {
   const auto stated_size = header.find("/Image header size");
   const std::size_t line_end = bytes.find('\n', header_end);
   std::uint64_t begin = stated_size == header.end() ? 0 : countIn(stated_size->second).value_or(0);
-  if (begin < header_end) begin = line_end == std::string::npos ? bytes.size() : line_end + 1;  // not filled in
+  if (begin < header_end)
+    begin = line_end == std::string::npos ? bytes.size() : line_end + 1;  // not filled in
   demandLength("WSxM", bytes.size(), begin + needed);
 
   FileChannel channel;
@@ -116,7 +123,8 @@ FileChannel parseWsxm(const std::string& bytes) {
   if (title != header.end()) channel.title = title->second;
   channel.identity = identityFrom(header);
   channel.width = sideOf(header, "Control/X Amplitude");
-  channel.height = header.count("Control/Y Amplitude") != 0 ? sideOf(header, "Control/Y Amplitude") : channel.width;
+  channel.height = header.count("Control/Y Amplitude") != 0 ? sideOf(header, "Control/Y Amplitude")
+                                                            : channel.width;
   channel.unit_xy = "m";
   channel.values.create(static_cast<int>(rows), static_cast<int>(cols), CV_64FC1);
   ByteCursor data(bytes.data() + begin, static_cast<std::size_t>(needed), "the WSxM file");
@@ -133,7 +141,8 @@ FileChannel parseWsxm(const std::string& bytes) {
 
   const std::string& amplitude_text = entry(header, "General Info/Z Amplitude");
   const auto amplitude = statedLength(amplitude_text);
-  if (!amplitude) throw FileError("the WSxM header states the z amplitude '" + shownPiece(amplitude_text) + "'");
+  if (!amplitude)
+    throw FileError("the WSxM header states the z amplitude '" + shownPiece(amplitude_text) + "'");
   const auto unit = heightUnit(amplitude->unit);
   channel.unit_z = unit ? "m" : amplitude->unit;
   double scale = unit.value_or(1.0);

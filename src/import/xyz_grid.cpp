@@ -32,8 +32,10 @@ struct Axis {
 
 Axis axisOf(const cv::Mat& points, int column, const char* name) {
   std::vector<double> sorted(static_cast<std::size_t>(points.rows));
-  for (int row = 0; row < points.rows; ++row) sorted[static_cast<std::size_t>(row)] = points.at<double>(row, column);
-  if (std::any_of(sorted.begin(), sorted.end(), [](double value) { return !std::isfinite(value); })) {
+  for (int row = 0; row < points.rows; ++row)
+    sorted[static_cast<std::size_t>(row)] = points.at<double>(row, column);
+  if (std::any_of(sorted.begin(), sorted.end(),
+                  [](double value) { return !std::isfinite(value); })) {
     throw FileError(std::string("a point without ") + name);
   }
   std::sort(sorted.begin(), sorted.end());
@@ -44,8 +46,10 @@ Axis axisOf(const cv::Mat& points, int column, const char* name) {
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i] - sorted[i - 1] > rounding) steps.push_back(sorted[i] - sorted[i - 1]);
   }
-  if (steps.empty()) throw FileError(std::string("all points have the same ") + name + ": a profile, not a surface");
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  if (steps.empty())
+    throw FileError(std::string("all points have the same ") + name + ": a profile, not a surface");
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                   steps.end());
   Axis axis;
   axis.first = sorted.front();
   const double intervals = std::round(range / steps[steps.size() / 2]);
@@ -63,20 +67,22 @@ XyzGrid gridOfPoints(const cv::Mat& points) {
   checkPixelCount(static_cast<std::uint64_t>(x.count), static_cast<std::uint64_t>(y.count));
   const std::string size = std::to_string(x.count) + " x " + std::to_string(y.count);
   if (points.rows < kLeastFilled * x.count * y.count) {
-    throw FileError("the " + std::to_string(points.rows) + " points are on no regular grid of x and y (" + size +
-                    " places)");
+    throw FileError("the " + std::to_string(points.rows) +
+                    " points are on no regular grid of x and y (" + size + " places)");
   }
   XyzGrid grid;
   grid.pitch_x = x.step;
   grid.pitch_y = y.step;
-  grid.heights = cv::Mat(y.count, x.count, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
+  grid.heights =
+      cv::Mat(y.count, x.count, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
   cv::Mat taken = cv::Mat::zeros(y.count, x.count, CV_8UC1);
   for (int i = 0; i < points.rows; ++i) {
     const double* point = points.ptr<double>(i);
     const int col = x.place(point[0]);
     const int row = y.place(point[1]);
     if (col < 0 || row < 0 || col >= x.count || row >= y.count) {
-      throw FileError("point " + std::to_string(i + 1) + " is not on the regular grid of the others (" + size + ")");
+      throw FileError("point " + std::to_string(i + 1) +
+                      " is not on the regular grid of the others (" + size + ")");
     }
     if (taken.at<unsigned char>(row, col)++ != 0) {
       throw FileError("point " + std::to_string(i + 1) + " has the x and y of another one");

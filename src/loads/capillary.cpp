@@ -9,14 +9,15 @@
 namespace mems_stiction {
 
 void CapillaryOptions::describe(OptionVisitor& visitor) {
-  visitor.number(
-      "interface/relative_humidity", relative_humidity, "", Range{0.0, 1.0, false, true},
-      "humidity over saturation for the explicit capillary term; 0 = off, the work of adhesion then holds it");
+  visitor.number("interface/relative_humidity", relative_humidity, "", Range{0.0, 1.0, false, true},
+                 "humidity over saturation for the explicit capillary term; 0 = off, the work of "
+                 "adhesion then holds it");
   visitor.number("interface/surface_tension", surface_tension, "N/m", Range::positive(),
                  "surface tension of the condensed liquid");
   visitor.number("interface/contact_angle", contact_angle, "rad", Range::within(0.0, 0.5 * kPi),
                  "contact angle of the condensed liquid on both surfaces");
-  visitor.number("interface/temperature", temperature, "K", Range::positive(), "temperature of vapour and surfaces");
+  visitor.number("interface/temperature", temperature, "K", Range::positive(),
+                 "temperature of vapour and surfaces");
   visitor.number("interface/molar_volume", molar_volume, "m^3/mol", Range::positive(),
                  "molar volume of the condensed liquid");
 }
@@ -25,8 +26,8 @@ WaterLaw CapillaryOptions::law() const {
   return {relative_humidity, surface_tension, contact_angle, temperature, molar_volume};
 }
 
-double capillaryForce(const GapOrder& order, double approach, int contact_count, const WaterLaw& water,
-                      double cell_area) {
+double capillaryForce(const GapOrder& order, double approach, int contact_count,
+                      const WaterLaw& water, double cell_area) {
   if (!water.isOn()) return 0.0;
   const double filled = order.cellsBelow(approach + water.gapLimit()) - contact_count;
   return std::max(0.0, filled) * (water.pressure() * cell_area);

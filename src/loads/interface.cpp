@@ -9,26 +9,32 @@ void InterfaceOptions::describe(OptionVisitor& visitor) {
                  "Hamaker constant of the pair across the medium in the gap");
   visitor.number("interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
                  "equilibrium distance of Tabor's parameter");
-  visitor.number("interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),
-                 "thickness of the insulator between the electrodes; must be > 0 when the voltage is not 0");
-  visitor.number("interface/insulator_relative_permittivity", insulator_relative_permittivity, "", Range{1.0},
-                 "relative permittivity of the insulator");
-  visitor.number("interface/hardness_ratio_limit", hardness_ratio_limit, "", Range::openWithin(0.0, 1.0),
+  visitor.number(
+      "interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),
+      "thickness of the insulator between the electrodes; must be > 0 when the voltage is not 0");
+  visitor.number("interface/insulator_relative_permittivity", insulator_relative_permittivity, "",
+                 Range{1.0}, "relative permittivity of the insulator");
+  visitor.number("interface/hardness_ratio_limit", hardness_ratio_limit, "",
+                 Range::openWithin(0.0, 1.0),
                  "a of equation (12): hardness ratios beyond it deform the softer body only");
 }
 
 void LoadOptions::describe(OptionVisitor& visitor) {
-  visitor.number("load/max_voltage", max_voltage, "V", Range::positive(), "largest voltage that may be set");
+  visitor.number("load/max_voltage", max_voltage, "V", Range::positive(),
+                 "largest voltage that may be set");
   visitor.number("load/max_mechanical_load", max_mechanical_load, "N", Range::positive(),
                  "largest mechanical load that may be set");
   visitor.number("load/voltage", voltage, "V", Range::within(-max_voltage, max_voltage),
                  "voltage between the surfaces");
-  visitor.number("load/mechanical_load", mechanical_load, "N", Range::within(0.0, max_mechanical_load),
+  visitor.number("load/mechanical_load", mechanical_load, "N",
+                 Range::within(0.0, max_mechanical_load),
                  "external force that presses the scanned area together");
-  visitor.number("load/pressure", pressure, "Pa", Range::nonNegative(),
-                 "instead of mechanical_load: pressure on the nominal area, whatever the size of the scan");
+  visitor.number(
+      "load/pressure", pressure, "Pa", Range::nonNegative(),
+      "instead of mechanical_load: pressure on the nominal area, whatever the size of the scan");
   visitor.number("load/device_force", device_force, "N", Range::nonNegative(),
-                 "instead of both: force on the whole device; a scan carries its share of device/contact_area");
+                 "instead of both: force on the whole device; a scan carries its share of "
+                 "device/contact_area");
 }
 
 }  // namespace mems_stiction

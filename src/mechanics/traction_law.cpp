@@ -23,11 +23,12 @@ double AdhesionLaw::strength() const {
   return traction(std::sqrt(std::cbrt(1.0 / 3.0)));  // 3 x^4 = 9 x^10
 }
 
-FieldLaw::FieldLaw(double voltage, double insulator_thickness, double insulator_relative_permittivity)
+FieldLaw::FieldLaw(double voltage, double insulator_thickness,
+                   double insulator_relative_permittivity)
     : voltage_(voltage), insulator_(insulator_thickness / insulator_relative_permittivity) {}
 
-WaterLaw::WaterLaw(double relative_humidity, double surface_tension, double contact_angle, double temperature,
-                   double molar_volume) {
+WaterLaw::WaterLaw(double relative_humidity, double surface_tension, double contact_angle,
+                   double temperature, double molar_volume) {
   if (relative_humidity <= 0.0) return;
   const double undersaturation = -std::log(relative_humidity);
   pressure_ = kGasConstant * temperature * undersaturation / molar_volume;

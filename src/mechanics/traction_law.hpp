@@ -1,32 +1,40 @@
 #pragma once
 
 /// @file
-/// With which traction do two flat surfaces a gap apart attract or repel each other: by their atoms, by a voltage, and by
-/// water that condenses between them?
+/// With which traction do two flat surfaces a gap apart attract or repel each other: by their
+/// atoms, by a voltage, and by water that condenses between them?
 ///
-///     t(x) = (8 Gamma/(3 z0)) (x^3 - x^9),   x = z0/g                    two half-spaces of atoms: zero at z0, largest
-///                                                                        1.026 Gamma/z0 at 3^(1/6) z0
-///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)                                 its integral from g on; Gamma at z0
-///     z0   = sqrt(H/(16 pi Gamma))                                       so that t falls off as H/(6 pi g^3)
-///     p(d) = eps0 U^2/(2 (d + h/eps_r)^2)                                field over a gap d and an insulator h   (3)
-///     p    = gamma/r_K for d < d_K, 0 beyond                             water: r_K = gamma V_m/(R T ln(1/RH)), the Kelvin
-///                                                                        radius, d_K = 2 r_K cos(theta), the Kelvin gap
+///     t(x) = (8 Gamma/(3 z0)) (x^3 - x^9),   x = z0/g                    two half-spaces of atoms:
+///     zero at z0, largest
+///                                                                        1.026 Gamma/z0 at 3^(1/6)
+///                                                                        z0
+///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)                                 its integral from g on;
+///     Gamma at z0 z0   = sqrt(H/(16 pi Gamma))                                       so that t
+///     falls off as H/(6 pi g^3) p(d) = eps0 U^2/(2 (d + h/eps_r)^2) field over a gap d and an
+///     insulator h   (3) p    = gamma/r_K for d < d_K, 0 beyond                             water:
+///     r_K = gamma V_m/(R T ln(1/RH)), the Kelvin
+///                                                                        radius, d_K = 2 r_K
+///                                                                        cos(theta), the Kelvin
+///                                                                        gap
 ///
-/// p of water falls and d_K grows with humidity, p d_K = 2 gamma cos(theta) does not change: the energy that separation
-/// costs per area of filled gap. A sphere on a flat gives 4 pi gamma R cos(theta), at every humidity. Assumptions:
-/// equilibrium with the vapour, one contact angle on both surfaces, the gap varies slowly over d_K. Menisci take
-/// milliseconds to hours to form: a fast contact feels less. Below some 10 % humidity d_K is a molecule or two and a
-/// continuum's pressure an extrapolation; near saturation d_K diverges, so the humidity stays below 1. Sources:
-/// Israelachvili, chapter 17; Fisher, Gamble and Middlehurst, Nature 290 (1981) 575, for how far the Kelvin equation holds.
+/// p of water falls and d_K grows with humidity, p d_K = 2 gamma cos(theta) does not change: the
+/// energy that separation costs per area of filled gap. A sphere on a flat gives 4 pi gamma R
+/// cos(theta), at every humidity. Assumptions: equilibrium with the vapour, one contact angle on
+/// both surfaces, the gap varies slowly over d_K. Menisci take milliseconds to hours to form: a
+/// fast contact feels less. Below some 10 % humidity d_K is a molecule or two and a continuum's
+/// pressure an extrapolation; near saturation d_K diverges, so the humidity stays below 1. Sources:
+/// Israelachvili, chapter 17; Fisher, Gamble and Middlehurst, Nature 290 (1981) 575, for how far
+/// the Kelvin equation holds.
 ///
-/// Attraction is positive. Whoever counts the gap from contact, d = g - z0, takes x = z0/(d + z0); whoever counts it from
-/// the outermost atoms takes x = z0/g. Assumptions: the traction at a place depends on the gap there alone (Derjaguin);
-/// smooth electrodes, no charge in the insulator. Outside: t has no lower limit as g goes to 0, p diverges there without
-/// an insulator; callers say where their bodies end. Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed.,
+/// Attraction is positive. Whoever counts the gap from contact, d = g - z0, takes x = z0/(d + z0);
+/// whoever counts it from the outermost atoms takes x = z0/g. Assumptions: the traction at a place
+/// depends on the gap there alone (Derjaguin); smooth electrodes, no charge in the insulator.
+/// Outside: t has no lower limit as g goes to 0, p diverges there without an insulator; callers say
+/// where their bodies end. Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed.,
 /// 2011), chapter 13; Deladi et al. 2002, (3), the insulator's thickness there without eps_r.
 ///
-///     const AdhesionLaw law(work_of_adhesion, AdhesionLaw::rangeOf(work_of_adhesion, hamaker_constant));
-///     const double pull = law.traction(law.range() / gap);
+///     const AdhesionLaw law(work_of_adhesion, AdhesionLaw::rangeOf(work_of_adhesion,
+///     hamaker_constant)); const double pull = law.traction(law.range() / gap);
 
 #include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"
@@ -92,7 +100,9 @@ class FieldLaw {
   /// h/eps_r [m]: the vacuum that the insulator is worth
   double insulator() const { return insulator_; }
   /// eps0 U^2/2 times an area: over squaredDistance() it is the force on that area [N m^2].
-  double factor(double area = 1.0) const { return 0.5 * kVacuumPermittivity * area * voltage_ * voltage_; }
+  double factor(double area = 1.0) const {
+    return 0.5 * kVacuumPermittivity * area * voltage_ * voltage_;
+  }
   /// (d + h/eps_r)^2 [m^2]
   template <typename Real>
   MEMS_STICTION_INLINE Real squaredDistance(const Real& gap) const {
@@ -135,20 +145,21 @@ class WaterLaw {
   /// - @p contact_angle theta on both surfaces [rad], in [0, pi/2]
   /// - @p temperature T [K], > 0
   /// - @p molar_volume V_m of the liquid [m^3/mol], > 0
-  WaterLaw(double relative_humidity, double surface_tension, double contact_angle, double temperature,
-           double molar_volume);
+  WaterLaw(double relative_humidity, double surface_tension, double contact_angle,
+           double temperature, double molar_volume);
 
   bool isOn() const { return gap_limit_ > 0.0; }
   double kelvinRadius() const { return kelvin_radius_; }  ///< r_K [m]; 0 without water
   double gapLimit() const { return gap_limit_; }          ///< d_K [m]; 0 without water
   double pressure() const { return pressure_; }           ///< p [Pa]; 0 without water
 
-  /// At a gap that is counted from the outermost atoms: water fills it from `contact` to `contact` + d_K, both ends smeared
-  /// over `front` [m].
+  /// At a gap that is counted from the outermost atoms: water fills it from `contact` to `contact`
+  /// + d_K, both ends smeared over `front` [m].
   Smeared smeared(double gap, double contact, double front) const {
     const Step inner = smoothStep((contact - gap) / front);
     const Step filled = smoothStep((contact + gap_limit_ - gap) / front);
-    return {pressure_ * (filled.value - inner.value), -(pressure_ / front * (filled.slope - inner.slope)),
+    return {pressure_ * (filled.value - inner.value),
+            -(pressure_ / front * (filled.slope - inner.slope)),
             pressure_ * front * (filled.integral - inner.integral)};
   }
 

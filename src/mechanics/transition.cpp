@@ -6,12 +6,15 @@
 
 namespace mems_stiction {
 
-double taborParameter(double radius, double work_of_adhesion, double contact_modulus, double equilibrium_distance) {
+double taborParameter(double radius, double work_of_adhesion, double contact_modulus,
+                      double equilibrium_distance) {
   const double strain = work_of_adhesion / (contact_modulus * equilibrium_distance);
   return std::cbrt(radius / equilibrium_distance * strain * strain);
 }
 
-double pullOffPrefactor(double tabor) { return maugis::fittedPullOffPrefactor(maugis::transitionParameter(tabor)); }
+double pullOffPrefactor(double tabor) {
+  return maugis::fittedPullOffPrefactor(maugis::transitionParameter(tabor));
+}
 
 namespace maugis {
 

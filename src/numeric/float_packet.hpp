@@ -10,8 +10,8 @@
 
 namespace mems_stiction {
 
-/// Eight floats. Every operator is that of the eight numbers, to the bit. The alignment is written out: in memory it would
-/// else depend on the instructions a file is compiled for.
+/// Eight floats. Every operator is that of the eight numbers, to the bit. The alignment is written
+/// out: in memory it would else depend on the instructions a file is compiled for.
 class alignas(32) FloatPacket {
  public:
   static constexpr std::size_t kCount = 8;
@@ -29,7 +29,9 @@ class alignas(32) FloatPacket {
     return FloatPacket(loaded);
   }
   /// To memory.
-  MEMS_STICTION_INLINE void store(float* values) const { std::memcpy(values, &values_, sizeof values_); }
+  MEMS_STICTION_INLINE void store(float* values) const {
+    std::memcpy(values, &values_, sizeof values_);
+  }
 
   friend MEMS_STICTION_INLINE FloatPacket operator+(const FloatPacket& a, const FloatPacket& b) {
     return FloatPacket(a.values_ + b.values_);
@@ -64,7 +66,8 @@ class alignas(32) FloatPacket {
     }
     for (std::size_t i = 0; i < 4; ++i) {
       lines[i].values_ = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-      lines[i + 4].values_ = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+      lines[i + 4].values_ =
+          __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
   }
 

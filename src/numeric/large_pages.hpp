@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// Memory for what is as large as the frame: in pages of 2 MiB where the system gives them on request, so that writing
-/// to hundreds of places of it in turn does not wait for the addresses of pages.
+/// Memory for what is as large as the frame: in pages of 2 MiB where the system gives them on
+/// request, so that writing to hundreds of places of it in turn does not wait for the addresses of
+/// pages.
 ///
-///     LargePageVector<float> relief;  // a std::vector otherwise; small ones stay in ordinary pages
+///     LargePageVector<float> relief;  // a std::vector otherwise; small ones stay in ordinary
+///     pages
 
 #include <cstddef>
 #include <memory>
@@ -16,8 +18,8 @@
 
 namespace mems_stiction {
 
-/// Allocator of std::vector that asks the system for large pages wherever one lies inside the memory of
-/// std::allocator, so that no more memory is used. Throws what std::allocator does.
+/// Allocator of std::vector that asks the system for large pages wherever one lies inside the
+/// memory of std::allocator, so that no more memory is used. Throws what std::allocator does.
 template <typename T>
 class LargePageAllocator : public std::allocator<T> {
  public:
@@ -29,7 +31,8 @@ class LargePageAllocator : public std::allocator<T> {
 
   LargePageAllocator() = default;
   template <typename Other>
-  LargePageAllocator(const LargePageAllocator<Other>& /*other*/) noexcept {}  // NOLINT(google-explicit-constructor)
+  LargePageAllocator(const LargePageAllocator<Other>& /*other*/) noexcept {
+  }  // NOLINT(google-explicit-constructor)
 
   T* allocate(std::size_t count) {
     T* const memory = std::allocator<T>::allocate(count);

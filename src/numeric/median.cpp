@@ -10,12 +10,13 @@ namespace {
 
 constexpr std::size_t kFew = 48;     ///< values that are sorted out at once
 constexpr std::size_t kBlock = 256;  ///< values whose buckets are computed side by side
-constexpr std::size_t kWays = 4;  ///< counts of each bucket: neighbours often share one, and would wait for each other
-constexpr int kRounds = 8;        ///< values that the buckets have not parted by then are sorted out
+constexpr std::size_t kWays =
+    4;  ///< counts of each bucket: neighbours often share one, and would wait for each other
+constexpr int kRounds = 8;  ///< values that the buckets have not parted by then are sorted out
 
 /// The bucket of each value. NaN is behind the last.
-MEMS_STICTION_VECTORIZED void findBuckets(const double* values, std::size_t size, double low, double per_unit,
-                                          double outside, std::int32_t* found) {
+MEMS_STICTION_VECTORIZED void findBuckets(const double* values, std::size_t size, double low,
+                                          double per_unit, double outside, std::int32_t* found) {
   for (std::size_t i = 0; i < size; ++i) {
     const double place = (values[i] - low) * per_unit;
     found[i] = static_cast<std::int32_t>(place < outside ? place : outside);
@@ -52,14 +53,15 @@ double MedianFinder::median(const double* values, std::size_t size) {
   return ranks.lower == ranks.upper ? *upper : 0.5 * (*upper + *std::max_element(first, upper));
 }
 
-MedianFinder::BucketSpan MedianFinder::bucketsOf(Ranks& ranks, const double* values, std::size_t size,
-                                                 const Buckets& buckets) {
+MedianFinder::BucketSpan MedianFinder::bucketsOf(Ranks& ranks, const double* values,
+                                                 std::size_t size, const Buckets& buckets) {
   counts_.assign(kWays * static_cast<std::size_t>(buckets.count + 1), 0);
   std::int32_t found[kBlock];
   for (std::size_t start = 0; start < size; start += kBlock) {
     const std::size_t length = std::min(kBlock, size - start);
     findBuckets(values + start, length, buckets.low, buckets.per_unit, buckets.count, found);
-    for (std::size_t i = 0; i < length; ++i) ++counts_[kWays * static_cast<std::size_t>(found[i]) + i % kWays];
+    for (std::size_t i = 0; i < length; ++i)
+      ++counts_[kWays * static_cast<std::size_t>(found[i]) + i % kWays];
   }
   const auto countIn = [&](std::int32_t bucket) {
     const std::uint32_t* ways = &counts_[kWays * static_cast<std::size_t>(bucket)];
@@ -69,7 +71,8 @@ MedianFinder::BucketSpan MedianFinder::bucketsOf(Ranks& ranks, const double* val
   std::size_t before = 0;
   for (; before + countIn(span.first) <= ranks.lower; ++span.first) before += countIn(span.first);
   span.last = span.first;
-  for (std::size_t until = before + countIn(span.last); until <= ranks.upper;) until += countIn(++span.last);
+  for (std::size_t until = before + countIn(span.last); until <= ranks.upper;)
+    until += countIn(++span.last);
   ranks = {ranks.lower - before, ranks.upper - before};
   return span;
 }
@@ -86,7 +89,8 @@ std::size_t MedianFinder::collect(const double* values, std::size_t size, const 
     findBuckets(values + start, length, buckets.low, buckets.per_unit, buckets.count, found);
     for (std::size_t i = 0; i < length; ++i) {
       // One comparison, which is rarely true: two would be guessed wrong every other time.
-      if (static_cast<std::uint32_t>(found[i] - span.first) <= width) candidates_[count++] = values[start + i];
+      if (static_cast<std::uint32_t>(found[i] - span.first) <= width)
+        candidates_[count++] = values[start + i];
     }
   }
   return count;

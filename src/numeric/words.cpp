@@ -42,17 +42,21 @@ std::string lowered(std::string text) {
 
 std::string trimmed(const std::string& text, const std::string& around) {
   const std::size_t begin = text.find_first_not_of(around);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(around) - begin + 1);
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find_last_not_of(around) - begin + 1);
 }
 
-bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+bool startsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
+  for (std::size_t at = text.find(what); at != std::string::npos;
+       at = text.find(what, at + with.size())) {
     text.replace(at, what.size(), with);
   }
   return text;
@@ -71,8 +75,10 @@ std::string suggestion(const std::string& unknown, const std::vector<std::string
   const std::string unknown_end = lastPart(unknown);
   const auto distanceTo = [&](const std::string& key, std::size_t most) {
     if (lastPart(key) == unknown_end) return std::size_t{1};
-    // no word is nearer than their lengths differ, and the distance to a very long one takes long to find
-    const std::size_t least = std::max(key.size(), unknown.size()) - std::min(key.size(), unknown.size());
+    // no word is nearer than their lengths differ, and the distance to a very long one takes long
+    // to find
+    const std::size_t least =
+        std::max(key.size(), unknown.size()) - std::min(key.size(), unknown.size());
     return least > most ? least : editDistance(unknown, key, most);
   };
   std::vector<std::string> nearest;

@@ -30,8 +30,8 @@ std::vector<std::string> wordsOf(const std::string& text);
 /// What is behind the last slash.
 std::string lastPart(const std::string& key);
 
-/// Known words that the unknown one may have meant, as " (did you mean ...?)"; empty if none is near. Words with slashes
-/// are near to all that share their last part.
+/// Known words that the unknown one may have meant, as " (did you mean ...?)"; empty if none is
+/// near. Words with slashes are near to all that share their last part.
 std::string suggestion(const std::string& unknown, const std::vector<std::string>& known);
 
 }  // namespace mems_stiction

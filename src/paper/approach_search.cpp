@@ -8,8 +8,9 @@
 namespace mems_stiction {
 namespace {
 
-/// Cells whose gaps differ by less than this share of a step come into contact together. Else round-off decides which
-/// part of a symmetrical ring of cells comes first, and a contact of few pixels gets the radius of half a ring.
+/// Cells whose gaps differ by less than this share of a step come into contact together. Else
+/// round-off decides which part of a symmetrical ring of cells comes first, and a contact of few
+/// pixels gets the radius of half a ring.
 constexpr double kLevelWidth = 1e-6;
 
 }  // namespace
@@ -77,13 +78,15 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   state.approach = approach;
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
-  state.load.capillary = capillaryForce(*order_, approach, contact_count, setting_->capillary, field_->cellArea());
+  state.load.capillary =
+      capillaryForce(*order_, approach, contact_count, setting_->capillary, field_->cellArea());
   state.balance = forceBalance(responses_, state.load.total(), setting_->law);
 }
 
 void ApproachSearch::describe(std::int32_t patch_id) {
   const auto place = static_cast<std::size_t>(sweep_.livePlace(patch_id));
-  caps_[place] = capCouple(sweep_.patch(patch_id), *field_, centreOf(patch_id), setting_->cutoff_distance);
+  caps_[place] =
+      capCouple(sweep_.patch(patch_id), *field_, centreOf(patch_id), setting_->cutoff_distance);
   responses_[place] = AsperityResponse(caps_[place], setting_->law);
 }
 
@@ -94,8 +97,9 @@ PatchCentre ApproachSearch::centreOf(std::int32_t patch_id) {
 }
 
 bool ApproachSearch::nothingResists() const {
-  return std::all_of(responses_.begin(), responses_.end(),
-                     [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
+  return std::all_of(responses_.begin(), responses_.end(), [](const AsperityResponse& asperity) {
+    return asperity.elastic_share == 0.0;
+  });
 }
 
 void ApproachSearch::refine(int previous_count, EquilibriumState& state) {

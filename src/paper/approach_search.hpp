@@ -1,15 +1,16 @@
 #pragma once
 
 /// @file
-/// The iteration of the paper: bring the upper surface down step by step until the stopping condition is met
-/// (force_balance.hpp), and find the place inside that step.
+/// The iteration of the paper: bring the upper surface down step by step until the stopping
+/// condition is met (force_balance.hpp), and find the place inside that step.
 ///
-/// Step k has D = k delta (1), cells with g < D in contact. Inside the step that meets the condition the cells are
-/// added level by level (cells of equal gap come together), and D is the gap of the last one: the result does not hang
-/// on delta. The search ends
+/// Step k has D = k delta (1), cells with g < D in contact. Inside the step that meets the
+/// condition the cells are added level by level (cells of equal gap come together), and D is the
+/// gap of the last one: the result does not hang on delta. The search ends
 ///   - in equilibrium;
 ///   - bonded, at the first level whose contact fraction reaches the limit;
-///   - without equilibrium, after max_steps, or at that limit when all asperities are plastic, so that nothing resists.
+///   - without equilibrium, after max_steps, or at that limit when all asperities are plastic, so
+///   that nothing resists.
 
 #include <cstdint>
 #include <vector>
@@ -24,8 +25,8 @@
 
 namespace mems_stiction {
 
-/// Delta of (1) [m]: as set, or a fiftieth of the composite rms height, or the cut-off distance for surfaces without
-/// relief.
+/// Delta of (1) [m]: as set, or a fiftieth of the composite rms height, or the cut-off distance for
+/// surfaces without relief.
 double approachStep(const PaperOptions& options, double composite_rms_height);
 
 /// What the search needs to know beside the surfaces.
@@ -40,12 +41,12 @@ struct SearchSetting {
   WaterLaw capillary;  ///< of condensed water
 };
 
-/// Runs one approach at a time; keeps its memory between frames. After run() the sweep and the responses are those of
-/// the state that was found.
+/// Runs one approach at a time; keeps its memory between frames. After run() the sweep and the
+/// responses are those of the state that was found.
 class ApproachSearch {
  public:
-  void run(const GapField& field, GapOrder& order, Connectivity connectivity, const SearchSetting& setting,
-           EquilibriumState& state);
+  void run(const GapField& field, GapOrder& order, Connectivity connectivity,
+           const SearchSetting& setting, EquilibriumState& state);
 
   PatchSweep& sweep() { return sweep_; }
   const PatchSweep& sweep() const { return sweep_; }
@@ -58,13 +59,15 @@ class ApproachSearch {
   void search(EquilibriumState& state);
   /// Brings the state's cells into contact and balances the forces there.
   void moveTo(double approach, int contact_count, EquilibriumState& state);
-  /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
+  /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is
+  /// one.
   void refine(int previous_count, EquilibriumState& state);
   /// Caps and response of a patch that has changed.
   void describe(std::int32_t patch_id);
   /// The centre of the patch's box if it belongs to the patch, else its deepest cell.
   PatchCentre centreOf(std::int32_t patch_id);
-  /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
+  /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can
+  /// come.
   bool nothingResists() const;
   void record(EquilibriumState& state) const;
 

@@ -8,16 +8,19 @@
 namespace mems_stiction {
 namespace {
 
-/// V_i of (6). The volume of a spherical cap has the first power of the height as last factor; (6) prints the second.
+/// V_i of (6). The volume of a spherical cap has the first power of the height as last factor; (6)
+/// prints the second.
 double loadWeight(const CapCouple& caps, Formulation formulation) {
-  const double volume = (3.0 * caps.cap_radius * caps.cap_radius + caps.height * caps.height) * caps.height;
+  const double volume =
+      (3.0 * caps.cap_radius * caps.cap_radius + caps.height * caps.height) * caps.height;
   return formulation == Formulation::kPrinted ? volume * caps.height : volume;
 }
 
 }  // namespace
 
-AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, double composite_rms_height_in,
-                         Formulation formulation_in, Deformation deformation_in)
+AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in,
+                         double composite_rms_height_in, Formulation formulation_in,
+                         Deformation deformation_in)
     : contact_modulus(pair.contact_modulus),
       stiffness(4.0 / 3.0 * pair.contact_modulus),
       hardness(pair.hardness),
@@ -28,7 +31,8 @@ AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, do
 
 double AsperityLaw::plasticityIndexOf(double radius) const {
   if (deformation == Deformation::kElastic) return 0.0;
-  if (formulation == Formulation::kPrinted) return contact_modulus / hardness * (composite_rms_height / radius);
+  if (formulation == Formulation::kPrinted)
+    return contact_modulus / hardness * (composite_rms_height / radius);
   return plasticityIndex(contact_modulus, hardness, composite_rms_height, radius);
 }
 

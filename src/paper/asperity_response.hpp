@@ -1,20 +1,23 @@
 #pragma once
 
 /// @file
-/// How one asperity answers the approach that is imposed on it: the forces of section 2.2 of the paper, before the load
-/// is shared.
+/// How one asperity answers the approach that is imposed on it: the forces of section 2.2 of the
+/// paper, before the load is shared.
 ///
-/// The approach imposes the patch's radius rc, so the apparent load is JKR's for that contact radius,
+/// The approach imposes the patch's radius rc, so the apparent load is JKR's for that contact
+/// radius,
 ///
 ///     P1 = K rc^3/R,                       K = 4E/3
 ///
-/// and the generalised force along the approach, under its share P0 = F_i cos(theta) of the load, is the derivative of
-/// (8) with (10), where chi of (10.2) takes stored energy away and nothing takes its place:
+/// and the generalised force along the approach, under its share P0 = F_i cos(theta) of the load,
+/// is the derivative of (8) with (10), where chi of (10.2) takes stored energy away and nothing
+/// takes its place:
 ///
 ///     r = (1/3) [ 2 P0 - 2 P0^2/P1 - chi (P1 - P0^2/P1) + 6 pi Gamma R ]
 ///       = chi r_e + (1 - chi) r_p
-///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],                  elastic: zero where (7) applies
-///     r_p =  (1/3) [ 2 P0 (P1 - P0)/P1 + 6 pi Gamma R ],               plastic: above zero wherever P1 > P0
+///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],                  elastic: zero where (7)
+///     applies r_p =  (1/3) [ 2 P0 (P1 - P0)/P1 + 6 pi Gamma R ],               plastic: above zero
+///     wherever P1 > P0
 ///
 /// The load that it can carry is chi P1 + (1 - chi) min(P1, Ha pi rc^2).
 
@@ -36,8 +39,8 @@ struct AsperityLaw {
   Deformation deformation = Deformation::kThreeRegimes;
 
   AsperityLaw() = default;
-  AsperityLaw(const ContactPair& pair, double work_of_adhesion, double composite_rms_height, Formulation formulation,
-              Deformation deformation);
+  AsperityLaw(const ContactPair& pair, double work_of_adhesion, double composite_rms_height,
+              Formulation formulation, Deformation deformation);
 
   /// phi of (9) in the formulation that is set; 0 when all deformation is elastic.
   double plasticityIndexOf(double radius) const;
@@ -45,9 +48,10 @@ struct AsperityLaw {
 
 /// Everything about one asperity that does not depend on the load.
 struct AsperityResponse {
-  double radius = 0.0;         ///< R_i [m]
-  double cap_radius = 0.0;     ///< rc [m]
-  double load_weight = 0.0;    ///< V_i of (6), the caps' volume, by which it shares the load [m^3] (printed: [m^4])
+  double radius = 0.0;      ///< R_i [m]
+  double cap_radius = 0.0;  ///< rc [m]
+  double load_weight =
+      0.0;  ///< V_i of (6), the caps' volume, by which it shares the load [m^3] (printed: [m^4])
   double cos_tilt = 1.0;       ///< cos(theta)
   double imposed_load = 0.0;   ///< P1 [N]
   double yield_load = 0.0;     ///< Ha pi rc^2 [N]

@@ -15,7 +15,8 @@ double meanGapApart(const EquilibriumState& state, const GapField& field, const 
   const int apart = field.validCount() - state.contact_count;
   if (apart == 0) return 0.0;
   double touching = 0.0;
-  for (int i = 0; i < state.contact_count; ++i) touching += order.cells()[static_cast<std::size_t>(i)].gap;
+  for (int i = 0; i < state.contact_count; ++i)
+    touching += order.cells()[static_cast<std::size_t>(i)].gap;
   return (field.meanGap() * field.validCount() - touching) / apart - state.approach;
 }
 
@@ -29,15 +30,16 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
   order_.build(problem.gap, settings.approach.max_contact_fraction, step);
 
   const ContactPair pair(settings.lower, settings.upper);
-  const SearchSetting setting{AsperityLaw(pair, settings.interface.work_of_adhesion, problem.composite_rms_height,
-                                          formulation_, settings.deformation),
-                              CellForces(settings.interface, cutoff, settings.load.voltage, problem.gap.cellArea()),
-                              settings.load.mechanical_load,
-                              step,
-                              settings.approach.max_steps,
-                              cutoff,
-                              settings.output.energy_curve,
-                              settings.capillary.law()};
+  const SearchSetting setting{
+      AsperityLaw(pair, settings.interface.work_of_adhesion, problem.composite_rms_height,
+                  formulation_, settings.deformation),
+      CellForces(settings.interface, cutoff, settings.load.voltage, problem.gap.cellArea()),
+      settings.load.mechanical_load,
+      step,
+      settings.approach.max_steps,
+      cutoff,
+      settings.output.energy_curve,
+      settings.capillary.law()};
   search_.run(problem.gap, order_, settings.approach.connectivity, setting, state_);
 
   solution.clear();
@@ -50,10 +52,12 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
   solution.contact_fraction = static_cast<double>(state_.contact_count) / problem.gap.validCount();
   solution.load = state_.load;
   const Energies energies = totalEnergies(search_.responses(), state_.balance, setting.law);
-  solution.energies = {energies.mechanical, energies.surface, energies.elastic, state_.plastic_work};
+  solution.energies = {energies.mechanical, energies.surface, energies.elastic,
+                       state_.plastic_work};
   listAsperities(problem, setting.law, solution);
   sumAsperities(setting.law, solution);
-  solution.pull_off_force = solution.pull_off_force_jkr + solution.load.van_der_waals + solution.load.capillary;
+  solution.pull_off_force =
+      solution.pull_off_force_jkr + solution.load.van_der_waals + solution.load.capillary;
   solution.energy_curve.assign(state_.curve.begin(), state_.curve.end());
   fillMaps(problem, setting.law, solution);
 }
@@ -63,14 +67,16 @@ void AsperitySolver::listAsperities(const ContactProblem& problem, const Asperit
   const std::vector<std::int32_t>& patches = search_.sweep().livePatches();
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const CapCouple& caps = search_.caps()[i];
-    solution.asperities.push_back(asperityAt(search_.sweep().patch(patches[i]), caps, search_.responses()[i],
-                                             state_.balance.load_share, problem.gap, law, problem.settings.interface));
+    solution.asperities.push_back(asperityAt(search_.sweep().patch(patches[i]), caps,
+                                             search_.responses()[i], state_.balance.load_share,
+                                             problem.gap, law, problem.settings.interface));
     solution.asperities.back().z = problem.surfaces.lower.height(caps.centre.row, caps.centre.col);
   }
   solution.has_asperities = true;
 }
 
-void AsperitySolver::fillMaps(const ContactProblem& problem, const AsperityLaw& law, ContactSolution& solution) {
+void AsperitySolver::fillMaps(const ContactProblem& problem, const AsperityLaw& law,
+                              ContactSolution& solution) {
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
   const bool wants_map = settings.output.contact_map;
@@ -78,7 +84,8 @@ void AsperitySolver::fillMaps(const ContactProblem& problem, const AsperityLaw& 
   prepareMaps(problem, solution);
   if (!wants_map && !wants_surfaces) return;
 
-  const FormulationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit, law.formulation,
+  const FormulationShare share(settings.lower, settings.upper,
+                               settings.interface.hardness_ratio_limit, law.formulation,
                                law.deformation);
   changes_.clear();
   for (const AsperityResponse& asperity : search_.responses()) {
@@ -93,7 +100,8 @@ void AsperitySolver::fillMaps(const ContactProblem& problem, const AsperityLaw& 
   const double past_contact = std::nextafter(state_.approach, GapField::kInvalidGap);
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, gaps_.data());
-    const int count = columnsBetween(0.0, past_contact, gaps_.data(), field.cols(), columns_.data());
+    const int count =
+        columnsBetween(0.0, past_contact, gaps_.data(), field.cols(), columns_.data());
     std::uint8_t* map = wants_map ? solution.contact_map.ptr<std::uint8_t>(row) : nullptr;
     double* lower_line = wants_surfaces ? solution.displaced_lower.ptr<double>(row) : nullptr;
     double* upper_line = wants_surfaces ? solution.displaced_upper.ptr<double>(row) : nullptr;

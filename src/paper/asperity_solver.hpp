@@ -1,12 +1,13 @@
 #pragma once
 
 /// @file
-/// The paper's solver: every contact patch becomes a couple of spherical caps, JKR applies to each, and the approach
-/// ends where the free energy has its extremum (approach_search.hpp).
+/// The paper's solver: every contact patch becomes a couple of spherical caps, JKR applies to each,
+/// and the approach ends where the free energy has its extremum (approach_search.hpp).
 ///
-/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR applies to each (the Tabor
-/// parameter tells how far it does). Outside: the status says so, forces are then lower bounds.
-/// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
+/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR applies to
+/// each (the Tabor parameter tells how far it does). Outside: the status says so, forces are then
+/// lower bounds. Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as
+/// implemented.
 ///
 ///     AsperitySolver solver(Formulation::kPaper);
 ///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
@@ -35,8 +36,10 @@ class AsperitySolver : public ContactSolver {
     std::uint8_t regime = 0;   ///< as in the contact map
   };
 
-  void listAsperities(const ContactProblem& problem, const AsperityLaw& law, ContactSolution& solution) const;
-  /// Fills the maps that output asks for, both surfaces after contact and the regime of every cell, and releases the others.
+  void listAsperities(const ContactProblem& problem, const AsperityLaw& law,
+                      ContactSolution& solution) const;
+  /// Fills the maps that output asks for, both surfaces after contact and the regime of every cell,
+  /// and releases the others.
   void fillMaps(const ContactProblem& problem, const AsperityLaw& law, ContactSolution& solution);
 
   Formulation formulation_;

@@ -20,11 +20,12 @@ struct Plane {
   double slope_y;
 };
 
-/// Least-squares planes through the boundary edges, all from one set of sums. Planes of a patch without edges are level
-/// and have no height (NaN).
+/// Least-squares planes through the boundary edges, all from one set of sums. Planes of a patch
+/// without edges are level and have no height (NaN).
 class BasePlanes {
  public:
-  /// Coordinates are moved to the centre, exactly: no digits are lost to the patch's place in the frame.
+  /// Coordinates are moved to the centre, exactly: no digits are lost to the patch's place in the
+  /// frame.
   BasePlanes(const BoundarySums& edges, const GridCell& centre)
       : centre_x_(2.0 * centre.col), centre_y_(2.0 * centre.row) {
     const double count = edges.count;
@@ -32,7 +33,8 @@ class BasePlanes {
     const double y = edges.y - count * centre_y_;
     const double xx = edges.xx - 2.0 * centre_x_ * edges.x + count * centre_x_ * centre_x_;
     const double yy = edges.yy - 2.0 * centre_y_ * edges.y + count * centre_y_ * centre_y_;
-    const double xy = edges.xy - centre_x_ * edges.y - centre_y_ * edges.x + count * centre_x_ * centre_y_;
+    const double xy =
+        edges.xy - centre_x_ * edges.y - centre_y_ * edges.x + count * centre_x_ * centre_y_;
     inverse_count_ = count > 0.0 ? 1.0 / count : std::numeric_limits<double>::quiet_NaN();
     mean_x_ = x * inverse_count_;
     mean_y_ = y * inverse_count_;
@@ -65,8 +67,8 @@ class BasePlanes {
   bool is_level_;
 };
 
-/// How far the outline at `level` lies beyond the centre of an extreme cell, towards its neighbour outside [cells], in
-/// [0, 1]; where there is none, the outline is the cell's edge.
+/// How far the outline at `level` lies beyond the centre of an extreme cell, towards its neighbour
+/// outside [cells], in [0, 1]; where there is none, the outline is the cell's edge.
 double outlineBeyond(const ExtremeCell& extreme, double level) {
   constexpr double kCellEdge = 0.5;
   const double rise = extreme.outside - extreme.gap;

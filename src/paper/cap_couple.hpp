@@ -6,19 +6,19 @@
 ///     rc      = (Lx + Ly)/4, Lx and Ly the sides of the patch's bounding box
 ///     delta_c = height of each surface's summit over its base plane,
 ///               the least-squares plane through the boundary edges
-///     R       = (rc^2 + delta_c^2)/(2 delta_c), the circle through three points of the cross-section
-///     1/R_i   = 1/R(z1) + 1/R(z2)                                                              (5)
-///     theta   = tilt of the mid-surface's base plane
+///     R       = (rc^2 + delta_c^2)/(2 delta_c), the circle through three points of the
+///     cross-section 1/R_i   = 1/R(z1) + 1/R(z2) (5) theta   = tilt of the mid-surface's base plane
 ///
-/// The bounding box is that of the patch's outline, interpolated between cell centres at the level of the base planes
-/// (the mean gap of the boundary edges): rc and delta_c then belong to one contour, and R does not jump by +-4 % at 25
-/// pixels whenever the box grows by a pixel. At the frame's border and beside invalid pixels the outline is the cell's
-/// edge.
+/// The bounding box is that of the patch's outline, interpolated between cell centres at the level
+/// of the base planes (the mean gap of the boundary edges): rc and delta_c then belong to one
+/// contour, and R does not jump by +-4 % at 25 pixels whenever the box grows by a pixel. At the
+/// frame's border and beside invalid pixels the outline is the cell's edge.
 ///
-/// Where it is degenerate: fewer than 4 edges or edges on one line give a level base plane; a summit that is not above
-/// its base plane counts as flat; caps lower than a tenth of the patch's largest interference say nothing about its
-/// shape (the centre is not the summit), and the interference itself is taken for the cap height, at least the
-/// cut-off distance, so that no radius is infinite.
+/// Where it is degenerate: fewer than 4 edges or edges on one line give a level base plane; a
+/// summit that is not above its base plane counts as flat; caps lower than a tenth of the patch's
+/// largest interference say nothing about its shape (the centre is not the summit), and the
+/// interference itself is taken for the cap height, at least the cut-off distance, so that no
+/// radius is infinite.
 
 #include <cmath>
 
@@ -45,8 +45,8 @@ struct CapCouple {
   double tilt() const { return std::atan(std::sqrt(squared_slope)); }  ///< theta [rad]
 };
 
-/// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest
-/// of them, so that a mirrored frame has the mirrored centre.
+/// The cell in the middle of the patch's bounding box. A side with an even number of cells has two
+/// middles: the deepest of them, so that a mirrored frame has the mirrored centre.
 PatchCentre boxCentre(const ContactPatch& patch, const GapField& field);
 /// The patch's deepest cell.
 PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field);

@@ -16,13 +16,16 @@ MEMS_STICTION_INLINE Real cubedDistance(const Real& gap, double cutoff) {
 
 }  // namespace
 
-CellForces::CellForces(const InterfaceOptions& interface, double cutoff_distance, double voltage, double cell_area)
+CellForces::CellForces(const InterfaceOptions& interface, double cutoff_distance, double voltage,
+                       double cell_area)
     : van_der_waals_factor_(interface.hamaker_constant * cell_area / (6.0 * kPi)),
       cutoff_(cutoff_distance),
       field_(voltage, interface.insulator_thickness, interface.insulator_relative_permittivity),
       electrostatic_factor_(field_.factor(cell_area)) {}
 
-double CellForces::vanDerWaals(double gap) const { return van_der_waals_factor_ / cubedDistance(gap, cutoff_); }
+double CellForces::vanDerWaals(double gap) const {
+  return van_der_waals_factor_ / cubedDistance(gap, cutoff_);
+}
 
 double CellForces::electrostatic(double gap) const {
   if (!hasElectrostatic()) return 0.0;
@@ -31,8 +34,8 @@ double CellForces::electrostatic(double gap) const {
 
 double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
 
-MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std::size_t count, double approach,
-                                                   NormalLoad& load) const {
+MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std::size_t count,
+                                                   double approach, NormalLoad& load) const {
   Packet inverse_cubes = 0.0;
   Packet inverse_squares = 0.0;
   const std::size_t in_fours = visitFours(cells, count, approach, [&](const Packet& gap) {
@@ -59,14 +62,17 @@ double CellForces::electrostatic(const GapMoments& gaps, double approach) const 
   return gaps.count * electrostatic_factor_ / square * (1.0 + 3.0 * gaps.variance / square);
 }
 
-MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces,
+MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_count,
+                                                 const CellForces& forces,
                                                  double mechanical_load) const {
   NormalLoad load;
   load.mechanical = mechanical_load;
   load.electrostatic = contact_count * forces.electrostaticInContact();
   pyramid_.visit(
       approach, contact_count, {forces.cutoff(), 0.0},
-      [&](const OrderedCell* cells, std::size_t count) { forces.addCells(cells, count, approach, load); },
+      [&](const OrderedCell* cells, std::size_t count) {
+        forces.addCells(cells, count, approach, load);
+      },
       [&](const GapMoments& gaps) {
         load.van_der_waals += forces.vanDerWaals(gaps, approach);
         load.electrostatic += forces.electrostatic(gaps, approach);

@@ -7,8 +7,8 @@
 namespace mems_stiction {
 namespace {
 
-/// Largest window, as a share of the frame: what a search up to a contact fraction of 0.3 reads in one go, at 12 bytes
-/// a pixel of memory.
+/// Largest window, as a share of the frame: what a search up to a contact fraction of 0.3 reads in
+/// one go, at 12 bytes a pixel of memory.
 constexpr double kWindowShare = 0.31;
 constexpr std::ptrdiff_t kWriteAhead = 3;
 
@@ -25,7 +25,8 @@ const CellSurroundings& SurroundingsTable::lookUp(const OrderedCell& ordered) {
   const GridCell cell = field_->cellAt(ordered.cell);
   for (const Side side : kSides) {
     const GridCell neighbour = cell.neighbour(side, field_->cols());
-    looked_up_.gaps[side] = field_->contains(neighbour) ? field_->gap(neighbour.index) : GapField::kInvalidGap;
+    looked_up_.gaps[side] =
+        field_->contains(neighbour) ? field_->gap(neighbour.index) : GapField::kInvalidGap;
   }
   looked_up_.cell = cell.index;
   looked_up_.tag = DaleTag(dales_->find(cell), DaleTag::kAllSides);
@@ -37,10 +38,12 @@ void SurroundingsTable::collectFrom(int place) {
   first_group_ = order_->groupOfPlace(place);
   first_place_ = order_->groupStart(first_group_);
   end_group_ = first_group_ + 1;
-  while (end_group_ < order_->groupCount() && order_->groupStart(end_group_ + 1) - first_place_ <= capacity)
+  while (end_group_ < order_->groupCount() &&
+         order_->groupStart(end_group_ + 1) - first_place_ <= capacity)
     ++end_group_;
   end_place_ = order_->groupStart(end_group_);
-  if (end_place_ - first_place_ > capacity) {  // one group that is too large for the window: looked up cell by cell
+  if (end_place_ - first_place_ >
+      capacity) {  // one group that is too large for the window: looked up cell by cell
     first_place_ = end_place_;
     return;
   }
@@ -49,9 +52,11 @@ void SurroundingsTable::collectFrom(int place) {
   table_.resize(static_cast<std::size_t>(end_place_ - first_place_));
   next_place_.resize(static_cast<std::size_t>(end_group_ - first_group_));
   for (int group = first_group_; group < end_group_; ++group) {
-    next_place_[static_cast<std::size_t>(group - first_group_)] = order_->groupStart(group) - first_place_;
+    next_place_[static_cast<std::size_t>(group - first_group_)] =
+        order_->groupStart(group) - first_place_;
   }
-  const double margin = order_->bucketWidth();  // where groups begin and end is a matter of rounding
+  const double margin =
+      order_->bucketWidth();  // where groups begin and end is a matter of rounding
   rows_.start(*field_, *dales_, order_->groupLowerEnd(first_group_) - margin,
               order_->groupLowerEnd(end_group_) + margin);
   while (rows_.next()) collectRow();
@@ -69,7 +74,8 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow() {
     const auto group = static_cast<std::uint32_t>(order.groupOf(rows.gaps[col]) - first_group_);
     if (group >= groups) continue;
     CellSurroundings& around = table_[static_cast<std::size_t>(next_place_[group]++)];
-    __builtin_prefetch(&around + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
+    __builtin_prefetch(&around + kWriteAhead,
+                       1);  // where the group goes on: there are too many for the processor
     around.gaps[kLeft] = rows.gaps[col - 1];
     around.gaps[kRight] = rows.gaps[col + 1];
     around.gaps[kTop] = rows.above[col];

@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// What lies around a cell when it comes into contact: all that its patch needs to know of it, in one place of memory.
+/// What lies around a cell when it comes into contact: all that its patch needs to know of it, in
+/// one place of memory.
 ///
-/// The order of the approach jumps about the frame. The table therefore collects the surroundings of the next cells in
-/// the order of the frame and leaves them in the order of the approach, a window at a time; a sweep that has taken more
-/// than its first few cells then reads memory from front to back.
+/// The order of the approach jumps about the frame. The table therefore collects the surroundings
+/// of the next cells in the order of the frame and leaves them in the order of the approach, a
+/// window at a time; a sweep that has taken more than its first few cells then reads memory from
+/// front to back.
 
 #include <cstdint>
 #include <vector>
@@ -40,8 +42,8 @@ class SurroundingsTable {
   void collectFrom(int place);
   /// The place after its last one.
   int endPlace() const { return end_place_; }
-  /// Of the cell at any place of the order: from the window, or looked up in the field if it is not there, or if its
-  /// group has been sorted since. Valid until the next call.
+  /// Of the cell at any place of the order: from the window, or looked up in the field if it is not
+  /// there, or if its group has been sorted since. Valid until the next call.
   const CellSurroundings& at(int place) {
     const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(place)];
     if (place >= first_place_ && place < end_place_) {

@@ -46,8 +46,8 @@ class ContactList {
   double radius_sum_ = 0.0;
 };
 
-/// The sum of JKR's energies over the contacts, without the van der Waals attraction across the open gap (which adds at
-/// most F_w (mean gap)/2 per nominal area).
+/// The sum of JKR's energies over the contacts, without the van der Waals attraction across the
+/// open gap (which adds at most F_w (mean gap)/2 per nominal area).
 double jkrEnergy(const std::vector<Asperity>& asperities, double work, double modulus) {
   double energy = 0.0;
   for (const Asperity& asperity : asperities) {
@@ -71,24 +71,29 @@ class ContactGrowth : public ContactResponse {
         pull_off_(1.5 * adhesion_ + contact.van_der_waals_force + other_),
         far_(farAttraction(contact)),
         near_(contact.van_der_waals_force - far_),
-        parting_work_(
-            jkrEnergy(contact.asperities, contact.settings.interface.work_of_adhesion, pair_.contact_modulus) /
-            contact.nominal_area) {}
+        parting_work_(jkrEnergy(contact.asperities, contact.settings.interface.work_of_adhesion,
+                                pair_.contact_modulus) /
+                      contact.nominal_area) {}
 
   FigureFactors under(const ConstantFactors& factors) const override {
     const double area = factors.pitch * factors.pitch;
-    const double near_now = area * (factors.hamaker * near_ / (factors.cutoff * factors.cutoff) + other_);
-    const double demand_now =
-        applied_ + near_now + area * factors.hamaker * far_ + 2.0 * area * factors.adhesion * adhesion_;
-    const double carried_now = contacts_.carriedLoad(factors.modulus * factors.pitch, factors.hardness * area,
-                                                     factors.modulus / factors.hardness / factors.pitch);
-    const double growth = demand_ > 0.0 && carried_ > 0.0 ? demand_now / carried_now * (carried_ / demand_) : 1.0;
+    const double near_now =
+        area * (factors.hamaker * near_ / (factors.cutoff * factors.cutoff) + other_);
+    const double demand_now = applied_ + near_now + area * factors.hamaker * far_ +
+                              2.0 * area * factors.adhesion * adhesion_;
+    const double carried_now =
+        contacts_.carriedLoad(factors.modulus * factors.pitch, factors.hardness * area,
+                              factors.modulus / factors.hardness / factors.pitch);
+    const double growth =
+        demand_ > 0.0 && carried_ > 0.0 ? demand_now / carried_now * (carried_ / demand_) : 1.0;
     const double pull_off_now =
-        factors.place * growth * (1.5 * area * factors.adhesion * adhesion_ + near_now) + area * factors.hamaker * far_;
+        factors.place * growth * (1.5 * area * factors.adhesion * adhesion_ + near_now) +
+        area * factors.hamaker * far_;
     // JKR's energy at no load goes with Gamma^(5/3) R^(4/3) K^(-2/3)
-    const double energy =
-        std::pow(factors.adhesion, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) * std::pow(factors.modulus, -2.0 / 3.0);
-    return {pull_off_ > 0.0 ? pull_off_now / area / pull_off_ : 1.0, factors.place * growth * energy / area};
+    const double energy = std::pow(factors.adhesion, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) *
+                          std::pow(factors.modulus, -2.0 / 3.0);
+    return {pull_off_ > 0.0 ? pull_off_now / area / pull_off_ : 1.0,
+            factors.place * growth * energy / area};
   }
 
   double placeDeviation(double deviation) const override {
@@ -102,9 +107,9 @@ class ContactGrowth : public ContactResponse {
   static double farAttraction(const SolvedContact& contact) {
     if (!(contact.mean_gap > 0.0)) return 0.0;
     const double open_area = contact.nominal_area - contact.contact_area;
-    return std::min(
-        contact.van_der_waals_force,
-        open_area * surface_forces::vanDerWaalsPressure(contact.mean_gap, contact.settings.interface.hamaker_constant));
+    return std::min(contact.van_der_waals_force,
+                    open_area * surface_forces::vanDerWaalsPressure(
+                                    contact.mean_gap, contact.settings.interface.hamaker_constant));
   }
 
   ContactPair pair_;

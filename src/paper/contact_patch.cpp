@@ -7,9 +7,11 @@ namespace {
 
 bool isApart(double gap) { return gap < GapField::kInvalidGap; }
 
-/// +1 for an edge that comes in with a cell, -1 for one that goes, 0 for none. Which one is random: without a branch.
+/// +1 for an edge that comes in with a cell, -1 for one that goes, 0 for none. Which one is random:
+/// without a branch.
 double signOfEdge(Side side, double neighbour_gap, double gap) {
-  return static_cast<int>(isApart(neighbour_gap)) - 2 * static_cast<int>(comesFirst(side, neighbour_gap, gap));
+  return static_cast<int>(isApart(neighbour_gap)) -
+         2 * static_cast<int>(comesFirst(side, neighbour_gap, gap));
 }
 
 }  // namespace
@@ -21,7 +23,8 @@ void BoundarySums::addEdges(const GridCell& cell, double own, const double (&gap
     signs[side] = signOfEdge(side, gaps[side], own);
     edges[side] = signs[side] * 0.5 * (own + (isApart(gaps[side]) ? gaps[side] : 0.0));
   }
-  // All edges are half a pixel pitch, one unit, from the cell's centre: moments follow from few products.
+  // All edges are half a pixel pitch, one unit, from the cell's centre: moments follow from few
+  // products.
   const double centre_x = 2.0 * cell.col;
   const double centre_y = 2.0 * cell.row;
   const double horizontal = signs[kLeft] + signs[kRight];
@@ -43,7 +46,8 @@ void BoundarySums::addEdges(const GridCell& cell, double own, const double (&gap
   xy += edge_x * centre_y + downwards * centre_x;
 }
 
-void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, double own, const double (&gaps)[4]) {
+void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, double own,
+                                 const double (&gaps)[4]) {
   const double cell_lower = field.lowerHeight(cell.index);
   double edges[4];
   for (const Side side : kSides) {
@@ -73,10 +77,12 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-void ContactPatch::extend(Side side, std::int32_t& bound, std::int32_t place, const ExtremeCell& cell) {
+void ContactPatch::extend(Side side, std::int32_t& bound, std::int32_t place,
+                          const ExtremeCell& cell) {
   const std::int32_t beyond = side == kLeft || side == kTop ? bound - place : place - bound;
   ExtremeCell& known = extreme[side];
-  if (beyond < 0 || (beyond == 0 && !comesBefore(cell.gap, cell.cell, known.gap, known.cell))) return;
+  if (beyond < 0 || (beyond == 0 && !comesBefore(cell.gap, cell.cell, known.gap, known.cell)))
+    return;
   bound = place;
   known = cell;
 }

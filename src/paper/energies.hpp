@@ -27,6 +27,7 @@ struct Energies {
 };
 
 /// Energies of one asperity under the axial load P0 [N].
-Energies asperityEnergies(const AsperityResponse& asperity, double axial_load, const AsperityLaw& law);
+Energies asperityEnergies(const AsperityResponse& asperity, double axial_load,
+                          const AsperityLaw& law);
 
 }  // namespace mems_stiction

@@ -9,7 +9,8 @@ double axialLoad(const AsperityResponse& asperity, const ForceBalance& balance) 
 
 }  // namespace
 
-ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load, const AsperityLaw& law) {
+ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load,
+                          const AsperityLaw& law) {
   ForceBalance balance;
   balance.normal_load = normal_load;
   double weight = 0.0;
@@ -19,7 +20,8 @@ ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double
     balance.plastic_force += (1.0 - asperity.elastic_share) * asperity.yield_load;
   }
   balance.load_share = normal_load / weight;
-  balance.is_equilibrium = balance.carried_load >= normal_load && generalizedForce(responses, balance, law) <= 0.0;
+  balance.is_equilibrium =
+      balance.carried_load >= normal_load && generalizedForce(responses, balance, law) <= 0.0;
   return balance;
 }
 

@@ -15,15 +15,18 @@ double printedShare(double log_ratio, double log_limit) {
 
 }  // namespace
 
-FormulationShare::FormulationShare(const Material& lower, const Material& upper, double hardness_ratio_limit,
-                                   Formulation formulation, Deformation deformation)
+FormulationShare::FormulationShare(const Material& lower, const Material& upper,
+                                   double hardness_ratio_limit, Formulation formulation,
+                                   Deformation deformation)
     : lower_share_(DeformationShare(lower, upper, hardness_ratio_limit).lower(kPlasticLimit)) {
   if (formulation != Formulation::kPrinted) return;
-  const double softer_over_harder = std::min(lower.hardness, upper.hardness) / std::max(lower.hardness, upper.hardness);
+  const double softer_over_harder =
+      std::min(lower.hardness, upper.hardness) / std::max(lower.hardness, upper.hardness);
   if (softer_over_harder < hardness_ratio_limit) {
     flows_in_every_regime_ = deformation == Deformation::kThreeRegimes;
   } else {
-    lower_share_ = printedShare(std::log(upper.hardness / lower.hardness), std::log(hardness_ratio_limit));
+    lower_share_ =
+        printedShare(std::log(upper.hardness / lower.hardness), std::log(hardness_ratio_limit));
   }
 }
 

@@ -8,9 +8,9 @@
 
 namespace mems_stiction {
 
-/// Searches the levels 0 .. count-1 of the step in two passes: the ends of groups of sqrt(count) levels, then the
-/// levels of the first group whose end meets the condition, one by one. Each pass asks in ascending order, so that a
-/// sweep starts over once at most.
+/// Searches the levels 0 .. count-1 of the step in two passes: the ends of groups of sqrt(count)
+/// levels, then the levels of the first group whose end meets the condition, one by one. Each pass
+/// asks in ascending order, so that a sweep starts over once at most.
 /// - @p is_met bool(int level); its last call is for the returned level.
 /// @return the level, or count if no end of a group meets the condition.
 template <typename Condition>

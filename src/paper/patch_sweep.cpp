@@ -5,10 +5,12 @@
 namespace mems_stiction {
 namespace {
 
-/// The first cells of a sweep, and the last ones that are past a window of the table, are looked up one by one if they
-/// are no more than this share of the frame: most sweeps end before it, and a window costs a pass over the frame.
+/// The first cells of a sweep, and the last ones that are past a window of the table, are looked up
+/// one by one if they are no more than this share of the frame: most sweeps end before it, and a
+/// window costs a pass over the frame.
 constexpr double kShareLookedUp = 1.0 / 64.0;
-/// Cells of the order lie all over the frame: heights are asked for so many cells before they are needed.
+/// Cells of the order lie all over the frame: heights are asked for so many cells before they are
+/// needed.
 constexpr int kCellsAhead = 12;
 
 }  // namespace
@@ -67,7 +69,8 @@ void PatchSweep::insertNext() {
   if (dales_.count() > patchIdEnd()) makeRoom();
   const GridCell cell = field_->cellAt(ordered.cell);
   std::int32_t id = joined_.patchOf(around.dale());
-  if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, cell, ordered.gap, around);
+  if (around.isBorder() || connectivity_ == Connectivity::kEight)
+    id = join(id, cell, ordered.gap, around);
   ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
   if (patch.area == 0) {
     live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
@@ -121,7 +124,8 @@ std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
   return a;
 }
 
-std::int32_t PatchSweep::join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around) {
+std::int32_t PatchSweep::join(std::int32_t id, const GridCell& cell, double gap,
+                              const CellSurroundings& around) {
   const auto joinNeighbour = [&](const GridCell& neighbour) {
     const std::int32_t dale = dales_.find(neighbour);
     if (dale >= patchIdEnd()) makeRoom();
@@ -137,7 +141,8 @@ std::int32_t PatchSweep::join(std::int32_t id, const GridCell& cell, double gap,
     for (const Side horizontal : {kLeft, kRight}) {
       const GridCell corner = cell.neighbour(vertical, cols).neighbour(horizontal, cols);
       if (!field_->contains(corner)) continue;
-      if (comesBefore(field_->gap(corner.index), corner.index, gap, cell.index)) joinNeighbour(corner);
+      if (comesBefore(field_->gap(corner.index), corner.index, gap, cell.index))
+        joinNeighbour(corner);
     }
   }
   return id;

@@ -1,10 +1,10 @@
 #pragma once
 
 /// @file
-/// The approach as one sweep: cells come into contact one by one in order of gap, and joining the dales of
-/// the gap keeps the contact patches with their additive attributes. Every step of the approach costs only the cells
-/// that it adds; relabelling the frame at each step gives the same patches (test/support/plain_adhesion_model.hpp does
-/// that).
+/// The approach as one sweep: cells come into contact one by one in order of gap, and joining the
+/// dales of the gap keeps the contact patches with their additive attributes. Every step of the
+/// approach costs only the cells that it adds; relabelling the frame at each step gives the same
+/// patches (test/support/plain_adhesion_model.hpp does that).
 
 #include <cstddef>
 #include <cstdint>
@@ -23,26 +23,33 @@ namespace mems_stiction {
 /// The patches of an approach that only moves forward.
 class PatchSweep {
  public:
-  /// Starts with no cell in contact. The field and the order must outlive the sweep's use; memory is reused.
+  /// Starts with no cell in contact. The field and the order must outlive the sweep's use; memory
+  /// is reused.
   void start(const GapField& field, const GapOrder& order, Connectivity connectivity);
 
-  /// Brings the first `count` cells of the order into contact; starts over if fewer are asked for than are in. The
-  /// patches are those of a moment of the approach when all cells up to some gap are in: a step of the order, or a
-  /// level of a group that is sorted.
+  /// Brings the first `count` cells of the order into contact; starts over if fewer are asked for
+  /// than are in. The patches are those of a moment of the approach when all cells up to some gap
+  /// are in: a step of the order, or a level of a group that is sorted.
   void advanceTo(int count);
 
-  /// Ids of the patches that exist now, in an order that depends only on the cells in contact and their order.
+  /// Ids of the patches that exist now, in an order that depends only on the cells in contact and
+  /// their order.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
-  const ContactPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(id)]; }
+  const ContactPatch& patch(std::int32_t id) const {
+    return patches_[static_cast<std::size_t>(id)];
+  }
 
-  /// Ids of the live patches that have changed, or moved to another place in livePatches(), since the last call (all of
-  /// them after a restart).
+  /// Ids of the live patches that have changed, or moved to another place in livePatches(), since
+  /// the last call (all of them after a restart).
   const std::vector<std::int32_t>& takeChangedPatches();
 
   /// Place of a live patch in livePatches().
-  std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
+  std::int32_t livePlace(std::int32_t id) const {
+    return live_place_[static_cast<std::size_t>(id)];
+  }
 
-  /// Patch that contains the cell, or -1 if the cell is not in contact. Cells of equal gap come into contact together.
+  /// Patch that contains the cell, or -1 if the cell is not in contact. Cells of equal gap come
+  /// into contact together.
   std::int32_t patchOf(int cell) { return patchOf(field_->cellAt(cell)); }
   std::int32_t patchOf(const GridCell& cell);
 
@@ -55,7 +62,8 @@ class PatchSweep {
   /// Brings the next cell of the order into contact.
   void insertNext();
   /// The patch of the cell's dale together with those that the cell touches.
-  std::int32_t join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around);
+  std::int32_t join(std::int32_t id, const GridCell& cell, double gap,
+                    const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
   void markChanged(std::int32_t id);
 
@@ -66,7 +74,8 @@ class PatchSweep {
   DaleMap dales_;
   SurroundingsTable surroundings_;
   JoinedDales joined_;
-  std::vector<ContactPatch> patches_;  ///< per dale; of area 0 before its first cell comes into contact
+  std::vector<ContactPatch>
+      patches_;  ///< per dale; of area 0 before its first cell comes into contact
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
   std::vector<std::int32_t> changed_;  ///< since takeChangedPatches()

@@ -73,26 +73,33 @@ void AdhesionModel::Implementation::setOptions(const Options& new_options) {
   new_options.check();
   if (new_options.load.isPerArea()) {
     throw OptionsError(
-        {"load/pressure, load/device_force: a model takes load/mechanical_load alone; scale them to the "
+        {"load/pressure, load/device_force: a model takes load/mechanical_load alone; scale them "
+         "to the "
          "frame first (evaluation/frame_load.hpp)"});
   }
-  if (!solver_ || new_options.formulation != options_.formulation) solver_ = makeContactSolver(new_options.formulation);
+  if (!solver_ || new_options.formulation != options_.formulation)
+    solver_ = makeContactSolver(new_options.formulation);
   options_ = new_options;
 }
 
-double AdhesionModel::Implementation::compositeRmsHeight(const SurfacePair& surfaces, double lower_rms_height) const {
-  const double upper_rms_height = surfaces.upperIsPlane() ? 0.0 : heightStatistics(surfaces.upper).rms_height;
+double AdhesionModel::Implementation::compositeRmsHeight(const SurfacePair& surfaces,
+                                                         double lower_rms_height) const {
+  const double upper_rms_height =
+      surfaces.upperIsPlane() ? 0.0 : heightStatistics(surfaces.upper).rms_height;
   const double composite_rms_height = std::hypot(lower_rms_height, upper_rms_height);
-  if (!std::isfinite(composite_rms_height)) {  // large against their gap, or their sums would have been refused
-    throw SurfaceError("the rms heights of scan (" + numberText(lower_rms_height) + " m) and counter-surface (" +
-                       numberText(upper_rms_height) + " m) must be finite");
+  if (!std::isfinite(composite_rms_height)) {  // large against their gap, or their sums would have
+                                               // been refused
+    throw SurfaceError("the rms heights of scan (" + numberText(lower_rms_height) +
+                       " m) and counter-surface (" + numberText(upper_rms_height) +
+                       " m) must be finite");
   }
   return composite_rms_height;
 }
 
 void AdhesionModel::Implementation::see(const SurfacePair& surfaces) {
   gap_.compute(surfaces);
-  rms_height_ = surfaces.upperIsPlane() ? gap_.rmsGap() : heightStatistics(surfaces.lower).rms_height;
+  rms_height_ =
+      surfaces.upperIsPlane() ? gap_.rmsGap() : heightStatistics(surfaces.lower).rms_height;
   composite_rms_height_ = compositeRmsHeight(surfaces, rms_height_);
 }
 
@@ -107,7 +114,8 @@ void AdhesionModel::Implementation::solve(const SurfacePair& surfaces, Predictio
   if (options_.output.roughness) prediction.roughness = arealParameters(surfaces.lower);
 }
 
-AdhesionModel::AdhesionModel(const Options& options) : implementation_(std::make_unique<Implementation>(options)) {}
+AdhesionModel::AdhesionModel(const Options& options)
+    : implementation_(std::make_unique<Implementation>(options)) {}
 AdhesionModel::~AdhesionModel() = default;
 AdhesionModel::AdhesionModel(AdhesionModel&&) noexcept = default;
 AdhesionModel& AdhesionModel::operator=(AdhesionModel&&) noexcept = default;

@@ -38,7 +38,8 @@ AreaAdhesion withoutCells(const AreaCells& cells, double gap) {
   answer.reach = is_too_much ? AreaReach::kTooMuch : AreaReach::kLevelTooHigh;
   if (!is_too_much) {
     const double deeper = kDeeper * (cells.highest() - cells.level());
-    bucket = std::min(bucket, std::max(bucketOfGap(cells, deeper), counts.lowestWithin(cells.limits().most_cells)));
+    bucket = std::min(bucket, std::max(bucketOfGap(cells, deeper),
+                                       counts.lowestWithin(cells.limits().most_cells)));
   }
   answer.needed_level = counts.lowerEnd(bucket);
   answer.needed_cells = counts.countFrom(bucket);
@@ -48,7 +49,8 @@ AreaAdhesion withoutCells(const AreaCells& cells, double gap) {
 void takeMedians(const ContactCurve& curve, const Options& options, AreaAdhesion& answer) {
   if (curve.contacts().empty()) return;
   std::vector<double> radii;
-  for (const ContactCurve::Contact& contact : curve.contacts()) radii.push_back(contact.composite_radius);
+  for (const ContactCurve::Contact& contact : curve.contacts())
+    radii.push_back(contact.composite_radius);
   answer.median_composite_radius = medianOf(radii);
   // it rises with the radius
   answer.median_tabor_parameter =
@@ -59,17 +61,20 @@ void takeMedians(const ContactCurve& curve, const Options& options, AreaAdhesion
 /// Of the cells from a bucket on, and the gaps of all others.
 /// @return nothing if their islands have no room
 /// @throw CellsMissing if they do not suffice.
-std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t bucket, const Options& options) {
+std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t bucket,
+                                        const Options& options) {
   const std::int64_t most_places = std::max(kPlacesPerCell * cells.limits().most_cells, kFewPlaces);
   GapField field;
   {
     const std::optional<HeightMap> frame =
         frameOfIslands(cells.cellsFrom(bucket), cells.pitchX(), cells.pitchY(),
-                       std::min<std::int64_t>(most_places, std::numeric_limits<std::int32_t>::max() / kPlacesPerCell));
+                       std::min<std::int64_t>(
+                           most_places, std::numeric_limits<std::int32_t>::max() / kPlacesPerCell));
     if (!frame) return std::nullopt;
     field.compute(*frame);
   }
-  const FarGaps far(cells.counts(), bucket, cells.highest(), ContactTraction(options.interface).range());
+  const FarGaps far(cells.counts(), bucket, cells.highest(),
+                    ContactTraction(options.interface).range());
   ContactCurve curve;
   curve.comeToRest(field, options, &far);
   AreaAdhesion answer;
@@ -89,7 +94,8 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   answer.pull_off_exponents = unloading.force_exponents;
   answer.apparent_work_of_adhesion = unloading.work;
   answer.work_exponents = unloading.work_exponents;
-  const int in_reach = unloading.force > 0.0 ? static_cast<int>(curve.inReachAtPullOff().patches().size()) : 0;
+  const int in_reach =
+      unloading.force > 0.0 ? static_cast<int>(curve.inReachAtPullOff().patches().size()) : 0;
   answer.pull_off_contact_count = in_reach > 0 ? in_reach : answer.contact_count;
   curve.appendLoading(answer.curve);
   answer.curve.insert(answer.curve.end(), unloading.curve.begin(), unloading.curve.end());
@@ -102,11 +108,13 @@ AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options) {
   options.check();
   if (!skillsOf(options.formulation).follows_areas) {
     throw OptionsError(
-        {"approach/formulation: an area is followed by separation_curve alone, not by '" + options.formulation + "'"});
+        {"approach/formulation: an area is followed by separation_curve alone, not by '" +
+         options.formulation + "'"});
   }
   if (options.load.isPerArea()) {
     throw OptionsError(
-        {"load/pressure, load/device_force: an area takes load/mechanical_load alone; scale them to it first"});
+        {"load/pressure, load/device_force: an area takes load/mechanical_load alone; scale them "
+         "to it first"});
   }
   if (cells.counts().empty()) throw SurfaceError("the area has no valid cell");
   const HeightCounts& counts = cells.counts();

@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// The adhesion of an area that is too large to be held as a frame, by its cells (approach/area_cells.hpp): the separation curve of
-/// the whole area (doc/separation_curve.md), from the cells that can touch or come in reach, one by one, and from all others by
-/// their gaps. On areas that are small enough for both, AdhesionModel says the same.
+/// The adhesion of an area that is too large to be held as a frame, by its cells
+/// (approach/area_cells.hpp): the separation curve of the whole area (doc/separation_curve.md),
+/// from the cells that can touch or come in reach, one by one, and from all others by their gaps.
+/// On areas that are small enough for both, AdhesionModel says the same.
 ///
-/// The surfaces part by contacts. Whether they would conform is not a matter of the highest cells: flattening ratios of scans tell.
+/// The surfaces part by contacts. Whether they would conform is not a matter of the highest cells:
+/// flattening ratios of scans tell.
 ///
 ///     AreaCells cells(pitch, pitch);
 ///     for (...) cells.add(row, col, relief_of_tile);
@@ -26,7 +28,8 @@ namespace mems_stiction {
 enum class AreaReach : std::uint8_t {
   kEnough,        ///< they are
   kLevelTooHigh,  ///< others do: collect again with a level of needed_level
-  kTooMuch,       ///< so many others do that they cannot be kept: this is no area that rests on few summits
+  kTooMuch,       ///< so many others do that they cannot be kept: this is no area that rests on few
+                  ///< summits
 };
 
 /// Figures are those of the whole area, and NaN unless its cells were enough.
@@ -34,14 +37,16 @@ struct AreaAdhesion {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   AreaReach reach = AreaReach::kEnough;
-  double needed_level = kUnknown;  ///< relief down to which cells must be kept, for the next attempt at least [m]
-  std::int64_t needed_cells = 0;   ///< so many they are
-  bool took_all_cells = false;     ///< that were kept: more might have been taken
+  double needed_level =
+      kUnknown;  ///< relief down to which cells must be kept, for the next attempt at least [m]
+  std::int64_t needed_cells = 0;  ///< so many they are
+  bool took_all_cells = false;    ///< that were kept: more might have been taken
 
   Status status = Status::kNoEquilibrium;
-  bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before
-  bool flows = false;                           ///< whether contacts may have flowed, as whole contacts
-  double area = kUnknown;                       ///< of the valid cells [m^2]
+  bool is_bonded_by_load =
+      false;               ///< bonded, but without the loads they would have come to rest before
+  bool flows = false;      ///< whether contacts may have flowed, as whole contacts
+  double area = kUnknown;  ///< of the valid cells [m^2]
   double pull_off_force = kUnknown;             ///< [N]
   double apparent_work_of_adhesion = kUnknown;  ///< [J/m^2]
   Exponents pull_off_exponents;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What of a prediction is asked for: figures and verdict alone, or the surfaces after contact, too.
+/// What of a prediction is asked for: figures and verdict alone, or the surfaces after contact,
+/// too.
 
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/options.hpp"
@@ -26,7 +27,8 @@ inline Options withDeformedSurfaces(Options options) {
 /// @throw SurfaceError if there are none: the solver does not give them.
 inline void requireDeformedSurfaces(const Prediction& prediction) {
   if (!prediction.deformed_lower.empty() && !prediction.deformed_upper.empty()) return;
-  throw SurfaceError("there are no surfaces after contact: this approach/formulation does not give them");
+  throw SurfaceError(
+      "there are no surfaces after contact: this approach/formulation does not give them");
 }
 
 }  // namespace mems_stiction

@@ -21,7 +21,8 @@ struct Entry {
   std::unique_ptr<ContactSolver> (*make)();
   std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
   SolverSkills skills;
-  DescribeOwn describe_own;  ///< shows the settings that not every solver asks for; nullptr: it has none
+  DescribeOwn
+      describe_own;  ///< shows the settings that not every solver asks for; nullptr: it has none
 };
 
 template <typename Solver, auto... Arguments>
@@ -40,14 +41,19 @@ constexpr SolverSkills kAllSkills = {true, true, true, true};
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills, nullptr},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills,
+     nullptr},
     {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, {}, describeOwn<PaperOptions>},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, {}, describeOwn<PaperOptions>},
+    {"printed",
+     make<AsperitySolver, Formulation::kPrinted>,
+     usesAll,
+     {},
+     describeOwn<PaperOptions>},
 };
 
 /// What only condensed water needs.
-constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle", "interface/temperature",
-                                    "interface/molar_volume"};
+constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle",
+                                    "interface/temperature", "interface/molar_volume"};
 
 /// What of a body's other side bears on nothing.
 /// - @p doubts_thin_bodies of the solver
@@ -57,7 +63,8 @@ void addOfOtherSide(const Material& body, const std::string& name, bool doubts_t
     for (const char* key : keys) ignored.push_back({name + key, why});
   };
   if (body.thickness == 0.0) {
-    add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/thickness is 0");
+    add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
+        name + "/thickness is 0");
   } else if (!doubts_thin_bodies) {
     add({"/thickness", "/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
         "the separation curve and the half-space alone ask how thick bodies are");
@@ -79,7 +86,8 @@ constexpr Retired kRetired[] = {
     {"corrected", "`separation_curve` is the default, `paper` is nearest to what it was"},
 };
 
-/// The own settings of all solvers, those that several share once; without those that one of them describes.
+/// The own settings of all solvers, those that several share once; without those that one of them
+/// describes.
 struct OwnSettings {
   SolverSettings& settings;
   DescribeOwn without = nullptr;
@@ -116,7 +124,9 @@ std::string retirement(const std::string& formulation) {
   return "";
 }
 
-void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor) { OwnSettings{settings}.describe(visitor); }
+void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor) {
+  OwnSettings{settings}.describe(visitor);
+}
 
 SolverSkills skillsOf(const std::string& formulation) {
   for (const Entry& entry : kSolvers) {
@@ -125,7 +135,8 @@ SolverSkills skillsOf(const std::string& formulation) {
   return {};
 }
 
-std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings) {
+std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation,
+                                            const ContactSettings& settings) {
   std::vector<IgnoredSetting> ignored;
   for (const Entry& entry : kSolvers) {
     if (formulation != entry.formulation) continue;

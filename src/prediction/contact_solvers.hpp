@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The solvers that there are, by the names that approach/formulation takes. Each is one line of the table in
-/// contact_solvers.cpp.
+/// The solvers that there are, by the names that approach/formulation takes. Each is one line of
+/// the table in contact_solvers.cpp.
 
 #include <memory>
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace mems_stiction {
 
-/// Why a formulation of earlier versions is refused and what serves instead, as a line for messages; empty for any
-/// other name.
+/// Why a formulation of earlier versions is refused and what serves instead, as a line for
+/// messages; empty for any other name.
 std::string retirement(const std::string& formulation);
 
 /// Shows what single solvers ask for beside the settings of all.
@@ -23,10 +23,12 @@ void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor);
 
 /// What a solver does that not every one does.
 struct SolverSkills {
-  bool doubts_thin_bodies = false;  ///< asks how thick bodies are, and doubts itself where they are thin
-  bool tilts_plates = false;        ///< device/guidance free
-  bool follows_areas = false;       ///< that come in tiles (area_adhesion.hpp)
-  bool calls_half_space = false;    ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
+  bool doubts_thin_bodies =
+      false;                   ///< asks how thick bodies are, and doubts itself where they are thin
+  bool tilts_plates = false;   ///< device/guidance free
+  bool follows_areas = false;  ///< that come in tiles (area_adhesion.hpp)
+  bool calls_half_space =
+      false;  ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
 };
 
 /// Of a formulation; none of those if there is no such one.
@@ -37,9 +39,11 @@ struct IgnoredSetting {
   std::string key;
   std::string why;
 };
-/// The settings that bear on nothing that a formulation predicts, nor on the intervals of that, while the others are as
-/// given; none if there is no such formulation. A test changes every setting and compares bits.
-std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings);
+/// The settings that bear on nothing that a formulation predicts, nor on the intervals of that,
+/// while the others are as given; none if there is no such formulation. A test changes every
+/// setting and compares bits.
+std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation,
+                                            const ContactSettings& settings);
 
 /// @throw OptionsError if there is no formulation of this name; it lists those that there are.
 std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation);

@@ -14,14 +14,16 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// Limits of the adhesion parameter by Gui et al. 1999 (J. Appl. Phys. 85, 7448).
 constexpr double kBondingLimit = 1.0;
 constexpr double kNonBondingLimit = 12.0;
-/// Limits of Tabor's parameter in Johnson and Greenwood's adhesion map (J. Colloid Interface Sci. 192 (1997) 326).
+/// Limits of Tabor's parameter in Johnson and Greenwood's adhesion map (J. Colloid Interface Sci.
+/// 192 (1997) 326).
 constexpr double kDmtLimit = 0.1;
 constexpr double kJkrLimit = 5.0;
 
 BondingRegime bondingRegimeOf(double adhesion_parameter) {
   if (std::isnan(adhesion_parameter)) return BondingRegime::kUnknown;
   if (adhesion_parameter < kBondingLimit) return BondingRegime::kBonding;
-  return adhesion_parameter <= kNonBondingLimit ? BondingRegime::kAdherence : BondingRegime::kNonBonding;
+  return adhesion_parameter <= kNonBondingLimit ? BondingRegime::kAdherence
+                                                : BondingRegime::kNonBonding;
 }
 
 ContactTheory contactTheoryOf(double tabor_parameter) {
@@ -32,20 +34,21 @@ ContactTheory contactTheoryOf(double tabor_parameter) {
 
 /// Of a figure of the contacts; NaN if there are none.
 template <typename Figure>
-double medianOver(const std::vector<Asperity>& asperities, std::vector<double>& values, const Figure& figure) {
+double medianOver(const std::vector<Asperity>& asperities, std::vector<double>& values,
+                  const Figure& figure) {
   if (asperities.empty()) return kUnknown;
   values.clear();
   for (const Asperity& asperity : asperities) values.push_back(figure(asperity));
   return medianOf(values);
 }
 
-void summarizeAsperities(const ContactProblem& problem, const ContactSolution& solution, std::vector<double>& values,
-                         Prediction& prediction) {
+void summarizeAsperities(const ContactProblem& problem, const ContactSolution& solution,
+                         std::vector<double>& values, Prediction& prediction) {
   const std::vector<Asperity>& asperities = solution.asperities;
   prediction.has_asperities = solution.has_asperities;
   prediction.asperity_count = static_cast<int>(asperities.size());
-  prediction.pull_off_contact_count =
-      static_cast<int>(solution.pull_off_contacts.empty() ? asperities.size() : solution.pull_off_contacts.size());
+  prediction.pull_off_contact_count = static_cast<int>(
+      solution.pull_off_contacts.empty() ? asperities.size() : solution.pull_off_contacts.size());
   prediction.max_tilt = solution.has_asperities ? 0.0 : kUnknown;
   for (const Asperity& asperity : asperities) {
     prediction.max_tilt = std::max(prediction.max_tilt, asperity.tilt);
@@ -53,20 +56,22 @@ void summarizeAsperities(const ContactProblem& problem, const ContactSolution& s
     if (asperity.regime == Regime::kElastoPlastic) ++prediction.elasto_plastic_count;
     if (asperity.regime == Regime::kPlastic) ++prediction.plastic_count;
   }
-  prediction.median_tabor_parameter =
-      medianOver(asperities, values, [](const Asperity& asperity) { return asperity.tabor_parameter; });
+  prediction.median_tabor_parameter = medianOver(
+      asperities, values, [](const Asperity& asperity) { return asperity.tabor_parameter; });
   prediction.contact_theory = contactTheoryOf(prediction.median_tabor_parameter);
   const double cell_area = problem.gap.cellArea();
-  prediction.median_contact_pixels =  // whole numbers of cells, whatever the area has been rounded to
-      medianOver(asperities, values, [=](const Asperity& asperity) { return std::round(asperity.area / cell_area); });
-  prediction.median_composite_radius =
-      medianOver(asperities, values, [](const Asperity& asperity) { return asperity.composite_radius; });
+  prediction
+      .median_contact_pixels =  // whole numbers of cells, whatever the area has been rounded to
+      medianOver(asperities, values,
+                 [=](const Asperity& asperity) { return std::round(asperity.area / cell_area); });
+  prediction.median_composite_radius = medianOver(
+      asperities, values, [](const Asperity& asperity) { return asperity.composite_radius; });
 }
 
 }  // namespace
 
-void summarizeContact(const ContactProblem& problem, ContactSolution& solution, std::vector<double>& values,
-                      Prediction& prediction) {
+void summarizeContact(const ContactProblem& problem, ContactSolution& solution,
+                      std::vector<double>& values, Prediction& prediction) {
   const GapField& gap = problem.gap;
   const ContactSettings& settings = problem.settings;
   prediction.status = solution.status;
@@ -107,7 +112,8 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   prediction.flattening_energy = solution.flattening_energy;
   prediction.pull_off_exponents = solution.pull_off_exponents;
   prediction.work_exponents = solution.work_exponents;
-  prediction.flattening_ratio = work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
+  prediction.flattening_ratio =
+      work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
   prediction.is_conforming = solution.is_conforming;
   prediction.is_bonded_by_load = solution.is_bonded_by_load;
   prediction.adhesion_parameter = solution.adhesion_parameter;

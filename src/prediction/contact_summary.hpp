@@ -11,10 +11,10 @@
 
 namespace mems_stiction {
 
-/// Fills everything in `prediction` that follows from the solution, and moves its lists and maps there. Figures that the
-/// solver does not have are NaN, their words "unknown".
+/// Fills everything in `prediction` that follows from the solution, and moves its lists and maps
+/// there. Figures that the solver does not have are NaN, their words "unknown".
 /// - @p values working memory
-void summarizeContact(const ContactProblem& problem, ContactSolution& solution, std::vector<double>& values,
-                      Prediction& prediction);
+void summarizeContact(const ContactProblem& problem, ContactSolution& solution,
+                      std::vector<double>& values, Prediction& prediction);
 
 }  // namespace mems_stiction

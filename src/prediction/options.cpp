@@ -14,12 +14,13 @@ void Options::describe(OptionVisitor& visitor) {
   capillary.describe(visitor);
   load.describe(visitor);
   approach.describe(visitor);
-  visitor.choice(
-      "approach/formulation", formulation, formulationNames(),
-      "which solver: the separation curve, or the paper with roots and exponents restored, or to the letter");
-  visitor.enumeration("approach/deformation", deformation,
-                      {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
-                      "elastic, elasto-plastic and plastic asperities, or all of them elastic");
+  visitor.choice("approach/formulation", formulation, formulationNames(),
+                 "which solver: the separation curve, or the paper with roots and exponents "
+                 "restored, or to the letter");
+  visitor.enumeration(
+      "approach/deformation", deformation,
+      {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
+      "elastic, elasto-plastic and plastic asperities, or all of them elastic");
   describeOwnSettings(solver, visitor);
   output.describe(visitor);
 }
@@ -29,17 +30,21 @@ std::vector<std::string> Options::validate() const {
   const std::string reason = retirement(formulation);
   if (!reason.empty()) violations.push_back(reason);
   if (load.voltage != 0.0 && interface.insulator_thickness == 0.0) {
-    violations.push_back("interface/insulator_thickness: 0 m is not allowed with load/voltage " +
-                         numberText(load.voltage) +
-                         " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
+    violations.push_back(
+        "interface/insulator_thickness: 0 m is not allowed with load/voltage " +
+        numberText(load.voltage) +
+        " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
   }
   for (const auto& [name, body] : {std::pair("lower", &lower), std::pair("upper", &upper)}) {
-    for (std::string& contradiction : body->contradictions(name)) violations.push_back(std::move(contradiction));
+    for (std::string& contradiction : body->contradictions(name))
+      violations.push_back(std::move(contradiction));
   }
-  const int stated = (load.mechanical_load > 0.0) + (load.pressure > 0.0) + (load.device_force > 0.0);
+  const int stated =
+      (load.mechanical_load > 0.0) + (load.pressure > 0.0) + (load.device_force > 0.0);
   if (stated > 1) {
-    violations.push_back("load/mechanical_load: " + numberText(load.mechanical_load) + " N with load/pressure " +
-                         numberText(load.pressure) + " Pa and load/device_force " + numberText(load.device_force) +
+    violations.push_back("load/mechanical_load: " + numberText(load.mechanical_load) +
+                         " N with load/pressure " + numberText(load.pressure) +
+                         " Pa and load/device_force " + numberText(load.device_force) +
                          " N is not allowed; one of them presses, the others must be 0");
   }
   return violations;

@@ -18,18 +18,21 @@ static bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleanin
 }
 
 bool hasRelief(const HeightMap& cleaned, const PipelineOptions& cleaning) {
-  return !isSmoothedAway(cleaned, cleaning) && std::min(cleaned.rows(), cleaned.cols()) >= kFewestPixelsOfASide;
+  return !isSmoothedAway(cleaned, cleaning) &&
+         std::min(cleaned.rows(), cleaned.cols()) >= kFewestPixelsOfASide;
 }
 
 std::vector<std::string> cleaningWarnings(const HeightMap& scan, const HeightMap& cleaned,
                                           const PipelineOptions& cleaning) {
   std::vector<std::string> warnings;
   if (isSmoothedAway(scan, cleaning)) {
-    warnings.push_back("preprocessing/low_pass/cutoff_wavelength " + shortNumber(cleaning.low_pass.cutoff_wavelength) +
+    warnings.push_back("preprocessing/low_pass/cutoff_wavelength " +
+                       shortNumber(cleaning.low_pass.cutoff_wavelength) +
                        " m is longer than the scan's width of " + shortNumber(widthOf(scan)) +
                        " m: it leaves no roughness and such a surface bonds");
   }
-  const bool is_levelled_by_all = cleaning.level.shape != LevelShape::kNone && !cleaning.level.robust;
+  const bool is_levelled_by_all =
+      cleaning.level.shape != LevelShape::kNone && !cleaning.level.robust;
   if (is_levelled_by_all && hasRelief(cleaned, cleaning)) {
     const TiltLeft left = tiltLeft(cleaned, cleaning.level.shape == LevelShape::kPlane ? 1 : 2);
     if (left.isLarge()) warnings.push_back(left.advice());

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What should a user know of a cleaning that was done as the settings say, but hardly as they mean?
+/// What should a user know of a cleaning that was done as the settings say, but hardly as they
+/// mean?
 
 #include <string>
 #include <vector>
@@ -11,10 +12,12 @@
 
 namespace mems_stiction {
 
-/// Whether there is a relief to compare a tilt with: not in what is smoothed to nothing, or too small.
+/// Whether there is a relief to compare a tilt with: not in what is smoothed to nothing, or too
+/// small.
 bool hasRelief(const HeightMap& cleaned, const PipelineOptions& cleaning);
 
-/// That all roughness has gone; that tall features have pulled the levelling aslant, which leaves their ground tilted.
+/// That all roughness has gone; that tall features have pulled the levelling aslant, which leaves
+/// their ground tilted.
 /// - @p scan as measured; @p cleaned what became of it by `cleaning`
 std::vector<std::string> cleaningWarnings(const HeightMap& scan, const HeightMap& cleaned,
                                           const PipelineOptions& cleaning);

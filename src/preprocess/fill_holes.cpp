@@ -48,7 +48,10 @@ std::vector<Difference> differences(double pitch_x, double pitch_y) {
 class Plate {
  public:
   Plate(const cv::Mat& heights, const cv::Mat& numbers, int unknowns, double origin)
-      : heights_(heights), numbers_(numbers), right_(Eigen::VectorXd::Zero(unknowns)), origin_(origin) {}
+      : heights_(heights),
+        numbers_(numbers),
+        right_(Eigen::VectorXd::Zero(unknowns)),
+        origin_(origin) {}
 
   void add(int row, int col, const Difference& difference) {
     const cv::Rect frame(0, 0, heights_.cols, heights_.rows);
@@ -98,13 +101,14 @@ class Plate {
   std::vector<Eigen::Triplet<double>> triplets_;
 };
 
-/// The pixels from which a difference can reach one of these: up to two rows above and two columns left of it. In the
-/// order of the frame, each once.
+/// The pixels from which a difference can reach one of these: up to two rows above and two columns
+/// left of it. In the order of the frame, each once.
 std::vector<cv::Point> anchorsOf(const std::vector<cv::Point>& pixels) {
   std::vector<cv::Point> anchors;
   for (const cv::Point& pixel : pixels) {
     for (int row = std::max(0, pixel.y - 2); row <= pixel.y; ++row) {
-      for (int col = std::max(0, pixel.x - 2); col <= pixel.x; ++col) anchors.emplace_back(col, row);
+      for (int col = std::max(0, pixel.x - 2); col <= pixel.x; ++col)
+        anchors.emplace_back(col, row);
     }
   }
   const auto comes_before = [](const cv::Point& a, const cv::Point& b) {
@@ -116,10 +120,12 @@ std::vector<cv::Point> anchorsOf(const std::vector<cv::Point>& pixels) {
 }
 
 /// @param pixels that get a height; the other missing ones stay NaN
-void fillAll(cv::Mat& heights, const std::vector<cv::Point>& pixels, double pitch_x, double pitch_y) {
+void fillAll(cv::Mat& heights, const std::vector<cv::Point>& pixels, double pitch_x,
+             double pitch_y) {
   if (pixels.empty()) return;
   cv::Mat numbers(heights.size(), CV_32SC1, cv::Scalar(-1));
-  for (std::size_t index = 0; index < pixels.size(); ++index) numbers.at<int>(pixels[index]) = static_cast<int>(index);
+  for (std::size_t index = 0; index < pixels.size(); ++index)
+    numbers.at<int>(pixels[index]) = static_cast<int>(index);
 
   CleaningMemory memory;
   const double origin = meansOf(heights, memory).height;
@@ -147,8 +153,10 @@ std::vector<cv::Point> missingPixels(const cv::Mat& heights, const cv::Mat& outs
   return missing;
 }
 
-/// Those of the missing pixels, in their order, that belong to a 4-connected hole of so many pixels or fewer.
-std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights, const std::vector<cv::Point>& missing,
+/// Those of the missing pixels, in their order, that belong to a 4-connected hole of so many pixels
+/// or fewer.
+std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights,
+                                          const std::vector<cv::Point>& missing,
                                           const cv::Mat& outside, int max_hole) {
   enum : uchar { kUnseen, kSeen, kSmall };
   cv::Mat state(heights.size(), CV_8UC1, cv::Scalar(kUnseen));
@@ -160,7 +168,8 @@ std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights, const std::vec
     state.at<uchar>(first) = kSeen;
     hole.assign(1, first);
     for (std::size_t next = 0; next < hole.size(); ++next) {
-      for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      for (const cv::Point& step :
+           {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
         const cv::Point neighbour = hole[next] + step;
         if (!frame.contains(neighbour) || state.at<uchar>(neighbour) != kUnseen) continue;
         if (!std::isnan(heights.at<double>(neighbour))) continue;
@@ -194,22 +203,24 @@ void fillPixels(cv::Mat& heights, const cv::Mat& wanted, double pitch_x, double 
   fillAll(heights, pixels, pitch_x, pitch_y);
 }
 
-HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, const cv::Mat& outside) {
+HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options,
+                       const cv::Mat& outside) {
   cv::Mat& heights = surface.heights;
   const std::vector<cv::Point> missing = missingPixels(heights, outside);
   const long long left_out = outside.empty() ? 0 : cv::countNonZero(outside);
   HeightChange change;
   change.invalid_pixels = left_out;
   if (missing.empty()) return change;
-  const double fraction =
-      static_cast<double>(missing.size()) / static_cast<double>(static_cast<long long>(heights.total()) - left_out);
+  const double fraction = static_cast<double>(missing.size()) /
+                          static_cast<double>(static_cast<long long>(heights.total()) - left_out);
   if (fraction >= 1.0) throw SurfaceError("the height map has no valid pixel");
   if (fraction > options.max_fraction) {
     throw SurfaceError(plainFormat("a fraction of %.4g", fraction) +
-                       " of the pixels is missing, more than the limit of " + numberText(options.max_fraction) +
-                       " (preprocessing/fill/max_fraction)");
+                       " of the pixels is missing, more than the limit of " +
+                       numberText(options.max_fraction) + " (preprocessing/fill/max_fraction)");
   }
-  const std::vector<cv::Point> wanted = pixelsOfSmallHoles(heights, missing, outside, options.max_hole);
+  const std::vector<cv::Point> wanted =
+      pixelsOfSmallHoles(heights, missing, outside, options.max_hole);
   fillAll(heights, wanted, surface.pitch_x, surface.pitch_y);
   change.changed_pixels = static_cast<long long>(wanted.size());
   change.invalid_pixels += static_cast<long long>(missing.size() - wanted.size());

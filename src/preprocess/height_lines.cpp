@@ -21,7 +21,8 @@ MEMS_STICTION_INLINE void widen(const Scalar* source, std::size_t size, double* 
 
 /// Visits the values of two lines in packets; those behind the end are NaN.
 template <typename Visit>
-MEMS_STICTION_INLINE void forElements(const double* first, const double* second, std::size_t size, const Visit& visit) {
+MEMS_STICTION_INLINE void forElements(const double* first, const double* second, std::size_t size,
+                                      const Visit& visit) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::size_t i = 0;
   for (; i + Packet::kCount <= size; i += Packet::kCount) {
@@ -29,7 +30,8 @@ MEMS_STICTION_INLINE void forElements(const double* first, const double* second,
   }
   if (i == size) return;
   const std::size_t rest = size - i;
-  visit(i, rest, Packet::loadFirst(first + i, rest, kNan), Packet::loadFirst(second + i, rest, kNan));
+  visit(i, rest, Packet::loadFirst(first + i, rest, kNan),
+        Packet::loadFirst(second + i, rest, kNan));
 }
 
 MEMS_STICTION_INLINE void store(const Packet& packet, std::size_t count, double* values) {
@@ -74,60 +76,69 @@ MEMS_STICTION_VECTORIZED void widenLine(const double* source, std::size_t size, 
   widen(source, size, line);
 }
 
-MEMS_STICTION_VECTORIZED PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin) {
+MEMS_STICTION_VECTORIZED PlaceSums sumsOf(const double* line, const double* places,
+                                          std::size_t size, double origin) {
   Packet count, p, pp, h, ph;
-  forElements(line, places, size, [&](std::size_t, std::size_t, const Packet& heights, const Packet& all_places) {
-    const PacketMask is_valid = isNumber(heights);
-    const Packet height = select(is_valid, heights - origin, 0.0);
-    const Packet place = select(is_valid, all_places, 0.0);
-    count += oneWhere(is_valid);
-    p += place;
-    pp += place * place;
-    h += height;
-    ph += place * height;
-  });
+  forElements(line, places, size,
+              [&](std::size_t, std::size_t, const Packet& heights, const Packet& all_places) {
+                const PacketMask is_valid = isNumber(heights);
+                const Packet height = select(is_valid, heights - origin, 0.0);
+                const Packet place = select(is_valid, all_places, 0.0);
+                count += oneWhere(is_valid);
+                p += place;
+                pp += place * place;
+                h += height;
+                ph += place * height;
+              });
   return {count.sum(), p.sum(), pp.sum(), h.sum(), ph.sum()};
 }
 
-MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double* places, std::size_t size,
-                                            double* line, ChangeSums& changes) {
+MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double* places,
+                                            std::size_t size, double* line, ChangeSums& changes) {
   const LineCurve local = curve;
   ChangeLanes sums;
-  forElements(line, places, size, [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
-    const Packet flat = lessCurve(local, heights, all_places);
-    sums.add(heights, flat);
-    store(flat, count, line + i);
-  });
+  forElements(
+      line, places, size,
+      [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
+        const Packet flat = lessCurve(local, heights, all_places);
+        sums.add(heights, flat);
+        store(flat, count, line + i);
+      });
   sums.addTo(changes);
 }
 
-MEMS_STICTION_VECTORIZED void flattenLine(const LineCurve& curve, const double* places, const double* line,
-                                          std::size_t size, double* flat) {
+MEMS_STICTION_VECTORIZED void flattenLine(const LineCurve& curve, const double* places,
+                                          const double* line, std::size_t size, double* flat) {
   const LineCurve local = curve;
-  forElements(line, places, size, [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
-    store(lessCurve(local, heights, all_places), count, flat + i);
-  });
+  forElements(
+      line, places, size,
+      [&](std::size_t i, std::size_t count, const Packet& heights, const Packet& all_places) {
+        store(lessCurve(local, heights, all_places), count, flat + i);
+      });
 }
 
-MEMS_STICTION_VECTORIZED void addChanges(const double* before, const double* after, std::size_t size,
-                                         ChangeSums& changes) {
+MEMS_STICTION_VECTORIZED void addChanges(const double* before, const double* after,
+                                         std::size_t size, ChangeSums& changes) {
   ChangeLanes sums;
-  forElements(before, after, size, [&](std::size_t, std::size_t, const Packet& old_heights, const Packet& heights) {
-    sums.add(old_heights, heights);
-    sums.changed += oneWhere(isNumber(old_heights) ^ isNumber(heights));
-  });
+  forElements(before, after, size,
+              [&](std::size_t, std::size_t, const Packet& old_heights, const Packet& heights) {
+                sums.add(old_heights, heights);
+                sums.changed += oneWhere(isNumber(old_heights) ^ isNumber(heights));
+              });
   sums.addTo(changes);
 }
 
-MEMS_STICTION_VECTORIZED void distancesFrom(const LineCurve& curve, const double* places, const double* line,
-                                            std::size_t size, double* distances) {
+MEMS_STICTION_VECTORIZED void distancesFrom(const LineCurve& curve, const double* places,
+                                            const double* line, std::size_t size,
+                                            double* distances) {
   const LineCurve local = curve;
   for (std::size_t i = 0; i < size; ++i) {
     distances[i] = std::fabs(lessCurve(local, line[i], places[i]));
   }
 }
 
-MEMS_STICTION_VECTORIZED void subtractTo(const double* line, double height, std::size_t size, double* difference) {
+MEMS_STICTION_VECTORIZED void subtractTo(const double* line, double height, std::size_t size,
+                                         double* difference) {
   for (std::size_t i = 0; i < size; ++i) difference[i] = line[i] - height;
 }
 
@@ -140,7 +151,8 @@ MEMS_STICTION_VECTORIZED void makeDistances(double from, double* values, std::si
   for (std::size_t i = 0; i < size; ++i) values[i] = std::fabs(values[i] - from);
 }
 
-MEMS_STICTION_VECTORIZED LimitCount countAbove(double limit, const double* values, std::size_t size) {
+MEMS_STICTION_VECTORIZED LimitCount countAbove(double limit, const double* values,
+                                               std::size_t size) {
   Packet above, invalid;
   std::size_t i = 0;
   for (; i + Packet::kCount <= size; i += Packet::kCount) {

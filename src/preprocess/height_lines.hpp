@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// One line of heights at a time: sums over it, and what is taken off it. NaN is an invalid pixel; it is left out of every
-/// sum and stays NaN. Sums run in fixed packets, so that they have the same bits on every machine.
+/// One line of heights at a time: sums over it, and what is taken off it. NaN is an invalid pixel;
+/// it is left out of every sum and stays NaN. Sums run in fixed packets, so that they have the same
+/// bits on every machine.
 
 #include <cmath>
 #include <cstddef>
@@ -26,7 +27,8 @@ struct PlaceSums {
 /// - @p origin subtracted from each height [m]
 PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin);
 
-/// What comes off a line: origin first, so that small differences keep their digits, then a + b p + c p^2 [m].
+/// What comes off a line: origin first, so that small differences keep their digits, then a + b p +
+/// c p^2 [m].
 struct LineCurve {
   double origin = 0.0;
   double a = 0.0;
@@ -43,9 +45,11 @@ struct ChangeSums {
   long long changed = 0;  ///< whose height is another
 };
 
-void subtractCurve(const LineCurve& curve, const double* places, std::size_t size, double* line, ChangeSums& changes);
+void subtractCurve(const LineCurve& curve, const double* places, std::size_t size, double* line,
+                   ChangeSums& changes);
 /// The line less the curve, written elsewhere.
-void flattenLine(const LineCurve& curve, const double* places, const double* line, std::size_t size, double* flat);
+void flattenLine(const LineCurve& curve, const double* places, const double* line, std::size_t size,
+                 double* flat);
 /// From one line to another, pixel by pixel; pixels that are valid in one alone count as changed.
 void addChanges(const double* before, const double* after, std::size_t size, ChangeSums& changes);
 
@@ -63,7 +67,7 @@ struct LimitCount {
 LimitCount countAbove(double limit, const double* values, std::size_t size);
 
 /// |height less curve| of each pixel.
-void distancesFrom(const LineCurve& curve, const double* places, const double* line, std::size_t size,
-                   double* distances);
+void distancesFrom(const LineCurve& curve, const double* places, const double* line,
+                   std::size_t size, double* distances);
 
 }  // namespace mems_stiction

@@ -10,8 +10,8 @@ Plane leastSquaresPlane(WorkingSurface& surface) {
   const cv::Mat& heights = surface.heights;
   const SurfaceMeans means = meansOf(heights, surface.memory, " to level by");
 
-  // About the centroid the three normal equations part into the mean and two for the slopes. Lengths are in units of
-  // the frame's longer side.
+  // About the centroid the three normal equations part into the mean and two for the slopes.
+  // Lengths are in units of the frame's longer side.
   const double unit = std::max(heights.cols * surface.pitch_x, heights.rows * surface.pitch_y);
   std::vector<double>& places = surface.memory.places;
   for (int col = 0; col < heights.cols; ++col) {
@@ -20,7 +20,8 @@ Plane leastSquaresPlane(WorkingSurface& surface) {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (int row = 0; row < heights.rows; ++row) {
-    const PlaceSums sums = sumsOf(heights.ptr<double>(row), places.data(), places.size(), means.height);
+    const PlaceSums sums =
+        sumsOf(heights.ptr<double>(row), places.data(), places.size(), means.height);
     const double y = (row - means.row) * surface.pitch_y / unit;
     normal(0, 0) += sums.pp;
     normal(0, 1) += sums.p * y;
@@ -29,8 +30,9 @@ Plane leastSquaresPlane(WorkingSurface& surface) {
   }
   normal(1, 0) = normal(0, 1);
 
-  // Rank-revealing: pixels on one line leave the slope across it at its least norm, 0. Eigenvalues of a line are zero
-  // to about 1e-15 of the largest; two full neighbouring rows of 10^5 pixels still have 1e-9.
+  // Rank-revealing: pixels on one line leave the slope across it at its least norm, 0. Eigenvalues
+  // of a line are zero to about 1e-15 of the largest; two full neighbouring rows of 10^5 pixels
+  // still have 1e-9.
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix2d> decomposition;
   decomposition.setThreshold(1e-12);
   decomposition.compute(normal);

@@ -3,14 +3,16 @@
 /// @file
 /// How does a scan lie, and what is left when its tilt is taken off?
 ///
-///     z(x, y) ~ mean_height + slope_x (x - centre_x) + slope_y (y - centre_y),  least squares in z over the valid
-///     pixels
+///     z(x, y) ~ mean_height + slope_x (x - centre_x) + slope_y (y - centre_y),  least squares in z
+///     over the valid pixels
 ///
-/// Coordinates are those of the grid: x = column * pitch_x, y = row * pitch_y. The fit runs about the centroid of the
-/// valid pixels and their first height, in double, so a stage offset of centimetres costs no digits of the roughness.
-/// Degenerate cases: where the valid pixels lie on one line (one row, one column, two pixels), only the slope along
-/// that line is seen and the slope across it is 0; a single pixel has no slope. Assumption: the tilt is small, heights
-/// are subtracted along z and not along the plane's normal. At 1 degree that shortens heights by 0.015 %.
+/// Coordinates are those of the grid: x = column * pitch_x, y = row * pitch_y. The fit runs about
+/// the centroid of the valid pixels and their first height, in double, so a stage offset of
+/// centimetres costs no digits of the roughness. Degenerate cases: where the valid pixels lie on
+/// one line (one row, one column, two pixels), only the slope along that line is seen and the slope
+/// across it is 0; a single pixel has no slope. Assumption: the tilt is small, heights are
+/// subtracted along z and not along the plane's normal. At 1 degree that shortens heights by 0.015
+/// %.
 ///
 ///     const HeightMap flat = levelled(scan);
 
@@ -35,8 +37,8 @@ struct Plane {
 /// @throw SurfaceError if no pixel is valid.
 Plane leastSquaresPlane(WorkingSurface& surface);
 
-/// The surface less its least-squares plane: rows x cols, CV_64FC1, metres, mean 0 over the valid pixels. Invalid
-/// pixels are NaN.
+/// The surface less its least-squares plane: rows x cols, CV_64FC1, metres, mean 0 over the valid
+/// pixels. Invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap levelled(const HeightMap& surface);
 /// The same where the heights lie.

@@ -32,7 +32,8 @@ void takeMedianDifferences(WorkingSurface& surface) {
       subtractTo(heights.ptr<double>(row), heights.ptr<double>(other), cols, differences);
       if (countAbove(0.0, differences, cols).invalid == heights.cols) continue;
       memory.curves[static_cast<std::size_t>(row)].a =
-          memory.curves[static_cast<std::size_t>(other)].a + memory.medians.median(differences, cols);
+          memory.curves[static_cast<std::size_t>(other)].a +
+          memory.medians.median(differences, cols);
       break;
     }
   }
@@ -49,9 +50,9 @@ void takePolynomials(WorkingSurface& surface, int degree) {
     const LineCurve curve = curveAt(fit, 0.0);
     const double scale = pitch_x / fit.unit;
     const double shift = -fit.centre_x / fit.unit;
-    surface.memory.curves[static_cast<std::size_t>(row)] = {curve.origin, curve.a + shift * (curve.b + shift * curve.c),
-                                                            scale * (curve.b + 2.0 * shift * curve.c),
-                                                            scale * scale * curve.c};
+    surface.memory.curves[static_cast<std::size_t>(row)] = {
+        curve.origin, curve.a + shift * (curve.b + shift * curve.c),
+        scale * (curve.b + 2.0 * shift * curve.c), scale * scale * curve.c};
   }
 }
 
@@ -63,9 +64,11 @@ void LineAlignmentOptions::describe(OptionVisitor& visitor, const std::string& p
                        {"median", LineAlignment::kMedian},
                        {"median_difference", LineAlignment::kMedianDifference},
                        {"polynomial", LineAlignment::kPolynomial}},
-                      "what is taken off each scan line (row): nothing, its median, the median of its differences from "
+                      "what is taken off each scan line (row): nothing, its median, the median of "
+                      "its differences from "
                       "the line before it, or its own robust polynomial");
-  visitor.integer(prefix + "/degree", degree, Range::within(0, 2), "degree of the polynomial of each line");
+  visitor.integer(prefix + "/degree", degree, Range::within(0, 2),
+                  "degree of the polynomial of each line");
 }
 
 HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& options) {
@@ -94,7 +97,8 @@ HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& opt
   double left = 0.0;
   for (int row = 0; row < heights.rows; ++row) {
     const LineCurve& curve = curves[static_cast<std::size_t>(row)];
-    const PlaceSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), curve.origin);
+    const PlaceSums sums =
+        sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), curve.origin);
     count += sums.count;
     left += sums.h - (curve.a * sums.count + curve.b * sums.p + curve.c * sums.pp);
   }

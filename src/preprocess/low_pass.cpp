@@ -28,7 +28,8 @@ cv::Mat weightsOf(double pitch, double cutoff_wavelength, int count) {
 
 void LowPassOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
   visitor.number(prefix + "/cutoff_wavelength", cutoff_wavelength, "m", Range::nonNegative(),
-                 "wavelength that a Gaussian filter (ISO 16610-61) halves, shorter ones it takes away; 0 = off");
+                 "wavelength that a Gaussian filter (ISO 16610-61) halves, shorter ones it takes "
+                 "away; 0 = off");
 }
 
 HeightMap lowPassed(const HeightMap& surface, const LowPassOptions& options) {
@@ -45,8 +46,10 @@ HeightMap lowPassed(const HeightMap& surface, const LowPassOptions& options) {
   const cv::Mat weights_y = weightsOf(surface.pitchY(), options.cutoff_wavelength, surface.rows());
   const cv::Point middle(-1, -1);
   cv::Mat sums;
-  cv::sepFilter2D(heights, sums, CV_64F, weights_x, weights_y, middle, 0.0, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
-  cv::sepFilter2D(shares, shares, CV_64F, weights_x, weights_y, middle, 0.0, cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+  cv::sepFilter2D(heights, sums, CV_64F, weights_x, weights_y, middle, 0.0,
+                  cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+  cv::sepFilter2D(shares, shares, CV_64F, weights_x, weights_y, middle, 0.0,
+                  cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
   cv::divide(sums, shares, sums);
   sums += mean;
   sums.setTo(std::numeric_limits<double>::quiet_NaN(), ~valid);

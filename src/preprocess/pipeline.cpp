@@ -41,7 +41,9 @@ std::string parametersOf(const std::string& step, const StepOptions& options) {
 
 bool isWanted(const RegionOptions& options) { return options.isStated(); }
 bool isWanted(const StageOffsetOptions& options) { return options.enabled; }
-bool isWanted(const LineAlignmentOptions& options) { return options.method != LineAlignment::kNone; }
+bool isWanted(const LineAlignmentOptions& options) {
+  return options.method != LineAlignment::kNone;
+}
 bool isWanted(const SpikeOptions& options) { return options.enabled; }
 bool isWanted(const FillOptions& options) { return options.enabled; }
 bool isWanted(const TipOptions& options) { return options.radius > 0.0; }
@@ -62,7 +64,8 @@ void addStep(const char* name, const StepOptions& options, std::vector<Preproces
 HeightChange replace(WorkingSurface& surface, const HeightMap& after) {
   cv::Mat before = surface.heights;
   const cv::Mat& heights = after.heights();
-  if (before.size() != heights.size()) cv::resize(before, before, heights.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  if (before.size() != heights.size())
+    cv::resize(before, before, heights.size(), 0.0, 0.0, cv::INTER_NEAREST);
   HeightChange change;
   ChangeSums changes;
   const auto cols = static_cast<std::size_t>(heights.cols);
@@ -105,7 +108,8 @@ ScanCleaner::~ScanCleaner() = default;
 ScanCleaner::ScanCleaner(ScanCleaner&&) noexcept = default;
 ScanCleaner& ScanCleaner::operator=(ScanCleaner&&) noexcept = default;
 
-ScanCleaner::ScanCleaner(const PipelineOptions& options) : options_(options), work_(std::make_unique<Work>()) {
+ScanCleaner::ScanCleaner(const PipelineOptions& options)
+    : options_(options), work_(std::make_unique<Work>()) {
   std::vector<std::string> violations = options.validate();
   if (!violations.empty()) throw OptionsError(std::move(violations));
   work_->region = Region(options.region);
@@ -152,7 +156,8 @@ const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
     step->tilt_left = tiltLeft(work.surface(), 2).rms_height;
     note(change);
   }
-  if (isWanted(options_.low_pass)) note(replace(work, lowPassed(work.surface(), options_.low_pass)));
+  if (isWanted(options_.low_pass))
+    note(replace(work, lowPassed(work.surface(), options_.low_pass)));
   if (isWanted(options_.refine)) note(replace(work, refined(work.surface(), options_.refine)));
   cleaned_.surface = work.surface();
   return cleaned_;
@@ -166,9 +171,11 @@ std::vector<std::string> recordLines(const PreprocessRecord& record) {
   std::vector<std::string> lines;
   for (const PreprocessStep& step : record.steps) {
     const std::string change = plainFormat("%.4g", step.rms_change);
-    lines.push_back(step.name + (step.parameters.empty() ? "" : " (" + step.parameters + ")") + ": rms change " +
-                    change + " m; " + std::to_string(step.changed_pixels) + " pixels changed");
-    if (!std::isnan(step.tilt_left)) lines.back() += "; tilt and bow left " + shortNumber(step.tilt_left) + " m";
+    lines.push_back(step.name + (step.parameters.empty() ? "" : " (" + step.parameters + ")") +
+                    ": rms change " + change + " m; " + std::to_string(step.changed_pixels) +
+                    " pixels changed");
+    if (!std::isnan(step.tilt_left))
+      lines.back() += "; tilt and bow left " + shortNumber(step.tilt_left) + " m";
     if (step.name == "tip") {
       lines.back() += plainFormat("; fraction not reached %.4g", record.tip_unreached_fraction);
     }

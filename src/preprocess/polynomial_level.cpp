@@ -21,13 +21,14 @@ constexpr double kHuber = 1.345;
 constexpr double kTukey = 4.685;
 constexpr int kHuberRounds = 8;
 constexpr int kTukeyRounds = 30;
-constexpr double kRest = 1e-4;                  ///< step that ends the rounds, in units of the noise
-constexpr int kStrides[] = {16, 4};             ///< pixels from one of a sample to the next
-constexpr int kSmallestSample = 256;            ///< valid pixels that a sample must have
-constexpr int kMasks = 3;                       ///< how often the ground is looked for anew
-constexpr std::size_t kMostSorted = 65536;      ///< residuals, at equal distances
-constexpr double kGroundShare = 0.25;           ///< of the pixels, whose heights lie closest together
-constexpr double kGroundWidth = 2.0 * 0.31864;  ///< of that share of a normal distribution, in standard deviations
+constexpr double kRest = 1e-4;              ///< step that ends the rounds, in units of the noise
+constexpr int kStrides[] = {16, 4};         ///< pixels from one of a sample to the next
+constexpr int kSmallestSample = 256;        ///< valid pixels that a sample must have
+constexpr int kMasks = 3;                   ///< how often the ground is looked for anew
+constexpr std::size_t kMostSorted = 65536;  ///< residuals, at equal distances
+constexpr double kGroundShare = 0.25;       ///< of the pixels, whose heights lie closest together
+constexpr double kGroundWidth =
+    2.0 * 0.31864;  ///< of that share of a normal distribution, in standard deviations
 constexpr double kClearlyNarrower = 0.8;
 
 enum class Weighting { kAlike, kByHuber, kByTukey };
@@ -62,12 +63,14 @@ struct MomentLanes {
   Packet w, wu, wuu, wuuu, wuuuu, wh, whu, whuu;
 
   RowMoments sums() const {
-    return {{w.sum(), wu.sum(), wuu.sum(), wuuu.sum(), wuuuu.sum()}, {wh.sum(), whu.sum(), whuu.sum()}};
+    return {{w.sum(), wu.sum(), wuu.sum(), wuuu.sum(), wuuuu.sum()},
+            {wh.sum(), whu.sum(), whuu.sum()}};
   }
 };
 
 template <Weighting Kind>
-MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Packet& all_heights, const Packet& u,
+MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale,
+                                     const Packet& all_heights, const Packet& u,
                                      MomentLanes& sums) {
   const PacketMask is_valid = isNumber(all_heights);
   const Packet height = select(is_valid, all_heights - curve.origin, 0.0);
@@ -86,8 +89,8 @@ MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const
 }
 
 template <Weighting Kind>
-MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* places, std::size_t size,
-                                          const LineCurve& curve, double scale) {
+MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* places,
+                                          std::size_t size, const LineCurve& curve, double scale) {
   const LineCurve local = curve;
   MomentLanes sums;
   std::size_t i = 0;
@@ -102,8 +105,9 @@ MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* plac
   return sums.sums();
 }
 
-MEMS_STICTION_VECTORIZED RowMoments rowMoments(const double* line, const double* places, std::size_t size,
-                                               const LineCurve& curve, double scale, Weighting weighting) {
+MEMS_STICTION_VECTORIZED RowMoments rowMoments(const double* line, const double* places,
+                                               std::size_t size, const LineCurve& curve,
+                                               double scale, Weighting weighting) {
   switch (weighting) {
     case Weighting::kAlike:
       return momentsOf<Weighting::kAlike>(line, places, size, curve, scale);
@@ -137,7 +141,8 @@ class NormalEquations {
     for (int term = 0; term < termCount(degree); ++term) {
       moment[term] = heights_[kPowerU[term]][kPowerV[term]];
       for (int other = 0; other < termCount(degree); ++other) {
-        normal(term, other) = weights_[kPowerU[term] + kPowerU[other]][kPowerV[term] + kPowerV[other]];
+        normal(term, other) =
+            weights_[kPowerU[term] + kPowerU[other]][kPowerV[term] + kPowerV[other]];
       }
     }
     // Rank-revealing: what the pixels do not determine stays 0.
@@ -163,8 +168,10 @@ PixelGrid allPixels(const cv::Mat& heights, double pitch_x, double pitch_y) {
   return {heights, 0.0, 0.0, pitch_x, pitch_y};
 }
 
-/// Copies every `stride`-th pixel of every `stride`-th row, with as much of the frame left over on either side.
-PixelGrid sampleOf(const cv::Mat& heights, double pitch_x, double pitch_y, int stride, std::vector<double>& memory) {
+/// Copies every `stride`-th pixel of every `stride`-th row, with as much of the frame left over on
+/// either side.
+PixelGrid sampleOf(const cv::Mat& heights, double pitch_x, double pitch_y, int stride,
+                   std::vector<double>& memory) {
   const int first = stride / 2;
   const int rows = heights.rows / stride;
   const int cols = heights.cols / stride;
@@ -179,12 +186,13 @@ PixelGrid sampleOf(const cv::Mat& heights, double pitch_x, double pitch_y, int s
 }
 
 bool hasEnoughValid(const std::vector<double>& heights) {
-  return std::count_if(heights.begin(), heights.end(), [](double height) { return !std::isnan(height); }) >=
-         kSmallestSample;
+  return std::count_if(heights.begin(), heights.end(),
+                       [](double height) { return !std::isnan(height); }) >= kSmallestSample;
 }
 
 /// Where the coordinates are centred, and what they are divided by.
-PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, CleaningMemory& memory) {
+PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y, int degree,
+                          CleaningMemory& memory) {
   const SurfaceMeans means = meansOf(heights, memory, " to level by");
   PolynomialSurface frame;
   frame.degree = degree;
@@ -196,7 +204,7 @@ PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y
 
 /// The quarter of all residuals that lie closest together: the ground, where features stand on it.
 struct Ground {
-  double height = 0.0;                                      ///< above the polynomial, median of the quarter [m]
+  double height = 0.0;  ///< above the polynomial, median of the quarter [m]
   double noise = std::numeric_limits<double>::quiet_NaN();  ///< by the quarter's width [m]
 };
 
@@ -210,7 +218,8 @@ Ground groundOf(std::vector<double>& residuals) {
       std::max<std::size_t>(1, static_cast<std::size_t>(kGroundShare * static_cast<double>(size)));
   std::size_t first = 0;
   for (std::size_t i = 1; i + reach < size; ++i) {
-    if (residuals[i + reach] - residuals[i] < residuals[first + reach] - residuals[first]) first = i;
+    if (residuals[i + reach] - residuals[i] < residuals[first + reach] - residuals[first])
+      first = i;
   }
   ground.height = residuals[first + reach / 2];
   ground.noise = (residuals[first + reach] - residuals[first]) / kGroundWidth;
@@ -229,9 +238,10 @@ class Rounds {
   void solve(Weighting weighting) {
     NormalEquations equations;
     for (int row = 0; row < grid_.heights.rows; ++row) {
-      equations.add(rowMoments(grid_.heights.ptr<double>(row), memory_.places.data(), memory_.places.size(),
-                               curveAt(fit_, yOf(row)), fit_.noise, weighting),
-                    (yOf(row) - fit_.centre_y) / fit_.unit);
+      equations.add(
+          rowMoments(grid_.heights.ptr<double>(row), memory_.places.data(), memory_.places.size(),
+                     curveAt(fit_, yOf(row)), fit_.noise, weighting),
+          (yOf(row) - fit_.centre_y) / fit_.unit);
     }
     const Vector6 next = equations.solve(fit_.degree);
     step_ = (next - fit_.coefficients).cwiseAbs().maxCoeff();
@@ -242,8 +252,8 @@ class Rounds {
     const std::size_t cols = memory_.places.size();
     double* distances = roomFor(grid_.heights.total(), memory_.distances);
     for (int row = 0; row < grid_.heights.rows; ++row) {
-      distancesFrom(curveAt(fit_, yOf(row)), memory_.places.data(), grid_.heights.ptr<double>(row), cols,
-                    distances + static_cast<std::size_t>(row) * cols);
+      distancesFrom(curveAt(fit_, yOf(row)), memory_.places.data(), grid_.heights.ptr<double>(row),
+                    cols, distances + static_cast<std::size_t>(row) * cols);
     }
     fit_.noise = 1.4826 * memory_.medians.median(distances, grid_.heights.total());
   }
@@ -277,7 +287,8 @@ class Rounds {
       const double u = memory_.places[col];
       const LineCurve curve = curveAt(fit_, yOf(row));
       const double height = grid_.heights.ptr<double>(row)[col];
-      if (!std::isnan(height)) residuals.push_back(height - curve.origin - (curve.a + u * (curve.b + curve.c * u)));
+      if (!std::isnan(height))
+        residuals.push_back(height - curve.origin - (curve.a + u * (curve.b + curve.c * u)));
     }
     return groundOf(residuals);
   }
@@ -304,12 +315,13 @@ class Rounds {
   double step_ = 0.0;
 };
 
-/// Slopes from each pixel to the next along a row or column, less what features' edges add: b + c u + d v, in heights per
-/// unit of the frame.
+/// Slopes from each pixel to the next along a row or column, less what features' edges add: b + c u
+/// + d v, in heights per unit of the frame.
 Eigen::Vector3d slopesOf(const cv::Mat& differences, double pitch_x, double pitch_y, double step,
                          const PolynomialSurface& frame, double first_x, double first_y, int degree,
                          CleaningMemory& memory) {
-  if (differences.empty() || cv::countNonZero(differences == differences) == 0) return Eigen::Vector3d::Zero();
+  if (differences.empty() || cv::countNonZero(differences == differences) == 0)
+    return Eigen::Vector3d::Zero();
   PolynomialSurface slopes = frameOf(differences, pitch_x, pitch_y, degree, memory);
   slopes.origin = medianHeight(differences, memory);
   Rounds rounds(allPixels(differences, pitch_x, pitch_y), slopes, memory);
@@ -320,26 +332,31 @@ Eigen::Vector3d slopesOf(const cv::Mat& differences, double pitch_x, double pitc
   const double u = (frame.centre_x - first_x - slopes.centre_x) / slopes.unit;
   const double v = (frame.centre_y - first_y - slopes.centre_y) / slopes.unit;
   const auto& terms = slopes.coefficients;
-  return per_unit *
-         Eigen::Vector3d(slopes.origin + terms[0] + terms[1] * u + terms[2] * v, ratio * terms[1], ratio * terms[2]);
+  return per_unit * Eigen::Vector3d(slopes.origin + terms[0] + terms[1] * u + terms[2] * v,
+                                    ratio * terms[1], ratio * terms[2]);
 }
 
-/// A start that features do not spoil, however high they are: the slopes of neighbours, of which only their edges are others.
-void startByNeighbours(const cv::Mat& heights, double pitch_x, double pitch_y, PolynomialSurface& fit,
-                       CleaningMemory& memory) {
+/// A start that features do not spoil, however high they are: the slopes of neighbours, of which
+/// only their edges are others.
+void startByNeighbours(const cv::Mat& heights, double pitch_x, double pitch_y,
+                       PolynomialSurface& fit, CleaningMemory& memory) {
   const int degree = fit.degree - 1;
   cv::Mat along_x;
   cv::Mat along_y;
-  if (heights.cols > 1) along_x = heights.colRange(1, heights.cols) - heights.colRange(0, heights.cols - 1);
-  if (heights.rows > 1) along_y = heights.rowRange(1, heights.rows) - heights.rowRange(0, heights.rows - 1);
-  const Eigen::Vector3d x = slopesOf(along_x, pitch_x, pitch_y, pitch_x, fit, 0.5 * pitch_x, 0.0, degree, memory);
-  const Eigen::Vector3d y = slopesOf(along_y, pitch_x, pitch_y, pitch_y, fit, 0.0, 0.5 * pitch_y, degree, memory);
+  if (heights.cols > 1)
+    along_x = heights.colRange(1, heights.cols) - heights.colRange(0, heights.cols - 1);
+  if (heights.rows > 1)
+    along_y = heights.rowRange(1, heights.rows) - heights.rowRange(0, heights.rows - 1);
+  const Eigen::Vector3d x =
+      slopesOf(along_x, pitch_x, pitch_y, pitch_x, fit, 0.5 * pitch_x, 0.0, degree, memory);
+  const Eigen::Vector3d y =
+      slopesOf(along_y, pitch_x, pitch_y, pitch_y, fit, 0.0, 0.5 * pitch_y, degree, memory);
   const double twist = heights.rows > 1 && heights.cols > 1 ? 0.5 * (x[2] + y[1]) : 0.0;
   fit.coefficients << 0.0, x[0], y[0], 0.5 * x[1], twist, 0.5 * y[2];
 }
 
-/// Features on more than a part of the frame pull least squares so far that no reweighting finds back. Where a fit from
-/// the slopes of neighbours has a clearly narrower ground, it is the one.
+/// Features on more than a part of the frame pull least squares so far that no reweighting finds
+/// back. Where a fit from the slopes of neighbours has a clearly narrower ground, it is the one.
 void findGround(const cv::Mat& heights, double pitch_x, double pitch_y, PolynomialSurface& fit,
                 CleaningMemory& memory) {
   PolynomialSurface other = fit;
@@ -359,8 +376,8 @@ double PolynomialSurface::height(double x, double y) const {
   return curve.origin + (curve.a + u * (curve.b + curve.c * u));
 }
 
-PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
-                                CleaningMemory& memory) {
+PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree,
+                                FitWeights weights, CleaningMemory& memory) {
   PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
   fit.origin = medianHeight(heights, memory);
   const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
@@ -373,8 +390,8 @@ PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double p
   return fit;
 }
 
-PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x, double pitch_y, int degree,
-                                         CleaningMemory& memory) {
+PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x, double pitch_y,
+                                         int degree, CleaningMemory& memory) {
   PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
   bool is_started = false;
   for (const int stride : kStrides) {
@@ -387,7 +404,8 @@ PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x,
     rounds.reweight(is_started ? 0 : kHuberRounds);
     is_started = true;
   }
-  if (!is_started) return fitPolynomial(heights, pitch_x, pitch_y, degree, FitWeights::kRobust, memory);
+  if (!is_started)
+    return fitPolynomial(heights, pitch_x, pitch_y, degree, FitWeights::kRobust, memory);
   const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
   Rounds(grid, fit, memory).settle();
   return fit;
@@ -396,20 +414,23 @@ PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x,
 LineCurve curveAt(const PolynomialSurface& polynomial, double y) {
   const double v = (y - polynomial.centre_y) / polynomial.unit;
   const auto& terms = polynomial.coefficients;
-  return {polynomial.origin, terms[0] + v * (terms[2] + v * terms[5]), terms[1] + v * terms[4], terms[3]};
+  return {polynomial.origin, terms[0] + v * (terms[2] + v * terms[5]), terms[1] + v * terms[4],
+          terms[3]};
 }
 
 void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitch_x, int cols,
                 std::vector<double>& places) {
   places.resize(static_cast<std::size_t>(cols));
   for (int col = 0; col < cols; ++col) {
-    places[static_cast<std::size_t>(col)] = (first_x + col * pitch_x - polynomial.centre_x) / polynomial.unit;
+    places[static_cast<std::size_t>(col)] =
+        (first_x + col * pitch_x - polynomial.centre_x) / polynomial.unit;
   }
 }
 
 HeightChange subtract(const PolynomialSurface& polynomial, WorkingSurface& surface) {
   findPlaces(polynomial, 0.0, surface.pitch_x, surface.heights.cols, surface.memory.places);
-  return subtractCurves(surface, [&](int row) { return curveAt(polynomial, row * surface.pitch_y); });
+  return subtractCurves(surface,
+                        [&](int row) { return curveAt(polynomial, row * surface.pitch_y); });
 }
 
 }  // namespace mems_stiction

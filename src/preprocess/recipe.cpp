@@ -59,7 +59,9 @@ double lineJumps(const HeightMap& levelled) {
   return count > 0 ? std::sqrt(std::max(0.0, products / count)) : 0.0;
 }
 
-std::string pixels(long long count) { return std::to_string(count) + (count == 1 ? " pixel" : " pixels"); }
+std::string pixels(long long count) {
+  return std::to_string(count) + (count == 1 ? " pixel" : " pixels");
+}
 
 }  // namespace
 
@@ -81,19 +83,22 @@ CleaningRecipe cleaningRecipe(const HeightMap& scan) {
   PipelineOptions trial = recipe.steps;
   trial.spikes.enabled = true;
   CleanedScan cleaned = cleanScan(scan, trial);
-  const auto spikes = std::find_if(cleaned.record.steps.begin(), cleaned.record.steps.end(),
-                                   [](const PreprocessStep& step) { return step.name == "spikes"; });
+  const auto spikes =
+      std::find_if(cleaned.record.steps.begin(), cleaned.record.steps.end(),
+                   [](const PreprocessStep& step) { return step.name == "spikes"; });
   recipe.spikes = spikes->changed_pixels;
   recipe.steps.spikes.enabled = recipe.spikes > 0;
   const double holes = static_cast<double>(recipe.spikes + recipe.missing);
   recipe.steps.fill.enabled =
-      holes > 0.0 && holes <= recipe.steps.fill.max_fraction * static_cast<double>(scan.heights().total());
+      holes > 0.0 &&
+      holes <= recipe.steps.fill.max_fraction * static_cast<double>(scan.heights().total());
   recipe.cleaned_rms_height = heightStatistics(cleanScan(scan, recipe.steps).surface).rms_height;
   return recipe;
 }
 
 bool CleaningRecipe::needsMoreThanAPlane() const {
-  return steps.level.robust || steps.lines.method != LineAlignment::kNone || steps.spikes.enabled || steps.fill.enabled;
+  return steps.level.robust || steps.lines.method != LineAlignment::kNone || steps.spikes.enabled ||
+         steps.fill.enabled;
 }
 
 std::string CleaningRecipe::sentence() const {
@@ -109,11 +114,13 @@ std::string CleaningRecipe::sentence() const {
   }
   if (steps.spikes.enabled) {
     settings += " and preprocessing/spikes/enabled: true";
-    effects += "; " + pixels(spikes) + (spikes == 1 ? " jumps" : " jump") + " out of the surroundings";
+    effects +=
+        "; " + pixels(spikes) + (spikes == 1 ? " jumps" : " jump") + " out of the surroundings";
   }
   if (steps.fill.enabled) {
     settings += " and preprocessing/fill/enabled: true";
-    if (missing > 0) effects += "; " + pixels(missing) + (missing == 1 ? " is" : " are") + " missing";
+    if (missing > 0)
+      effects += "; " + pixels(missing) + (missing == 1 ? " is" : " are") + " missing";
   }
   return "write " + settings + ": the rms height goes from " + shortNumber(rms_height) + " m to " +
          shortNumber(cleaned_rms_height) + " m" + effects;

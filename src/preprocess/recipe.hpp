@@ -4,9 +4,10 @@
 /// Which steps does a scan need that nobody has cleaned, and what do they change?
 ///
 /// - level: always; robust where tall features would pull it aslant (tilt.hpp).
-/// - lines: where rows jump. A jump lifts both halves of a row, roughness does not: the mean product of the halves' median
-///   differences from the row before is the variance of the jumps. Rows whose jumps have more than 0.1 of the levelled rms
-///   height are aligned, by medians of differences.
+/// - lines: where rows jump. A jump lifts both halves of a row, roughness does not: the mean
+/// product of the halves' median
+///   differences from the row before is the variance of the jumps. Rows whose jumps have more than
+///   0.1 of the levelled rms height are aligned, by medians of differences.
 /// - spikes and fill: where pixels jump out of their surroundings, or are missing.
 ///
 /// It takes as long as the cleaning that it tries.

@@ -42,14 +42,16 @@ Weights axisWeights(int count, int factor, Interpolation interpolation) {
     const double position = (fine + 0.5) / factor - 0.5;
     const int first = static_cast<int>(std::floor(position)) - reach(interpolation) + 1;
     double sum = 0.0;
-    for (int tap = first; tap < first + 2 * reach(interpolation); ++tap) sum += kernel(interpolation, position - tap);
+    for (int tap = first; tap < first + 2 * reach(interpolation); ++tap)
+      sum += kernel(interpolation, position - tap);
     for (int tap = first; tap < first + 2 * reach(interpolation); ++tap) {
       const double weight = kernel(interpolation, position - tap) / sum;
       if (count == 1) {
         triplets.emplace_back(fine, 0, weight);
         continue;
       }
-      // Beyond the border: twice the border pixel less its mirror image, which stays within the frame if it has one.
+      // Beyond the border: twice the border pixel less its mirror image, which stays within the
+      // frame if it has one.
       const int border = tap < 0 ? 0 : count - 1;
       if (tap >= 0 && tap < count) {
         triplets.emplace_back(fine, tap, weight);
@@ -69,10 +71,12 @@ Weights axisWeights(int count, int factor, Interpolation interpolation) {
 }  // namespace
 
 void RefineOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
-  visitor.integer(prefix + "/factor", factor, Range::within(1, 16), "pixels per original pixel along x and y; 1 = off");
+  visitor.integer(prefix + "/factor", factor, Range::within(1, 16),
+                  "pixels per original pixel along x and y; 1 = off");
   visitor.enumeration(prefix + "/interpolation", interpolation,
                       {{"cubic", Interpolation::kCubic}, {"lanczos", Interpolation::kLanczos}},
-                      "how heights between pixels are found: cubic convolution, or a windowed sinc over six pixels");
+                      "how heights between pixels are found: cubic convolution, or a windowed sinc "
+                      "over six pixels");
 }
 
 HeightMap refined(const HeightMap& surface, const RefineOptions& options) {
@@ -80,12 +84,14 @@ HeightMap refined(const HeightMap& surface, const RefineOptions& options) {
   cv::Mat heights = ownedHeights(surface);
   if (options.factor == 1) return {heights, surface.pitchX(), surface.pitchY()};
   if (static_cast<double>(heights.total()) * options.factor * options.factor > kMaxPixels) {
-    throw SurfaceError("refining " + std::to_string(heights.cols) + " x " + std::to_string(heights.rows) +
-                       " pixels by " + std::to_string(options.factor) + " exceeds the limit of 2^29 pixels");
+    throw SurfaceError("refining " + std::to_string(heights.cols) + " x " +
+                       std::to_string(heights.rows) + " pixels by " +
+                       std::to_string(options.factor) + " exceeds the limit of 2^29 pixels");
   }
   heights -= mean;
 
-  // Only pixels that a weight can reach from a valid one need a height; the rest is masked afterwards.
+  // Only pixels that a weight can reach from a valid one need a height; the rest is masked
+  // afterwards.
   const cv::Mat valid = validMask(heights);
   const int side = 2 * reach(options.interpolation) + 1;
   cv::Mat reached;

@@ -17,7 +17,8 @@ namespace {
 
 [[noreturn]] void refuse(const char* key, const std::string& path, const std::string& why) {
   const bool is_named = startsWith(why, path + ":");
-  throw OptionsError({std::string("preprocessing/region/") + key + ": " + (is_named ? why : path + ": " + why)});
+  throw OptionsError(
+      {std::string("preprocessing/region/") + key + ": " + (is_named ? why : path + ": " + why)});
 }
 
 std::string cornersText(const std::string& path) {
@@ -41,12 +42,14 @@ std::vector<cv::Point2d> readCorners(const std::string& path) {
     cv::Point2d corner;
     if ((words >> std::ws).eof()) continue;
     if (!(words >> corner.x >> corner.y) || !(words >> std::ws).eof()) {
-      refuse("polygon_file", path, "line " + std::to_string(number) + " is no corner; must be x and y in metres");
+      refuse("polygon_file", path,
+             "line " + std::to_string(number) + " is no corner; must be x and y in metres");
     }
     corners.push_back(corner);
   }
   if (corners.size() < 3) {
-    refuse("polygon_file", path, std::to_string(corners.size()) + " corners make no polygon; must be 3 or more");
+    refuse("polygon_file", path,
+           std::to_string(corners.size()) + " corners make no polygon; must be 3 or more");
   }
   return corners;
 }
@@ -73,16 +76,20 @@ void RegionOptions::describe(OptionVisitor& visitor, const std::string& prefix) 
                  "left edge of the rectangle that counts, from the left edge of the scan");
   visitor.number(prefix + "/top", top, "m", Range::nonNegative(),
                  "upper edge of the rectangle, from the upper edge of the scan");
-  visitor.number(prefix + "/width", width, "m", Range::nonNegative(), "of the rectangle; 0 = to the right edge");
-  visitor.number(prefix + "/height", height, "m", Range::nonNegative(), "of the rectangle; 0 = to the lower edge");
+  visitor.number(prefix + "/width", width, "m", Range::nonNegative(),
+                 "of the rectangle; 0 = to the right edge");
+  visitor.number(prefix + "/height", height, "m", Range::nonNegative(),
+                 "of the rectangle; 0 = to the lower edge");
   visitor.text(prefix + "/polygon_file", polygon_file,
-               "text file with the corners of a polygon that counts, x and y in metres in each line; empty = none");
+               "text file with the corners of a polygon that counts, x and y in metres in each "
+               "line; empty = none");
   visitor.text(prefix + "/mask_file", mask_file,
                "image of the scan's size; pixels that are 0 do not count; empty = none");
 }
 
 bool RegionOptions::isStated() const {
-  return left > 0.0 || top > 0.0 || width > 0.0 || height > 0.0 || !polygon_file.empty() || !mask_file.empty();
+  return left > 0.0 || top > 0.0 || width > 0.0 || height > 0.0 || !polygon_file.empty() ||
+         !mask_file.empty();
 }
 
 Region::Region(const RegionOptions& options) : options_(options) {
@@ -93,11 +100,13 @@ Region::Region(const RegionOptions& options) : options_(options) {
 const cv::Mat& Region::outside(const cv::Size& size, double pitch_x, double pitch_y) {
   if (outside_.size() == size && pitch_x_ == pitch_x && pitch_y_ == pitch_y) return outside_;
   if (!mask_.empty() && mask_.size() != size) {
-    throw SurfaceError("preprocessing/region/mask_file has " + sizeText(mask_.size()) + ", the scan " + sizeText(size));
+    throw SurfaceError("preprocessing/region/mask_file has " + sizeText(mask_.size()) +
+                       ", the scan " + sizeText(size));
   }
   std::vector<cv::Point2f> polygon;  // in pixels
   for (const cv::Point2d& corner : corners_) {
-    polygon.emplace_back(static_cast<float>(corner.x / pitch_x - 0.5), static_cast<float>(corner.y / pitch_y - 0.5));
+    polygon.emplace_back(static_cast<float>(corner.x / pitch_x - 0.5),
+                         static_cast<float>(corner.y / pitch_y - 0.5));
   }
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const double right = options_.width > 0.0 ? options_.left + options_.width : kFar;
@@ -117,8 +126,8 @@ const cv::Mat& Region::outside(const cv::Size& size, double pitch_x, double pitc
   }
   if (cv::countNonZero(outside) == static_cast<int>(outside.total())) {
     throw SurfaceError("preprocessing/region leaves no pixel of the scan, which is " +
-                       numberText(size.width * pitch_x) + " m wide and " + numberText(size.height * pitch_y) +
-                       " m high");
+                       numberText(size.width * pitch_x) + " m wide and " +
+                       numberText(size.height * pitch_y) + " m high");
   }
   outside_ = outside;
   pitch_x_ = pitch_x;
@@ -130,8 +139,8 @@ HeightChange leaveOut(WorkingSurface& surface, const cv::Mat& outside) {
   const cv::Mat valid = validMask(surface.heights);
   HeightChange change;
   change.changed_pixels = cv::countNonZero(valid & outside);
-  change.invalid_pixels =
-      static_cast<long long>(surface.heights.total()) - cv::countNonZero(valid) + change.changed_pixels;
+  change.invalid_pixels = static_cast<long long>(surface.heights.total()) -
+                          cv::countNonZero(valid) + change.changed_pixels;
   surface.heights.setTo(std::numeric_limits<double>::quiet_NaN(), outside);
   return change;
 }

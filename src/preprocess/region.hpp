@@ -1,11 +1,12 @@
 #pragma once
 
 /// @file
-/// Which part of a scan counts: a rectangle, a polygon, a mask, or what lies in all that are stated. The frame stays as
-/// large as it is. Pixels outside count as not measured, and take part in no step and in no figure.
+/// Which part of a scan counts: a rectangle, a polygon, a mask, or what lies in all that are
+/// stated. The frame stays as large as it is. Pixels outside count as not measured, and take part
+/// in no step and in no figure.
 ///
-/// Places are in metres from the scan's upper left corner, x along columns and y along rows; a pixel lies inside when
-/// its middle does.
+/// Places are in metres from the scan's upper left corner, x along columns and y along rows; a
+/// pixel lies inside when its middle does.
 
 #include <vector>
 

@@ -23,8 +23,10 @@ HeightMap sampleOf(const HeightMap& scan) {
   cv::Mat sample(scan.rows() / row_stride, scan.cols() / col_stride, CV_64FC1);
   for (int row = 0; row < sample.rows; ++row) {
     for (int col = 0; col < sample.cols; ++col) {
-      const double height = scan.height(row * row_stride + row_stride / 2, col * col_stride + col_stride / 2);
-      sample.at<double>(row, col) = std::isfinite(height) ? height : std::numeric_limits<double>::quiet_NaN();
+      const double height =
+          scan.height(row * row_stride + row_stride / 2, col * col_stride + col_stride / 2);
+      sample.at<double>(row, col) =
+          std::isfinite(height) ? height : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return {sample, col_stride * scan.pitchX(), row_stride * scan.pitchY()};
@@ -35,10 +37,12 @@ HeightMap sampleOf(const HeightMap& scan) {
 bool Tilt::isLarge() const { return levelled_rms_height < kLarge * rms_height; }
 
 std::string Tilt::advice() const {
-  return "the scan is tilted: a plane takes its rms height from " + shortNumber(rms_height) + " m to " +
-         shortNumber(levelled_rms_height) +
-         " m and what touches is its highest edge; unless the tilt is that of the device set preprocessing/level to "
-         "plane first and see what is still asked for (predict_scan --cleanings tells what this and other steps "
+  return "the scan is tilted: a plane takes its rms height from " + shortNumber(rms_height) +
+         " m to " + shortNumber(levelled_rms_height) +
+         " m and what touches is its highest edge; unless the tilt is that of the device set "
+         "preprocessing/level to "
+         "plane first and see what is still asked for (predict_scan --cleanings tells what this "
+         "and other steps "
          "change)";
 }
 
@@ -61,8 +65,8 @@ TiltLeft tiltLeft(const HeightMap& levelled, int degree) {
   if (cv::countNonZero(valid) < kFewestPixels) return {};
   const double surface_rms_height = heightStatistics(sample).rms_height;
   WorkingSurface work(sample);
-  const PolynomialSurface fit =
-      fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, FitWeights::kRobust, work.memory);
+  const PolynomialSurface fit = fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree,
+                                              FitWeights::kRobust, work.memory);
   work.heights.setTo(0.0, valid);
   subtract(fit, work);
   return {heightStatistics(work.surface()).rms_height, fit.noise, surface_rms_height};

@@ -3,8 +3,9 @@
 /// @file
 /// Does a scan lie so aslant that its highest edge would touch, and not its summits?
 ///
-/// By a sample of at most 64 x 64 pixels at equal distances, which costs a live scan nothing: a tilt that matters takes
-/// most of the rms height, and a sample of thousands knows that to a percent.
+/// By a sample of at most 64 x 64 pixels at equal distances, which costs a live scan nothing: a
+/// tilt that matters takes most of the rms height, and a sample of thousands knows that to a
+/// percent.
 ///
 ///     const Tilt tilt = tiltOf(scan);
 ///     if (tilt.isLarge()) warn(tilt.advice());
@@ -31,8 +32,8 @@ Tilt tiltOf(const HeightMap& scan);
 
 /// What a robust polynomial of degree 1 (tilt) or 2 (tilt and bow) would still take off.
 struct TiltLeft {
-  double rms_height = 0.0;          ///< of the polynomial over the sample [m]
-  double noise = 0.0;               ///< of the ground that it is fitted to, as a standard deviation [m]
+  double rms_height = 0.0;  ///< of the polynomial over the sample [m]
+  double noise = 0.0;       ///< of the ground that it is fitted to, as a standard deviation [m]
   double surface_rms_height = 0.0;  ///< Sq of the sample [m]
 
   /// More than the ground's own roughness, and no rounding of the surface.

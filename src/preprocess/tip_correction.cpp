@@ -11,7 +11,8 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPixelsFromMiddle = 2.0;  ///< contact points of one touch lie no further from their middle
+constexpr double kPixelsFromMiddle =
+    2.0;  ///< contact points of one touch lie no further from their middle
 
 /// One run of tip pixels side by side.
 struct TipRow {
@@ -23,7 +24,8 @@ struct TipRow {
   double depthAt(int shift) const { return depth.data()[reach + shift]; }
 };
 
-/// The part of the tip that is less deep than `range`: no other part can touch. Symmetrical in both axes.
+/// The part of the tip that is less deep than `range`: no other part can touch. Symmetrical in both
+/// axes.
 std::vector<TipRow> sampledTip(const TipOptions& tip, const HeightMap& grid, double range) {
   std::vector<TipRow> rows;
   const auto depthAt = [&](int row, int col) {
@@ -34,8 +36,10 @@ std::vector<TipRow> sampledTip(const TipOptions& tip, const HeightMap& grid, dou
   for (int row = -last_row; row <= last_row; ++row) {
     TipRow tip_row;
     tip_row.row = row;
-    while (tip_row.reach + 1 < grid.cols() && depthAt(row, tip_row.reach + 1) <= range) ++tip_row.reach;
-    for (int col = -tip_row.reach; col <= tip_row.reach; ++col) tip_row.depth.push_back(depthAt(row, col));
+    while (tip_row.reach + 1 < grid.cols() && depthAt(row, tip_row.reach + 1) <= range)
+      ++tip_row.reach;
+    for (int col = -tip_row.reach; col <= tip_row.reach; ++col)
+      tip_row.depth.push_back(depthAt(row, col));
     rows.push_back(std::move(tip_row));
   }
   return rows;
@@ -65,7 +69,8 @@ cv::Mat eroded(const cv::Mat& heights, const std::vector<TipRow>& tip) {
   return least;
 }
 
-/// The pixels that the tip all but touches at one position: their extent around the axis, in pixels.
+/// The pixels that the tip all but touches at one position: their extent around the axis, in
+/// pixels.
 struct Touch {
   int min_row = std::numeric_limits<int>::max();
   int max_row = std::numeric_limits<int>::min();
@@ -80,10 +85,11 @@ struct Touch {
   }
 };
 
-/// visit(col, shift) for each pixel (row + tip_row.row, col + shift) that the tip at (row, col) all but touches.
+/// visit(col, shift) for each pixel (row + tip_row.row, col + shift) that the tip at (row, col) all
+/// but touches.
 template <typename Visit>
-void forEachTouch(const cv::Mat& image, const cv::Mat& surface, const TipRow& tip_row, int row, double tolerance,
-                  Visit visit) {
+void forEachTouch(const cv::Mat& image, const cv::Mat& surface, const TipRow& tip_row, int row,
+                  double tolerance, Visit visit) {
   const double* height = image.ptr<double>(row);
   const double* bound = surface.ptr<double>(row + tip_row.row);
   for (int shift = -tip_row.reach; shift <= tip_row.reach; ++shift) {
@@ -108,8 +114,9 @@ cv::Mat reachedPixels(const cv::Mat& image, const cv::Mat& surface, const std::v
     std::fill(touches.begin(), touches.end(), Touch());
     for (const TipRow& tip_row : tip) {
       if (row + tip_row.row < 0 || row + tip_row.row >= image.rows) continue;
-      forEachTouch(image, surface, tip_row, row, tolerance,
-                   [&](int col, int shift) { touches[static_cast<std::size_t>(col)].add(tip_row.row, shift); });
+      forEachTouch(image, surface, tip_row, row, tolerance, [&](int col, int shift) {
+        touches[static_cast<std::size_t>(col)].add(tip_row.row, shift);
+      });
     }
     for (int col = 0; col < image.cols; ++col) {
       const Touch& touch = touches[static_cast<std::size_t>(col)];
@@ -139,8 +146,9 @@ cv::Mat reachedPixels(const cv::Mat& image, const cv::Mat& surface, const std::v
 void TipOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
   visitor.number(prefix + "/radius", radius, "m", Range::nonNegative(),
                  "radius of the tip's end: the scan is eroded by the tip; 0 = off");
-  visitor.number(prefix + "/half_angle", half_angle, "rad", Range::within(0.0, 1.55),
-                 "angle between the tip's axis and the flank of its cone; 0 = a sphere on a cylinder");
+  visitor.number(
+      prefix + "/half_angle", half_angle, "rad", Range::within(0.0, 1.55),
+      "angle between the tip's axis and the flank of its cone; 0 = a sphere on a cylinder");
 }
 
 double tipDepth(const TipOptions& tip, double distance) {
@@ -148,10 +156,12 @@ double tipDepth(const TipOptions& tip, double distance) {
   if (distance <= tangent_distance) {
     // R - sqrt(R^2 - r^2) without cancellation
     return distance * distance /
-           (tip.radius + std::sqrt(std::max(0.0, (tip.radius - distance) * (tip.radius + distance))));
+           (tip.radius +
+            std::sqrt(std::max(0.0, (tip.radius - distance) * (tip.radius + distance))));
   }
   if (tip.half_angle == 0.0) return kInfinity;
-  return tip.radius * (1.0 - std::sin(tip.half_angle)) + (distance - tangent_distance) / std::tan(tip.half_angle);
+  return tip.radius * (1.0 - std::sin(tip.half_angle)) +
+         (distance - tangent_distance) / std::tan(tip.half_angle);
 }
 
 TipCorrection tipCorrected(const HeightMap& image, const TipOptions& tip) {
@@ -175,9 +185,10 @@ TipCorrection tipCorrected(const HeightMap& image, const TipOptions& tip) {
   if (!std::isfinite(tolerance)) tolerance = 0.0;
   // Bounds are compared with sums that are rounded: leave them a few digits.
   tolerance += 1e-12 * range;
-  correction.reached = reachedPixels(heights, surface, sampledTip(tip, image, range + tolerance), image, tolerance);
-  correction.unreached_fraction =
-      1.0 - static_cast<double>(cv::countNonZero(correction.reached)) / static_cast<double>(statistics.valid_count);
+  correction.reached =
+      reachedPixels(heights, surface, sampledTip(tip, image, range + tolerance), image, tolerance);
+  correction.unreached_fraction = 1.0 - static_cast<double>(cv::countNonZero(correction.reached)) /
+                                            static_cast<double>(statistics.valid_count);
   surface += statistics.mean;
   surface.setTo(std::numeric_limits<double>::quiet_NaN(), ~valid);
   correction.surface = HeightMap(surface, image.pitchX(), image.pitchY());

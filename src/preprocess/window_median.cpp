@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "numeric/packet.hpp"
 #include "numeric/median.hpp"
+#include "numeric/packet.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
@@ -18,7 +18,8 @@ MEMS_STICTION_INLINE void order(Packet& a, Packet& b) {
   a = low;
 }
 
-/// The columns or the rows of a window, one value of each. Named one by one, so that they stay in registers.
+/// The columns or the rows of a window, one value of each. Named one by one, so that they stay in
+/// registers.
 struct Three {
   Packet a, b, c;
 };
@@ -70,9 +71,12 @@ MEMS_STICTION_INLINE void sort(Five& all) {
 }
 
 MEMS_STICTION_INLINE Packet larger(const Packet& a, const Packet& b) { return select(a > b, a, b); }
-MEMS_STICTION_INLINE Packet smaller(const Packet& a, const Packet& b) { return select(a < b, a, b); }
+MEMS_STICTION_INLINE Packet smaller(const Packet& a, const Packet& b) {
+  return select(a < b, a, b);
+}
 
-/// Of a window whose first column is at `sorted`: the smallest values of its columns, then the next ones, and so on.
+/// Of a window whose first column is at `sorted`: the smallest values of its columns, then the next
+/// ones, and so on.
 MEMS_STICTION_INLINE Packet medianOf(const double* sorted, std::size_t stride, const Three&) {
   Three lowest, middle, highest;
   loadAll(sorted, 1, lowest);
@@ -118,10 +122,11 @@ MEMS_STICTION_INLINE Packet medianOf(const double* sorted, std::size_t stride, c
   return middle.b;
 }
 
-/// Residuals of one row. @param top the first row of the windows; @param sorted room for one row of sorted columns
+/// Residuals of one row. @param top the first row of the windows; @param sorted room for one row of
+/// sorted columns
 template <typename Column>
-MEMS_STICTION_INLINE void residualsOf(const double* top, std::size_t stride, double* sorted, const double* heights,
-                                      std::size_t cols, double* residuals) {
+MEMS_STICTION_INLINE void residualsOf(const double* top, std::size_t stride, double* sorted,
+                                      const double* heights, std::size_t cols, double* residuals) {
   for (std::size_t col = 0; col < stride; col += Packet::kCount) {
     Column column;
     loadAll(top + col, stride, column);
@@ -138,8 +143,9 @@ MEMS_STICTION_INLINE void residualsOf(const double* top, std::size_t stride, dou
   }
 }
 
-MEMS_STICTION_VECTORIZED void residualsByNetwork(int half, const double* top, std::size_t stride, double* sorted,
-                                                 const double* heights, std::size_t cols, double* residuals) {
+MEMS_STICTION_VECTORIZED void residualsByNetwork(int half, const double* top, std::size_t stride,
+                                                 double* sorted, const double* heights,
+                                                 std::size_t cols, double* residuals) {
   if (half == 1) {
     residualsOf<Three>(top, stride, sorted, heights, cols, residuals);
   } else {
@@ -155,14 +161,18 @@ void WindowMedian::setFrame(int rows, int cols, int half) {
   half_ = half;
   margin_rows_ = std::min(half, rows - 1);
   margin_cols_ = std::min(half, cols - 1);
-  stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / Packet::kCount + 2) * Packet::kCount;
-  const std::size_t wide_rows = static_cast<std::size_t>(rows) + 2 * static_cast<std::size_t>(margin_rows_);
+  stride_ =
+      (static_cast<std::size_t>(cols + 2 * margin_cols_) / Packet::kCount + 2) * Packet::kCount;
+  const std::size_t wide_rows =
+      static_cast<std::size_t>(rows) + 2 * static_cast<std::size_t>(margin_rows_);
   wide_.resize(wide_rows * stride_);
   has_hole_.resize(wide_rows);
   sorted_.resize((2 * static_cast<std::size_t>(half) + 1) * stride_);
 }
 
-double* WindowMedian::wideRow(int row) { return wide_.data() + static_cast<std::size_t>(row + margin_rows_) * stride_; }
+double* WindowMedian::wideRow(int row) {
+  return wide_.data() + static_cast<std::size_t>(row + margin_rows_) * stride_;
+}
 
 double* WindowMedian::row(int row) { return wideRow(row) + margin_cols_; }
 
@@ -184,7 +194,8 @@ void WindowMedian::fillMargins() {
   }
   for (std::size_t row = 0; row < has_hole_.size(); ++row) {
     const double* line = wide_.data() + row * stride_;
-    has_hole_[row] = std::any_of(line, line + width, [](double height) { return std::isnan(height); });
+    has_hole_[row] =
+        std::any_of(line, line + width, [](double height) { return std::isnan(height); });
   }
 }
 
@@ -192,7 +203,8 @@ void WindowMedian::findResiduals(double* residuals) {
   fillMargins();
   const bool has_network = half_ <= 2 && margin_rows_ == half_ && margin_cols_ == half_;
   if (has_network) {
-    for (int row = 0; row < rows_; ++row) findByNetwork(row, residuals + static_cast<std::size_t>(row) * cols_);
+    for (int row = 0; row < rows_; ++row)
+      findByNetwork(row, residuals + static_cast<std::size_t>(row) * cols_);
     return;
   }
   cv::parallel_for_(cv::Range(0, rows_), [&](const cv::Range& part) {
@@ -207,12 +219,14 @@ void WindowMedian::findResiduals(double* residuals) {
 
 void WindowMedian::findByNetwork(int row, double* residuals) {
   const double* top = wideRow(row - half_);
-  residualsByNetwork(half_, top, stride_, sorted_.data(), this->row(row), static_cast<std::size_t>(cols_), residuals);
+  residualsByNetwork(half_, top, stride_, sorted_.data(), this->row(row),
+                     static_cast<std::size_t>(cols_), residuals);
   const int side = 2 * half_ + 1;
   const char* holes = &has_hole_[static_cast<std::size_t>(row)];
   if (std::none_of(holes, holes + side, [](char has_hole) { return has_hole; })) return;
 
-  // What the network makes of NaN is not a median: windows with a hole, where the sum is NaN, are done again.
+  // What the network makes of NaN is not a median: windows with a hole, where the sum is NaN, are
+  // done again.
   double* sums = sorted_.data();
   std::fill(sums, sums + stride_, 0.0);
   for (int i = 0; i < side; ++i) {

@@ -17,7 +17,8 @@ namespace {
 double firstValid(const cv::Mat& heights) {
   for (int row = 0; row < heights.rows; ++row) {
     const double* line = heights.ptr<double>(row);
-    const double* valid = std::find_if(line, line + heights.cols, [](double height) { return !std::isnan(height); });
+    const double* valid =
+        std::find_if(line, line + heights.cols, [](double height) { return !std::isnan(height); });
     if (valid != line + heights.cols) return *valid;
   }
   return std::numeric_limits<double>::quiet_NaN();
@@ -54,7 +55,8 @@ const std::vector<double>& columnNumbers(int cols, CleaningMemory& memory) {
 
 SurfaceMeans meansOf(const cv::Mat& heights, CleaningMemory& memory, const char* purpose) {
   const double origin = firstValid(heights);
-  if (std::isnan(origin)) throw SurfaceError(std::string("the height map has no valid pixel") + purpose);
+  if (std::isnan(origin))
+    throw SurfaceError(std::string("the height map has no valid pixel") + purpose);
   const std::vector<double>& columns = columnNumbers(heights.cols, memory);
   SurfaceMeans means;
   for (int row = 0; row < heights.rows; ++row) {

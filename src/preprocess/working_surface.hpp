@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// A surface while it is cleaned: steps change its heights where they lie, and write beside them into memory that stays
-/// from scan to scan.
+/// A surface while it is cleaned: steps change its heights where they lie, and write beside them
+/// into memory that stays from scan to scan.
 
 #include <cstddef>
 #include <vector>
@@ -25,7 +25,8 @@ struct CleaningMemory {
   std::vector<LineCurve> curves;  ///< what comes off each line
 };
 
-/// Room for so many values, whatever they are. Memory never shrinks, so that no step clears what another one needs.
+/// Room for so many values, whatever they are. Memory never shrinks, so that no step clears what
+/// another one needs.
 double* roomFor(std::size_t count, std::vector<double>& memory);
 
 /// Heights in work, with the memory of the steps.
@@ -33,8 +34,9 @@ struct WorkingSurface {
   WorkingSurface() = default;
   explicit WorkingSurface(const HeightMap& surface) { take(surface); }
 
-  /// Copies the heights of a scan. Memory that somebody else shares, such as a surface that was handed out, is left alone;
-  /// otherwise it is used again. There is room for two, so that a surface may be shared until the next one is there.
+  /// Copies the heights of a scan. Memory that somebody else shares, such as a surface that was
+  /// handed out, is left alone; otherwise it is used again. There is room for two, so that a
+  /// surface may be shared until the next one is there.
   void take(const HeightMap& surface);
   /// Shares the heights.
   HeightMap surface() const { return {heights, pitch_x, pitch_y}; }
@@ -52,9 +54,11 @@ HeightChange subtractCurves(WorkingSurface& surface, const CurveOf& curve_of) {
   const std::vector<double>& places = surface.memory.places;
   ChangeSums changes;
   for (int row = 0; row < surface.heights.rows; ++row) {
-    subtractCurve(curve_of(row), places.data(), places.size(), surface.heights.ptr<double>(row), changes);
+    subtractCurve(curve_of(row), places.data(), places.size(), surface.heights.ptr<double>(row),
+                  changes);
   }
-  return {changes.rms(), changes.changed, static_cast<long long>(surface.heights.total()) - changes.count};
+  return {changes.rms(), changes.changed,
+          static_cast<long long>(surface.heights.total()) - changes.count};
 }
 
 /// 0, 1, 2 ... for every column.

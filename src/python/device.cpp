@@ -27,11 +27,13 @@ using py::literals::operator""_a;
 using SharedDevice = std::shared_ptr<DevicePrediction>;
 
 /// Its file, or "scan 2".
-std::string nameOf(const std::vector<DeviceScan>& scans, std::size_t place, const std::string& kind) {
+std::string nameOf(const std::vector<DeviceScan>& scans, std::size_t place,
+                   const std::string& kind) {
   return scans[place].name.empty() ? kind + " " + std::to_string(place + 1) : scans[place].name;
 }
 
-SharedDevice predictDevice(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan>& counter_surface,
+SharedDevice predictDevice(const std::vector<DeviceScan>& scans,
+                           const std::vector<DeviceScan>& counter_surface,
                            const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Cancellation check(cancel);
@@ -97,8 +99,8 @@ void addScans(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan
   }
   for (std::size_t i = 0; i < counter_surface.size(); ++i) {
     check(0.0);
-    predictor.addCounterSurface(nameOf(counter_surface, i, "counter-surface"), counter_surface[i].scan,
-                                counter_surface[i].notes);
+    predictor.addCounterSurface(nameOf(counter_surface, i, "counter-surface"),
+                                counter_surface[i].scan, counter_surface[i].notes);
   }
 }
 
@@ -109,8 +111,8 @@ void bindDevice(py::module& module) {
   declared.addTo(module, "DeviceForceFigures");
 
   py::class_<DeviceScan>(module, "DeviceScan")
-      .def(py::init([](const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes,
-                       const ScanIdentity& identity) {
+      .def(py::init([](const std::string& name, const HeightMap& scan,
+                       const std::vector<std::string>& notes, const ScanIdentity& identity) {
              return DeviceScan{name, scan, notes, identity};
            }),
            "name"_a, "scan"_a, "notes"_a, "identity"_a);
@@ -118,18 +120,22 @@ void bindDevice(py::module& module) {
       .def_property_readonly("figures", &figuresOfDevice)
       .def_property_readonly("verdict", &verdictOfDevice)
       .def_property_readonly("scans", [](const DevicePrediction& one) { return one.scans; })
-      .def_property_readonly("scan_warnings", [](const DevicePrediction& one) { return one.scan_warnings; })
-      .def_property_readonly("force_warnings", [](const DevicePrediction& one) { return one.force.warnings; })
+      .def_property_readonly("scan_warnings",
+                             [](const DevicePrediction& one) { return one.scan_warnings; })
+      .def_property_readonly("force_warnings",
+                             [](const DevicePrediction& one) { return one.force.warnings; })
       .def_property_readonly("warnings", &DevicePrediction::warnings)
       .def_property_readonly("realisations", &realisationsOf)
       .def_property_readonly("parts_of_scans", &partsOf)
       .def_property_readonly("spectrum", &spectrumOf)
-      .def_property_readonly("work_deviation", [](const DevicePrediction& one) { return one.force.work_deviation; })
-      .def_property_readonly("made_surface", [](const DevicePrediction& one) { return one.force.made_surface; })
+      .def_property_readonly("work_deviation",
+                             [](const DevicePrediction& one) { return one.force.work_deviation; })
+      .def_property_readonly("made_surface",
+                             [](const DevicePrediction& one) { return one.force.made_surface; })
       .def("json", &deviceJsonRecord);
   module.def("predict_device", &predictDevice, "scans"_a, "counter_surface"_a, "configuration"_a);
-  module.def("predict_device_under", &predictDeviceUnder, "scans"_a, "counter_surface"_a, "configuration"_a,
-             "models"_a);
+  module.def("predict_device_under", &predictDeviceUnder, "scans"_a, "counter_surface"_a,
+             "configuration"_a, "models"_a);
 }
 
 }  // namespace python

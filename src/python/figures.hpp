@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The figures of the core for Python: their values as a dictionary, with words for enumerations, and what they are as a
-/// class whose annotations and text are made of their declarations.
+/// The figures of the core for Python: their values as a dictionary, with words for enumerations,
+/// and what they are as a class whose annotations and text are made of their declarations.
 
 #include <pybind11/pybind11.h>
 
@@ -44,14 +44,16 @@ inline pybind11::list stepsOf(const PreprocessRecord& record) {
   return steps;
 }
 
-/// Visitor that makes {name: (type, unit, meaning)} and a class without anything but annotations and a text.
+/// Visitor that makes {name: (type, unit, meaning)} and a class without anything but annotations
+/// and a text.
 class DeclaredFields {
  public:
   template <typename Value>
   void operator()(const Figure& figure, const Value& /*value*/) {
     const pybind11::object type = pybind11::type::of(pybind11::cast(shown(Value())));
     annotations_[figure.name] = type;
-    declared_[figure.name] = pybind11::make_tuple(type.attr("__name__"), figure.unit, figure.meaning);
+    declared_[figure.name] =
+        pybind11::make_tuple(type.attr("__name__"), figure.unit, figure.meaning);
     text_ += std::string(text_.empty() ? "" : "\n") + figure.name;
     if (*figure.unit != '\0') text_ += std::string(" [") + figure.unit + "]";
     text_ += std::string(": ") + figure.meaning;
@@ -63,7 +65,8 @@ class DeclaredFields {
     body["__module__"] = module.attr("__name__");
     body["__doc__"] = text_;
     body["__annotations__"] = annotations_;
-    const auto type = pybind11::reinterpret_borrow<pybind11::object>(reinterpret_cast<PyObject*>(&PyType_Type));
+    const auto type =
+        pybind11::reinterpret_borrow<pybind11::object>(reinterpret_cast<PyObject*>(&PyType_Type));
     module.attr(name) = type(name, pybind11::tuple(), body);
     if (!pybind11::hasattr(module, "figures")) module.attr("figures") = pybind11::dict();
     module.attr("figures")[name] = declared_;

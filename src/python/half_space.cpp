@@ -34,7 +34,8 @@ struct SolvedScan {
 
 using Solved = std::shared_ptr<SolvedScan>;
 
-Solved solve(const PreparedScan& prepared, const ScanIdentity& identity, const Configuration& configuration) {
+Solved solve(const PreparedScan& prepared, const ScanIdentity& identity,
+             const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
@@ -44,10 +45,12 @@ Solved solve(const PreparedScan& prepared, const ScanIdentity& identity, const C
     solved->provenance = provenanceOf(identity, configuration);
     solved->solution = HalfSpaceSolver(configuration.half_space).solve(problem, control);
     solved->curve = curveOf(solved->solution);
-    solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space, prepared.refinement);
+    solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space,
+                                              prepared.refinement);
     if (configuration.device.isStated()) {
       const Evidence beside = evidenceOfScan(prepared, configuration, Cancellation(cancel));
-      solved->verdict = halfSpaceVerdict(solved->solution, prepared, options, configuration, beside);
+      solved->verdict =
+          halfSpaceVerdict(solved->solution, prepared, options, configuration, beside);
     }
     return solved;
   });
@@ -92,11 +95,17 @@ void bindHalfSpace(py::module& module) {
       .def_property_readonly("verdict", &verdictOfSolution)
       .def_property_readonly("origin", &originOf)
       .def_property_readonly("curve", &curveOfScan)
-      .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
-      .def_property_readonly("gap", [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })
-      .def_property_readonly("contact_map", [](const SolvedScan& solved) { return memoryOf(solved.contact_map); })
-      .def_property_readonly("deformed_lower", [](const SolvedScan& solved) { return solved.solution.deformed_lower; })
-      .def_property_readonly("deformed_upper", [](const SolvedScan& solved) { return solved.solution.deformed_upper; });
+      .def_property_readonly(
+          "pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
+      .def_property_readonly("gap",
+                             [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })
+      .def_property_readonly("contact_map",
+                             [](const SolvedScan& solved) { return memoryOf(solved.contact_map); })
+      .def_property_readonly(
+          "deformed_lower", [](const SolvedScan& solved) { return solved.solution.deformed_lower; })
+      .def_property_readonly("deformed_upper", [](const SolvedScan& solved) {
+        return solved.solution.deformed_upper;
+      });
   module.def("half_space", &solve, "prepared"_a, "identity"_a, "configuration"_a);
 }
 

@@ -30,9 +30,9 @@ class Cancellation {
   const std::atomic<bool>& cancel_;
 };
 
-/// Runs work(cancel) on a thread of its own, without the interpreter's lock. The calling thread asks now and then
-/// whether a signal has come; a handler that raises (KeyboardInterrupt) sets `cancel`, and its exception goes on when
-/// the work has ended.
+/// Runs work(cancel) on a thread of its own, without the interpreter's lock. The calling thread
+/// asks now and then whether a signal has come; a handler that raises (KeyboardInterrupt) sets
+/// `cancel`, and its exception goes on when the work has ended.
 /// @return what the work returns
 template <typename Work>
 auto interruptible(const Work& work) {

@@ -114,12 +114,14 @@ void addStrip(SurfaceStrips& strips, const py::bytes& part) {
 }  // namespace
 
 void bindMadeSurface(py::module& module) {
-  py::class_<SurfaceStrips, std::shared_ptr<SurfaceStrips>>(module, "SurfaceStrips").def("add", &addStrip, "part"_a);
+  py::class_<SurfaceStrips, std::shared_ptr<SurfaceStrips>>(module, "SurfaceStrips")
+      .def("add", &addStrip, "part"_a);
   py::class_<Found, std::shared_ptr<Found>>(module, "SurfaceAdhesion")
       .def_property_readonly("record", &recordOf)
       .def_readonly("warnings", &Found::warnings);
   py::class_<SharedSurface, std::shared_ptr<SharedSurface>>(module, "MadeSurface")
-      .def(py::init(&madeSurface), "scans"_a, "counter_surface"_a, "configuration"_a, "number"_a, "depth"_a)
+      .def(py::init(&madeSurface), "scans"_a, "counter_surface"_a, "configuration"_a, "number"_a,
+           "depth"_a)
       .def_property_readonly("warnings", &SharedSurface::warnings)
       .def_property_readonly("rows", &SharedSurface::rows)
       .def_property_readonly("cols", &SharedSurface::cols)

@@ -46,7 +46,8 @@ Memory memoryOfMap(const cv::Mat& map, PixelOwner owner) {
   return memory;
 }
 
-/// Shares a Python object; whichever thread lets go of it last takes the interpreter's lock for that.
+/// Shares a Python object; whichever thread lets go of it last takes the interpreter's lock for
+/// that.
 PixelOwner ownedBuffer(py::buffer_info&& info) {
   return {new py::buffer_info(std::move(info)), [](const void* owned) {
             takingLock([owned] {
@@ -73,7 +74,8 @@ std::optional<Memory> memoryOf(const cv::Mat& map) {
   return memoryOfMap(*owned, owned);
 }
 
-HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitch_x, double pitch_y) {
+HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitch_x,
+                      double pitch_y) {
   py::buffer_info info = pixels.request();
   const int type = pixelTypeOf(info);
   if (info.ndim != 2 || type < 0 || (info.shape[1] > 1 && info.strides[1] != info.itemsize)) {
@@ -86,7 +88,8 @@ HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitc
   }
   const int rows = static_cast<int>(info.shape[0]);
   const int cols = static_cast<int>(info.shape[1]);
-  const std::size_t step = rows > 1 ? static_cast<std::size_t>(info.strides[0]) : std::size_t{cv::Mat::AUTO_STEP};
+  const std::size_t step =
+      rows > 1 ? static_cast<std::size_t>(info.strides[0]) : std::size_t{cv::Mat::AUTO_STEP};
   const cv::Mat shown(rows, cols, type, info.ptr, step);
   return measuredPart(heightMapFromPixels(shown, options, ownedBuffer(std::move(info))));
 }
@@ -106,7 +109,8 @@ void bindMemory(py::module& module) {
                                const auto owned = std::make_shared<HeightMap>(map);
                                return memoryOfMap(owned->heights(), owned);
                              })
-      .def_property_readonly("pitch", [](const HeightMap& map) { return std::make_pair(map.pitchX(), map.pitchY()); });
+      .def_property_readonly(
+          "pitch", [](const HeightMap& map) { return std::make_pair(map.pitchX(), map.pitchY()); });
 }
 
 }  // namespace python

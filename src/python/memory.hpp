@@ -1,10 +1,11 @@
 #pragma once
 
 /// @file
-/// Memory between Python and the core, by the buffer protocol alone, so that the module fits every version of NumPy.
+/// Memory between Python and the core, by the buffer protocol alone, so that the module fits every
+/// version of NumPy.
 ///
-/// Heights that Python owns are shown to the core where they lie; arrays that the core has made are shown to Python
-/// where they lie. Neither way copies; whoever shows shares.
+/// Heights that Python owns are shown to the core where they lie; arrays that the core has made are
+/// shown to Python where they lie. Neither way copies; whoever shows shares.
 
 #include <pybind11/pybind11.h>
 
@@ -32,7 +33,8 @@ struct Memory {
   std::vector<pybind11::ssize_t> strides;  ///< [bytes]
 };
 
-/// One field of a record: its name, its format in the buffer protocol, and where it lies in the structure.
+/// One field of a record: its name, its format in the buffer protocol, and where it lies in the
+/// structure.
 using Field = std::tuple<std::string, std::string, std::size_t>;
 
 template <typename Value>
@@ -54,12 +56,14 @@ struct Records {
 /// - @p owner what the list lies in
 /// - @p visit_fields called with one record and a visitor of its figures
 template <typename Record, typename VisitFields>
-Records recordsOf(const std::vector<Record>& list, const PixelOwner& owner, const VisitFields& visit_fields) {
+Records recordsOf(const std::vector<Record>& list, const PixelOwner& owner,
+                  const VisitFields& visit_fields) {
   Records records;
   records.record_size = sizeof(Record);
   const Record sample{};
   const auto add = [&](const Figure& figure, const auto& value) {
-    const auto offset = reinterpret_cast<const char*>(&value) - reinterpret_cast<const char*>(&sample);
+    const auto offset =
+        reinterpret_cast<const char*>(&value) - reinterpret_cast<const char*>(&sample);
     records.fields.emplace_back(figure.name, formatOf<std::decay_t<decltype(value)>>(), offset);
   };
   visit_fields(sample, add);
@@ -73,12 +77,14 @@ Records recordsOf(const std::vector<Record>& list, const PixelOwner& owner, cons
 /// The pixels of a map of the core; nothing for an empty one. The map is held.
 std::optional<Memory> memoryOf(const cv::Mat& map);
 
-/// Pixels of a Python object as heights in metres, without a copy; the object is shared as long as anybody shows them.
+/// Pixels of a Python object as heights in metres, without a copy; the object is shared as long as
+/// anybody shows them.
 /// - @p pixels two-dimensional buffer, columns next to each other
 /// - @p options scale, and pitch where `pitch_x` is 0
 /// - @p pitch_x, pitch_y [m]
 /// @throw SurfaceError as heightMapFromPixels()
-HeightMap heightMapOf(const pybind11::buffer& pixels, ScanOptions options, double pitch_x, double pitch_y);
+HeightMap heightMapOf(const pybind11::buffer& pixels, ScanOptions options, double pitch_x,
+                      double pitch_y);
 
 void bindMemory(pybind11::module& module);
 

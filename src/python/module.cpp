@@ -1,5 +1,5 @@
-/// mems_stiction._core: the core for Python. Inputs are checked and explained in python/mems_stiction, which is what
-/// users import; here they are only converted.
+/// mems_stiction._core: the core for Python. Inputs are checked and explained in
+/// python/mems_stiction, which is what users import; here they are only converted.
 
 #include "bindings.hpp"
 #include "memory.hpp"

@@ -41,7 +41,8 @@ namespace py = pybind11;
 using py::literals::operator""_a;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr ArealParameters kNoRoughness = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+constexpr ArealParameters kNoRoughness = {kNone, kNone, kNone, kNone, kNone,
+                                          kNone, kNone, kNone, kNone};
 
 /// A prediction with all that its record has.
 struct PredictedScan {
@@ -55,10 +56,12 @@ struct PredictedScan {
 
 using Predicted = std::shared_ptr<PredictedScan>;
 
-/// Runs work(cancel), where the user's Ctrl-C sets `cancel`. Predictions alone are too short for that.
+/// Runs work(cancel), where the user's Ctrl-C sets `cancel`. Predictions alone are too short for
+/// that.
 template <typename Work>
 Predicted predicting(const Configuration& configuration, const Work& work) {
-  if (wantsDeviceForce(configuration.device, configuration.device_force) || mayCallHalfSpace(configuration)) {
+  if (wantsDeviceForce(configuration.device, configuration.device_force) ||
+      mayCallHalfSpace(configuration)) {
     return interruptible(work);
   }
   const WithoutLock unlocked;
@@ -67,9 +70,9 @@ Predicted predicting(const Configuration& configuration, const Work& work) {
 
 /// The record of a prediction.
 /// - @p cancel ends what takes long
-Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
-                        const ScanIdentity& identity, const Configuration& configuration,
-                        const std::atomic<bool>& cancel) {
+Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
+                        Prediction&& prediction, const ScanIdentity& identity,
+                        const Configuration& configuration, const std::atomic<bool>& cancel) {
   auto predicted = std::make_shared<PredictedScan>();
   predicted->scan = scan;
   predicted->surfaces = prepared.surfaces;
@@ -79,29 +82,33 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   predicted->extras.preprocessing = prepared.record;
   predicted->extras.provenance = provenanceOf(identity, configuration);
   predicted->scan_warnings = warningsOf(prepared);
-  predicted->extras.warnings = predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
+  predicted->extras.warnings =
+      predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
   if (configuration.device.isStated() || mayCallHalfSpace(configuration)) {
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
     Evidence evidence;
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = predicted->extras.device_force.emplace();
       evidence = evidenceOfScan(prepared, configuration, Cancellation(cancel), &force);
-      predicted->extras.warnings.insert(predicted->extras.warnings.end(), force.warnings.begin(), force.warnings.end());
+      predicted->extras.warnings.insert(predicted->extras.warnings.end(), force.warnings.begin(),
+                                        force.warnings.end());
     }
     SolvedHalfSpace solution;
-    const HalfSpaceCall call = halfSpaceCall(predicted->prediction, prepared, on_frame, configuration);
+    const HalfSpaceCall call =
+        halfSpaceCall(predicted->prediction, prepared, on_frame, configuration);
     if (call.is_made) {
       HalfSpaceControl control;
       control.cancel = &cancel;
-      solution =
-          answerOf(call, HalfSpaceSolver(configuration.half_space), halfSpaceProblem(prepared, on_frame), control);
+      solution = answerOf(call, HalfSpaceSolver(configuration.half_space),
+                          halfSpaceProblem(prepared, on_frame), control);
       if (call.objection.empty()) predicted->extras.half_space = solution;
       evidence.half_space = &solution;
       evidence.why_half_space = call.why;
     }
     if (configuration.device.isStated()) {
-      predicted->extras.verdict = verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
-                                            on_frame, scan.cellArea(), evidence);
+      predicted->extras.verdict =
+          verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
+                    on_frame, scan.cellArea(), evidence);
     }
   }
   predicted->curve = curveOf(predicted->prediction, configuration.model.interface);
@@ -123,8 +130,8 @@ class Predictor {
       predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
       PreparedScan prepared = predictor_.preparer().prepare(scan);
       prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
-      Predicted predicted =
-          predictedScan(scan, prepared, predictor_.predict(prepared), identity, configuration_, cancel);
+      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), identity,
+                                          configuration_, cancel);
       predictor_.preparer().setMeasuredCounterSurface({});
       return predicted;
     });
@@ -136,12 +143,14 @@ class Predictor {
   std::mutex mutex_;
 };
 
-/// One scan, prepared once, for settings after settings. Any thread may ask; one is served at a time.
+/// One scan, prepared once, for settings after settings. Any thread may ask; one is served at a
+/// time.
 class OneScan {
  public:
   /// - @p notes on how the scan was read
-  OneScan(const HeightMap& scan, const std::optional<HeightMap>& counter_surface, const Configuration& configuration,
-          const std::vector<std::string>& notes, const ScanIdentity& identity)
+  OneScan(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
+          const Configuration& configuration, const std::vector<std::string>& notes,
+          const ScanIdentity& identity)
       : scan_(scan), identity_(identity), configuration_(configuration), predictor_(configuration) {
     const WithoutLock unlocked;
     if (counter_surface) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
@@ -155,15 +164,19 @@ class OneScan {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (preparation(configuration) != preparation(configuration_)) {
         throw OptionsError(
-            {"the settings of one scan may differ in materials, interface, loads, approach, output, device, "
-             "device_force, uncertainty alone; output/roughness and all that bears on the scan and its counter-surface "
+            {"the settings of one scan may differ in materials, interface, loads, approach, "
+             "output, device, "
+             "device_force, uncertainty alone; output/roughness and all that bears on the scan and "
+             "its counter-surface "
              "must be the same"});
       }
       predictor_.setOptions(configuration.model);
       predictor_.setDevice(configuration.device);
-      Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
+      Prediction prediction =
+          is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
       is_seen_ = true;
-      return predictedScan(scan_, prepared_, std::move(prediction), identity_, configuration, cancel);
+      return predictedScan(scan_, prepared_, std::move(prediction), identity_, configuration,
+                           cancel);
     });
   }
 
@@ -195,7 +208,8 @@ template <typename Visitor>
 void visitPredictionFigures(const PredictedScan& predicted, Visitor&& visit) {
   visitPredictionFields(predicted.prediction, visit);
   visit({"formulation", "", "whose answer it is"}, predicted.extras.formulation);
-  visit({"regime_flags", "", "where the model leaves its range: bits, of which flags has the names (doc/validity.md)"},
+  visit({"regime_flags", "",
+         "where the model leaves its range: bits, of which flags has the names (doc/validity.md)"},
         regimeFlags(predicted.prediction, predicted.scan.cellArea()));
   const Provenance provenance = predicted.extras.provenance.value_or(Provenance());
   visitScanIdentityFields(provenance, visit);
@@ -212,7 +226,8 @@ std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
 
 std::optional<py::dict> deviceForceOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.device_force) return std::nullopt;
-  return dictionaryOf([&](auto& fields) { visitDeviceForceFields(*predicted.extras.device_force, fields); });
+  return dictionaryOf(
+      [&](auto& fields) { visitDeviceForceFields(*predicted.extras.device_force, fields); });
 }
 
 std::optional<py::dict> halfSpaceOfScan(const PredictedScan& predicted) {
@@ -236,24 +251,30 @@ Records asperitiesOf(const Predicted& predicted) {
 }
 
 Records energyCurveOf(const Predicted& predicted) {
-  return recordsOf(predicted->prediction.energy_curve, predicted,
-                   [](const EnergyPoint& point, auto& fields) { visitEnergyPointFields(point, fields); });
+  return recordsOf(
+      predicted->prediction.energy_curve, predicted,
+      [](const EnergyPoint& point, auto& fields) { visitEnergyPointFields(point, fields); });
 }
 
 Records displacementCurveOf(const Predicted& predicted) {
   return recordsOf(predicted->prediction.curve, predicted,
-                   [](const SeparationCurvePoint& point, auto& fields) { visitSeparationPointFields(point, fields); });
+                   [](const SeparationCurvePoint& point, auto& fields) {
+                     visitSeparationPointFields(point, fields);
+                   });
 }
 
 Records heightCurveOf(const Predicted& predicted) {
-  return recordsOf(predicted->curve, predicted,
-                   [](const CurvePoint& point, auto& fields) { visitCurvePointFields(point, fields); });
+  return recordsOf(predicted->curve, predicted, [](const CurvePoint& point, auto& fields) {
+    visitCurvePointFields(point, fields);
+  });
 }
 
-/// Pull-off force over the prediction's, of samples of the uncertain constants, ascending; empty without a list of contacts.
+/// Pull-off force over the prediction's, of samples of the uncertain constants, ascending; empty
+/// without a list of contacts.
 std::vector<double> spreadOf(const PredictedScan& predicted, const Configuration& configuration) {
   const WithoutLock unlocked;
-  return adhesionSpread(predicted.prediction, configuration.model, configuration.uncertainty).pull_off;
+  return adhesionSpread(predicted.prediction, configuration.model, configuration.uncertainty)
+      .pull_off;
 }
 
 }  // namespace
@@ -273,22 +294,31 @@ void bindPrediction(py::module& module) {
       .def_property_readonly("roughness", &roughnessOfScan)
       .def_property_readonly(
           "flag_names",
-          [](const PredictedScan& one) { return regimeFlagNames(regimeFlags(one.prediction, one.scan.cellArea())); })
-      .def_property_readonly("model_doubt", [](const PredictedScan& one) { return modelDoubt(one.prediction); })
-      .def_property_readonly("preprocessing",
-                             [](const PredictedScan& one) { return stepsOf(one.extras.preprocessing); })
+          [](const PredictedScan& one) {
+            return regimeFlagNames(regimeFlags(one.prediction, one.scan.cellArea()));
+          })
+      .def_property_readonly("model_doubt",
+                             [](const PredictedScan& one) { return modelDoubt(one.prediction); })
+      .def_property_readonly(
+          "preprocessing",
+          [](const PredictedScan& one) { return stepsOf(one.extras.preprocessing); })
       .def_readonly("scan_warnings", &PredictedScan::scan_warnings)
-      .def_property_readonly("warnings", [](const PredictedScan& one) { return one.extras.warnings; })
+      .def_property_readonly("warnings",
+                             [](const PredictedScan& one) { return one.extras.warnings; })
       .def_property_readonly("scan", [](const PredictedScan& one) { return one.scan; })
       .def_property_readonly("lower", [](const PredictedScan& one) { return one.surfaces.lower; })
       .def_property_readonly("upper", [](const PredictedScan& one) { return one.surfaces.upper; })
-      .def_property_readonly("contact_map",
-                             [](const PredictedScan& one) { return memoryOf(one.prediction.contact_map); })
-      .def_property_readonly("deformed_lower",
-                             [](const PredictedScan& one) { return memoryOf(one.prediction.deformed_lower); })
-      .def_property_readonly("deformed_upper",
-                             [](const PredictedScan& one) { return memoryOf(one.prediction.deformed_upper); })
-      .def_property_readonly("pressure", [](const PredictedScan& one) { return memoryOf(one.prediction.pressure); })
+      .def_property_readonly(
+          "contact_map",
+          [](const PredictedScan& one) { return memoryOf(one.prediction.contact_map); })
+      .def_property_readonly(
+          "deformed_lower",
+          [](const PredictedScan& one) { return memoryOf(one.prediction.deformed_lower); })
+      .def_property_readonly(
+          "deformed_upper",
+          [](const PredictedScan& one) { return memoryOf(one.prediction.deformed_upper); })
+      .def_property_readonly(
+          "pressure", [](const PredictedScan& one) { return memoryOf(one.prediction.pressure); })
       .def_property_readonly("asperities", &asperitiesOf)
       .def_property_readonly("energy_curve", &energyCurveOf)
       .def_property_readonly("curve", &displacementCurveOf)

@@ -35,7 +35,8 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& channel, bool ignore_mask) {
+ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& channel,
+                            bool ignore_mask) {
   ScanFileOptions options;
   options.pitch_x = pitch_x;
   options.pitch_y = pitch_y;
@@ -44,11 +45,9 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
   return options;
 }
 
-std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(const std::string& path,
-                                                                                    const Configuration& configuration,
-                                                                                    double pitch_x, double pitch_y,
-                                                                                    const std::string& channel,
-                                                                                    bool ignore_mask) {
+std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(
+    const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
+    const std::string& channel, bool ignore_mask) {
   ScanFile file;
   const ScanFileOptions options = fileOptions(pitch_x, pitch_y, channel, ignore_mask);
   {
@@ -78,8 +77,8 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
   return list;
 }
 
-std::tuple<HeightMap, py::list, std::vector<std::string>> cleaned(const HeightMap& scan,
-                                                                  const Configuration& configuration) {
+std::tuple<HeightMap, py::list, std::vector<std::string>> cleaned(
+    const HeightMap& scan, const Configuration& configuration) {
   CleanedScan result;
   std::vector<std::string> warnings;
   {
@@ -91,7 +90,8 @@ std::tuple<HeightMap, py::list, std::vector<std::string>> cleaned(const HeightMa
 }
 
 /// The figures, and what is to be said about them.
-std::pair<py::dict, std::vector<std::string>> roughnessOf(const HeightMap& scan, const Configuration& configuration,
+std::pair<py::dict, std::vector<std::string>> roughnessOf(const HeightMap& scan,
+                                                          const Configuration& configuration,
                                                           bool is_spatial, bool is_periodic) {
   ArealParameters areal;
   SpatialRoughness spatial;
@@ -114,7 +114,8 @@ std::pair<py::dict, std::vector<std::string>> roughnessOf(const HeightMap& scan,
 }
 
 /// A generated surface as a probe would see it, asperities up.
-HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Configuration& configuration) {
+HeightMap generated(int rows, int cols, double pitch_x, double pitch_y,
+                    const Configuration& configuration) {
   const CounterSurfaceOptions& options = configuration.counter_surface;
   if (!options.isGenerated()) {
     throw OptionsError({"counter_surface/type: only gaussian and self_affine are generated"});
@@ -167,20 +168,25 @@ void bindScans(py::module& module) {
 
   module.def(
       "height_map",
-      [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
+      [](const py::buffer& pixels, double pitch_x, double pitch_y,
+         const Configuration& configuration) {
         return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
       },
       "pixels"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
   py::class_<PreparedScan>(module, "PreparedScan").def_property_readonly("warnings", &warningsOf);
   module.def("prepare", &prepared, "scan"_a, "counter_surface"_a, "configuration"_a);
   module.def("scan_warnings", &scanWarnings, "scan"_a, py::call_guard<WithoutLock>());
-  module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a, "ignore_mask"_a);
+  module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a,
+             "ignore_mask"_a);
   module.def("channels", &channelsOf, "path"_a, "configuration"_a);
   module.def("clean", &cleaned, "scan"_a, "configuration"_a);
-  module.def("roughness", &roughnessOf, "scan"_a, "configuration"_a, "is_spatial"_a, "is_periodic"_a);
-  module.def("generate", &generated, "rows"_a, "cols"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
+  module.def("roughness", &roughnessOf, "scan"_a, "configuration"_a, "is_spatial"_a,
+             "is_periodic"_a);
+  module.def("generate", &generated, "rows"_a, "cols"_a, "pitch_x"_a, "pitch_y"_a,
+             "configuration"_a);
   module.def(
-      "decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); }, "scan"_a, "factor"_a);
+      "decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); },
+      "scan"_a, "factor"_a);
 }
 
 }  // namespace python

@@ -25,13 +25,16 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-/// Python's values as the reader of configuration files sees them: numbers and words are scalars, anything that has no
-/// place in a configuration is the text that Python shows for it, so that the reader names it.
+/// Python's values as the reader of configuration files sees them: numbers and words are scalars,
+/// anything that has no place in a configuration is the text that Python shows for it, so that the
+/// reader names it.
 YAML::Node nodeOf(const py::handle& value) {
   if (value.is_none()) return YAML::Node(YAML::NodeType::Null);
-  if (py::isinstance<py::bool_>(value)) return typedNode(py::cast<bool>(value) ? "true" : "false", "bool");
+  if (py::isinstance<py::bool_>(value))
+    return typedNode(py::cast<bool>(value) ? "true" : "false", "bool");
   if (py::isinstance<py::str>(value)) return YAML::Node(py::cast<std::string>(value));
-  if (py::isinstance<py::float_>(value)) return typedNode(yamlNumber(py::cast<double>(value)), "float");
+  if (py::isinstance<py::float_>(value))
+    return typedNode(yamlNumber(py::cast<double>(value)), "float");
   if (py::isinstance<py::int_>(value)) return typedNode(std::string(py::str(value)), "int");
   if (py::isinstance<py::dict>(value)) {
     YAML::Node map(YAML::NodeType::Map);
@@ -56,7 +59,8 @@ void bindErrors(py::module& module) {
   const auto bases = [&base](PyObject* other) {
     return py::make_tuple(base, py::reinterpret_borrow<py::object>(other));
   };
-  // Never let go of: they must outlive every exception, and no object of Python may be freed after its interpreter.
+  // Never let go of: they must outlive every exception, and no object of Python may be freed after
+  // its interpreter.
   static PyObject* const error = py::object(base).release().ptr();
   static PyObject* const options_error =
       py::exception<OptionsError>(module, "OptionsError", bases(PyExc_ValueError)).release().ptr();
@@ -111,7 +115,8 @@ void bindSettings(py::module& module) {
       .def_property_readonly("warnings", &settingsWarnings)
       .def_property_readonly("pitch",
                              [](const Configuration& configuration) {
-                               return std::make_pair(configuration.scan.pitch_x, configuration.scan.pitch_y);
+                               return std::make_pair(configuration.scan.pitch_x,
+                                                     configuration.scan.pitch_y);
                              })
       .def("yaml", [](const Configuration& configuration) { return toYaml(configuration); });
 }

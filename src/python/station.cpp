@@ -22,15 +22,16 @@ using py::literals::operator""_a;
 using Sweep = std::shared_ptr<LoadSweepResult>;
 using Cycles = std::shared_ptr<ContactCyclesResult>;
 
-Sweep sweep(const PreparedScan& prepared, const Configuration& configuration, const std::vector<double>& voltages,
-            const std::vector<double>& mechanical_loads) {
+Sweep sweep(const PreparedScan& prepared, const Configuration& configuration,
+            const std::vector<double>& voltages, const std::vector<double>& mechanical_loads) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
     const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
     return std::make_shared<LoadSweepResult>(
-        sweepLoads(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
-                   {voltages, mechanical_loads}, configuration.device, configuration.uncertainty, control, scale));
+        sweepLoads(onFrame(configuration.model, configuration.device, prepared.surfaces),
+                   prepared.model_surfaces, {voltages, mechanical_loads}, configuration.device,
+                   configuration.uncertainty, control, scale));
   });
 }
 
@@ -40,21 +41,25 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
     control.cancel = &cancel;
     const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
     return std::make_shared<ContactCyclesResult>(
-        cycleContacts(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
-                      count, configuration.device, configuration.uncertainty, control, scale));
+        cycleContacts(onFrame(configuration.model, configuration.device, prepared.surfaces),
+                      prepared.model_surfaces, count, configuration.device,
+                      configuration.uncertainty, control, scale));
   });
 }
 
 Records pointsOf(const Sweep& result) {
-  return recordsOf(result->rows, result, [](const auto& row, auto& fields) { visitSweepFields(row, fields); });
+  return recordsOf(result->rows, result,
+                   [](const auto& row, auto& fields) { visitSweepFields(row, fields); });
 }
 
 Records summariesOf(const Sweep& result) {
-  return recordsOf(result->summaries, result, [](const auto& one, auto& fields) { visitSummaryFields(one, fields); });
+  return recordsOf(result->summaries, result,
+                   [](const auto& one, auto& fields) { visitSummaryFields(one, fields); });
 }
 
 Records cyclesOf(const Cycles& result) {
-  return recordsOf(result->cycles, result, [](const auto& cycle, auto& fields) { visitCycleFields(cycle, fields); });
+  return recordsOf(result->cycles, result,
+                   [](const auto& cycle, auto& fields) { visitCycleFields(cycle, fields); });
 }
 
 }  // namespace
@@ -68,9 +73,12 @@ void bindStation(py::module& module) {
   py::class_<ContactCyclesResult, Cycles>(module, "ContactCyclesResult")
       .def_property_readonly("cycles", &cyclesOf)
       .def_readonly("first_sticking_cycle", &ContactCyclesResult::first_sticking_cycle)
-      .def_property_readonly("lower", [](const ContactCyclesResult& result) { return result.surfaces.lower; })
-      .def_property_readonly("upper", [](const ContactCyclesResult& result) { return result.surfaces.upper; });
-  module.def("sweep_loads", &sweep, "prepared"_a, "configuration"_a, "voltages"_a, "mechanical_loads"_a);
+      .def_property_readonly(
+          "lower", [](const ContactCyclesResult& result) { return result.surfaces.lower; })
+      .def_property_readonly(
+          "upper", [](const ContactCyclesResult& result) { return result.surfaces.upper; });
+  module.def("sweep_loads", &sweep, "prepared"_a, "configuration"_a, "voltages"_a,
+             "mechanical_loads"_a);
   module.def("cycle_contact", &cycle, "prepared"_a, "configuration"_a, "count"_a);
 }
 

@@ -10,9 +10,9 @@
 namespace mems_stiction {
 namespace python {
 
-/// Calls work(), which takes the interpreter's lock. While the interpreter ends, it ends every other thread that asks for
-/// the lock (daemon threads), by an unwinding that no destructor of C++ lets through: the process would abort. Such a
-/// thread waits here for the process to end instead.
+/// Calls work(), which takes the interpreter's lock. While the interpreter ends, it ends every
+/// other thread that asks for the lock (daemon threads), by an unwinding that no destructor of C++
+/// lets through: the process would abort. Such a thread waits here for the process to end instead.
 template <typename Work>
 void takingLock(const Work& work) {
   try {
@@ -22,7 +22,8 @@ void takingLock(const Work& work) {
   }
 }
 
-/// Lets go of the lock for as long as it lives. pybind11's gil_scoped_release, but for takingLock().
+/// Lets go of the lock for as long as it lives. pybind11's gil_scoped_release, but for
+/// takingLock().
 class WithoutLock {
  public:
   WithoutLock() : state_(PyEval_SaveThread()) {}

@@ -5,7 +5,8 @@
 
 namespace mems_stiction {
 
-/// The calling thread gets a processor only as far as the node's other threads leave one, from now until it ends.
+/// The calling thread gets a processor only as far as the node's other threads leave one, from now
+/// until it ends.
 void yieldToOtherThreads();
 
 }  // namespace mems_stiction

@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// Reads a message that a peer has sent, and believes nothing that the message states of its own lengths.
+/// Reads a message that a peer has sent, and believes nothing that the message states of its own
+/// lengths.
 ///
-/// roscpp makes room for all elements that an array states before it looks whether they are there: a message of 43 bytes
-/// takes 4 GB, and the node is deaf until they are written. Here an array gets room for what can follow, and no more.
+/// roscpp makes room for all elements that an array states before it looks whether they are there:
+/// a message of 43 bytes takes 4 GB, and the node is deaf until they are written. Here an array
+/// gets room for what can follow, and no more.
 
 #include <cstdint>
 #include <cstring>
@@ -25,7 +27,8 @@ class MessageError : public std::runtime_error {
 /// As ros::serialization::IStream, for every type of message that is generated.
 class BoundedStream : public ros::serialization::Stream {
  public:
-  static constexpr ros::serialization::StreamType stream_type = ros::serialization::stream_types::Input;
+  static constexpr ros::serialization::StreamType stream_type =
+      ros::serialization::stream_types::Input;
 
   /// - @p bytes of the message, which must outlive the stream
   BoundedStream(std::uint8_t* bytes, std::uint32_t size) : Stream(bytes, size) {}
@@ -40,10 +43,12 @@ class BoundedStream : public ros::serialization::Stream {
   void next(std::vector<Element, Allocator>& list) {
     std::uint32_t count = 0;
     next(count);
-    const std::uint64_t least = ros::serialization::serializationLength(Element());  // lists and texts in it are empty
+    const std::uint64_t least =
+        ros::serialization::serializationLength(Element());  // lists and texts in it are empty
     if (count * least > getLength()) {
-      throw MessageError("a list of the message states " + std::to_string(count) + " elements of at least " +
-                         std::to_string(least) + " bytes, but only " + std::to_string(getLength()) + " bytes follow");
+      throw MessageError("a list of the message states " + std::to_string(count) +
+                         " elements of at least " + std::to_string(least) + " bytes, but only " +
+                         std::to_string(getLength()) + " bytes follow");
     }
     list.resize(count);
     if constexpr (ros::message_traits::IsSimple<Element>::value) {
@@ -68,7 +73,8 @@ void readMessage(std::uint8_t* bytes, std::uint32_t size, Message& message) {
   }
 }
 
-/// The first parts of a message, such as its header, as far as the bytes hold them; what cannot be read stays as it is.
+/// The first parts of a message, such as its header, as far as the bytes hold them; what cannot be
+/// read stays as it is.
 template <typename... Parts>
 void readBeginning(BoundedStream bytes, Parts&... parts) {
   try {

@@ -19,7 +19,8 @@ constexpr std::chrono::milliseconds kNotReady{1};
 /// A callback that tells when it runs.
 class CallQueue::Counted : public ros::CallbackInterface {
  public:
-  Counted(CallQueue& queue, ros::CallbackInterfacePtr callback) : queue_(queue), callback_(std::move(callback)) {}
+  Counted(CallQueue& queue, ros::CallbackInterfacePtr callback)
+      : queue_(queue), callback_(std::move(callback)) {}
 
   CallResult call() override {
     struct Running {

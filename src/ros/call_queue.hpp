@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// A queue that calls back on as many threads as it takes: a service that waits, for the core or for a transform, takes
-/// no thread from the others.
+/// A queue that calls back on as many threads as it takes: a service that waits, for the core or
+/// for a transform, takes no thread from the others.
 
 #include <cstddef>
 #include <map>

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Subscriptions and services whose messages are read with their lengths checked (bounded_stream.hpp). What cannot be read
-/// goes to a function of the node's, which counts or answers, in place of a line in roscpp's log.
+/// Subscriptions and services whose messages are read with their lengths checked
+/// (bounded_stream.hpp). What cannot be read goes to a function of the node's, which counts or
+/// answers, in place of a line in roscpp's log.
 ///
 /// A publisher in the same process still hands over its message without a copy.
 
@@ -46,7 +47,8 @@ class CheckedCallback : public ros::SubscriptionCallbackHelper {
  public:
   explicit CheckedCallback(MessageReceiver<Message> receiver) : receiver_(std::move(receiver)) {}
 
-  ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
+  ros::VoidConstPtr deserialize(
+      const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
     try {
       requireSize(params.length, receiver_.max_bytes);
       const auto message = boost::make_shared<Message>();
@@ -69,8 +71,8 @@ class CheckedCallback : public ros::SubscriptionCallbackHelper {
 };
 
 template <typename Message>
-ros::Subscriber subscribeChecked(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue_size,
-                                 MessageReceiver<Message> receiver) {
+ros::Subscriber subscribeChecked(ros::NodeHandle& handle, const std::string& topic,
+                                 std::uint32_t queue_size, MessageReceiver<Message> receiver) {
   ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
                                 ros::message_traits::datatype<Message>());
   options.helper = boost::make_shared<CheckedCallback<Message>>(std::move(receiver));

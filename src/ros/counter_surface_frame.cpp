@@ -23,7 +23,8 @@ constexpr double kLargestTilt = 1.5;  // [rad], the limit of SurfacePose
 }  // namespace
 
 SurfacePose poseOf(const geometry_msgs::Transform& transform) {
-  tf2::Quaternion turn(transform.rotation.x, transform.rotation.y, transform.rotation.z, transform.rotation.w);
+  tf2::Quaternion turn(transform.rotation.x, transform.rotation.y, transform.rotation.z,
+                       transform.rotation.w);
   turn.normalize();
   const tf2::Vector3 normal = tf2::Matrix3x3(turn).getColumn(2);
 
@@ -37,8 +38,8 @@ SurfacePose poseOf(const geometry_msgs::Transform& transform) {
   pose.tilt_x = 0.0 - std::atan2(normal.x(), normal.z());
   pose.tilt_y = 0.0 - std::atan2(normal.y(), normal.z());
   if (!(std::abs(pose.tilt_x) < kLargestTilt && std::abs(pose.tilt_y) < kLargestTilt)) {
-    throw SurfaceError("the transform tilts the counter-surface by " + numberText(pose.tilt_x) + ", " +
-                       numberText(pose.tilt_y) + " rad along x, y; must be in (-1.5, 1.5)");
+    throw SurfaceError("the transform tilts the counter-surface by " + numberText(pose.tilt_x) +
+                       ", " + numberText(pose.tilt_y) + " rad along x, y; must be in (-1.5, 1.5)");
   }
   return pose;
 }
@@ -48,13 +49,16 @@ CounterSurfaceFrame::CounterSurfaceFrame(const ros::NodeHandle& handle, std::str
 
 SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
   if (header.frame_id.empty()) {
-    throw SurfaceError("the scan has no frame_id, so there is no transform to counter_surface/frame " + frame_);
+    throw SurfaceError(
+        "the scan has no frame_id, so there is no transform to counter_surface/frame " + frame_);
   }
   // tf2 takes the stamp 0 for "the latest", which is not what was measured with the scan.
   if (header.stamp.isZero()) {
-    throw SurfaceError("the scan has no stamp, so there is no transform to counter_surface/frame " + frame_);
+    throw SurfaceError("the scan has no stamp, so there is no transform to counter_surface/frame " +
+                       frame_);
   }
-  const std::string missing = "no transform from the scan's frame '" + shortened(header.frame_id, kLongestQuotation) +
+  const std::string missing = "no transform from the scan's frame '" +
+                              shortened(header.frame_id, kLongestQuotation) +
                               "' to counter_surface/frame " + frame_ + " at the scan's stamp";
   try {
     return poseOf(transforms_.at(header.frame_id, frame_, header.stamp));

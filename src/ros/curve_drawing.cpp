@@ -19,14 +19,18 @@ const cv::Scalar kBesideColour(132, 201, 138);
 /// From values to pixels along one side of the plot.
 class Axis {
  public:
-  Axis(double low, double high, int low_pixel, int high_pixel) : low_pixel_(low_pixel), high_pixel_(high_pixel) {
-    const double widest = std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
+  Axis(double low, double high, int low_pixel, int high_pixel)
+      : low_pixel_(low_pixel), high_pixel_(high_pixel) {
+    const double widest =
+        std::max({high - low, 1e-6 * std::max(std::abs(low), std::abs(high)), 1e-30});
     low_ = low - 0.05 * widest;
     high_ = high + 0.1 * widest;  // room for a word over the summit
     prefix_ = prefixOf(std::max(std::abs(low_), std::abs(high_)));
   }
 
-  double pixel(double value) const { return low_pixel_ + (value - low_) / (high_ - low_) * (high_pixel_ - low_pixel_); }
+  double pixel(double value) const {
+    return low_pixel_ + (value - low_) / (high_ - low_) * (high_pixel_ - low_pixel_);
+  }
   bool shows(double value) const { return value >= low_ && value <= high_; }
   const char* letter() const { return prefix_.letter; }
 
@@ -59,8 +63,8 @@ cv::Point fine(double x, double y) {
   return {static_cast<int>(std::lround(x * scale)), static_cast<int>(std::lround(y * scale))};
 }
 
-void drawWay(cv::Mat& picture, const std::vector<CurvePoint>& curve, CurveDirection direction, const Axis& x,
-             const Axis& y, const cv::Scalar& colour, int width) {
+void drawWay(cv::Mat& picture, const std::vector<CurvePoint>& curve, CurveDirection direction,
+             const Axis& x, const Axis& y, const cv::Scalar& colour, int width) {
   std::vector<cv::Point> points;
   for (const CurvePoint& point : curve) {
     if (point.direction == direction && x.shows(point.height)) {
@@ -73,18 +77,22 @@ void drawWay(cv::Mat& picture, const std::vector<CurvePoint>& curve, CurveDirect
 void drawAxes(cv::Mat& picture, const cv::Rect& frame, const Axis& x, const Axis& y) {
   for (const double height : x.ticks()) {
     const int at = static_cast<int>(std::lround(x.pixel(height)));
-    cv::line(picture, {at, frame.y}, {at, frame.y + frame.height}, height == 0.0 ? kQuietColour : kGridColour);
-    write(picture, x.label(height), {at, frame.y + frame.height + 24}, kQuietColour, Align::kMiddle);
+    cv::line(picture, {at, frame.y}, {at, frame.y + frame.height},
+             height == 0.0 ? kQuietColour : kGridColour);
+    write(picture, x.label(height), {at, frame.y + frame.height + 24}, kQuietColour,
+          Align::kMiddle);
   }
   for (const double force : y.ticks()) {
     const int at = static_cast<int>(std::lround(y.pixel(force)));
-    cv::line(picture, {frame.x, at}, {frame.x + frame.width, at}, force == 0.0 ? kQuietColour : kGridColour);
+    cv::line(picture, {frame.x, at}, {frame.x + frame.width, at},
+             force == 0.0 ? kQuietColour : kGridColour);
     write(picture, y.label(force), {frame.x - 10, at + 6}, kQuietColour, Align::kRight);
   }
   cv::rectangle(picture, frame, kQuietColour);
   write(picture, std::string("height over first touch [") + x.letter() + "m]",
         {frame.x + frame.width / 2, frame.y + frame.height + 52}, kTextColour, Align::kMiddle);
-  write(picture, std::string("force [") + y.letter() + "N], attraction is positive", {20, frame.y - 20}, kTextColour);
+  write(picture, std::string("force [") + y.letter() + "N], attraction is positive",
+        {20, frame.y - 20}, kTextColour);
 }
 
 void drawLegend(cv::Mat& picture, int right, int height, const std::string& beside) {
@@ -95,8 +103,11 @@ void drawLegend(cv::Mat& picture, int right, int height, const std::string& besi
 
 }  // namespace
 
-void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve, const DrawnCurve& beside) {
-  const auto byHeight = [](const auto& left, const auto& right) { return left.height < right.height; };
+void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve,
+                const DrawnCurve& beside) {
+  const auto byHeight = [](const auto& left, const auto& right) {
+    return left.height < right.height;
+  };
   const auto byForce = [](const auto& left, const auto& right) { return left.force < right.force; };
   const auto heights = std::minmax_element(curve.points.begin(), curve.points.end(), byHeight);
   const Axis x(heights.first->height, heights.second->height, frame.x, frame.x + frame.width);
@@ -120,7 +131,8 @@ void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve
   drawWay(picture, curve.points, CurveDirection::kApproach, x, y, kApproachColour, 5);
   drawWay(picture, curve.points, CurveDirection::kRetraction, x, y, kRetractionColour, 2);
   drawLegend(picture, right, frame.y - 20, beside.points.empty() ? "" : beside.name);
-  if (is_marked) cv::circle(picture, fine(mark.x, mark.y), 7 << kShift, kTextColour, 2, cv::LINE_AA, kShift);
+  if (is_marked)
+    cv::circle(picture, fine(mark.x, mark.y), 7 << kShift, kTextColour, 2, cv::LINE_AA, kShift);
 }
 
 }  // namespace mems_stiction

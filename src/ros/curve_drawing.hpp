@@ -25,6 +25,7 @@ struct DrawnCurve {
 /// - @p frame of the axes; their numbers and names are outside
 /// - @p curve has a point
 /// - @p beside laid under it as far as the axes reach, both ways in one colour; may have no point
-void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve, const DrawnCurve& beside = {});
+void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve,
+                const DrawnCurve& beside = {});
 
 }  // namespace mems_stiction

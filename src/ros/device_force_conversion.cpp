@@ -7,7 +7,8 @@
 
 namespace mems_stiction {
 
-DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, const std_msgs::Header& header) {
+DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load,
+                             const std_msgs::Header& header) {
   DeviceAdhesion message;
   message.header = header;
   MessageFields fields;
@@ -15,7 +16,8 @@ DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, 
   fields.fill(message);
   message.voltage = load.voltage;
   message.mechanical_load = load.mechanical_load;
-  for (const Realisation& made : force.realisations) message.realisations.push_back(made.pull_off_force);
+  for (const Realisation& made : force.realisations)
+    message.realisations.push_back(made.pull_off_force);
   message.warnings = withoutCommas(force.warnings);
   message.processing_time = DeviceForce::kUnknown;
   clearVerdict(message);
@@ -27,7 +29,8 @@ void fillVerdict(const Verdict& verdict, DeviceAdhesion& message) {
   message.restoring_force = verdict.restoring_force;
 }
 
-DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {
+DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load,
+                             const std_msgs::Header& header) {
   DeviceAdhesion message = deviceMessage(DeviceForce(), load, header);
   message.status = DeviceAdhesion::REFUSED;
   message.message = withoutCommas(oneLine(reason));

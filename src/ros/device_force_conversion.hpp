@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// From a device's force and its verdict to the message; field by field, no figure is computed here.
+/// From a device's force and its verdict to the message; field by field, no figure is computed
+/// here.
 
 #include <string>
 
@@ -15,13 +16,15 @@
 namespace mems_stiction {
 
 /// Without a verdict and without a status of its own: FOUND.
-DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, const std_msgs::Header& header);
+DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load,
+                             const std_msgs::Header& header);
 
 /// With the spring's force.
 void fillVerdict(const Verdict& verdict, DeviceAdhesion& message);
 
 /// REFUSED, with every figure NaN and no verdict.
 /// - @p reason becomes the message, on one line
-DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header);
+DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load,
+                             const std_msgs::Header& header);
 
 }  // namespace mems_stiction

@@ -22,7 +22,8 @@ struct Stopped {};
 
 /// Parts that wait; the one that has waited longest goes.
 constexpr std::size_t kMostWaiting = 100;
-/// Scans that wait for a half-space (HalfSpaceStream), and so half-spaces whose device may still be at hand.
+/// Scans that wait for a half-space (HalfSpaceStream), and so half-spaces whose device may still be
+/// at hand.
 constexpr std::size_t kMostHalfSpaces = 8;
 
 Prediction withoutMaps(Prediction prediction) {
@@ -46,12 +47,13 @@ std::string forceHash(const Configuration& settings, bool with_load) {
 
 /// The force that has been found under one load, under another.
 DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
-  for (double* const value : {&force.pull_off_force, &force.pull_off_force_lower, &force.pull_off_force_upper,
-                              &force.linear_pull_off_force}) {
+  for (double* const value : {&force.pull_off_force, &force.pull_off_force_lower,
+                              &force.pull_off_force_upper, &force.linear_pull_off_force}) {
     *value *= force_factor;
   }
-  for (double* const value : {&force.apparent_work_of_adhesion, &force.apparent_work_of_adhesion_lower,
-                              &force.apparent_work_of_adhesion_upper}) {
+  for (double* const value :
+       {&force.apparent_work_of_adhesion, &force.apparent_work_of_adhesion_lower,
+        &force.apparent_work_of_adhesion_upper}) {
     *value *= work_factor;
   }
   for (Realisation& made : force.realisations) made.pull_off_force *= force_factor;
@@ -61,8 +63,8 @@ DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
 
 }  // namespace
 
-DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause,
-                                     Warn warn, Judged judged)
+DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most,
+                                     SolutionPause& pause, Warn warn, Judged judged)
     : pause_(pause), warn_(std::move(warn)), judged_(std::move(judged)), parts_(most) {
   ros::NodeHandle node(handle);
   // Latched: whoever comes finds the newest.
@@ -93,12 +95,14 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
             scan.scan,
             withoutMaps(predicted.prediction),
             predicted.half_space};
-  const ScanStatement statement = statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
+  const ScanStatement statement =
+      statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
   std::vector<Task> gone;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++counts_.offered;
-    const std::vector<PartName> forgotten = parts_.add(part, scan.header.stamp.toNSec(), statement, task.newest);
+    const std::vector<PartName> forgotten =
+        parts_.add(part, scan.header.stamp.toNSec(), statement, task.newest);
     const auto leave = [&](std::vector<Task>::iterator waiting) {
       ++counts_.skipped;
       gone.push_back(std::move(*waiting));
@@ -109,7 +113,8 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
         ++counts_.skipped;
         waiting = waiting_.erase(waiting);
       } else {
-        const bool is_forgotten = std::find(forgotten.begin(), forgotten.end(), waiting->part) != forgotten.end();
+        const bool is_forgotten =
+            std::find(forgotten.begin(), forgotten.end(), waiting->part) != forgotten.end();
         waiting = is_forgotten ? leave(waiting) : waiting + 1;
       }
     }
@@ -123,8 +128,10 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
   }
 }
 
-bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other, const std::string& other_hash) const {
-  return scan.surfaces.lower.heights().data == other.surfaces.lower.heights().data && hash == other_hash;
+bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other,
+                                              const std::string& other_hash) const {
+  return scan.surfaces.lower.heights().data == other.surfaces.lower.heights().data &&
+         hash == other_hash;
 }
 
 void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
@@ -135,11 +142,15 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
   taken.solution.deformed_lower = taken.solution.deformed_upper = HeightMap();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto is_older = [&](const HalfSpaceOfScan& other) { return other.isOf(taken.scan, taken.hash); };
-    half_spaces_.erase(std::remove_if(half_spaces_.begin(), half_spaces_.end(), is_older), half_spaces_.end());
+    const auto is_older = [&](const HalfSpaceOfScan& other) {
+      return other.isOf(taken.scan, taken.hash);
+    };
+    half_spaces_.erase(std::remove_if(half_spaces_.begin(), half_spaces_.end(), is_older),
+                       half_spaces_.end());
     half_spaces_.push_front(std::move(taken));
     if (half_spaces_.size() > kMostHalfSpaces) half_spaces_.pop_back();
-    const bool is_of_last = last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings, true));
+    const bool is_of_last =
+        last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings, true));
     if (!is_of_last || !is_judged_ || !parts_.of(last_->part)) return;
     const auto is_newer = [this](const Task& waiting) { return waiting.part == last_->part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
@@ -160,7 +171,8 @@ void DeviceForceStream::loop() {
       if (stopping_) return;
       task = std::move(waiting_.back());
       waiting_.pop_back();
-      part = parts_.of(task->part);  // there as long as its scan waits, but for one that is to be judged again
+      part = parts_.of(
+          task->part);  // there as long as its scan waits, but for one that is to be judged again
       if (part) {
         last_ = task;
         at_hand_ = task->scan.id;
@@ -215,13 +227,15 @@ DeviceAnswer DeviceForceStream::work(const Task& task, const ScannedPart& part) 
   return answer;
 }
 
-DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict) {
+DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part,
+                                       std::optional<Verdict>& verdict) {
   const Configuration& settings = *task.settings;
   const Options model = onFrame(settings.model, settings.device, task.newest.surfaces);
   const std::vector<std::uint64_t> numbers = part.numbers();
   const std::string hash = forceHash(settings, true);
   const std::string unloaded_hash = forceHash(settings, false);
-  const bool is_known = found_ && found_->numbers == numbers && found_->unloaded_hash == unloaded_hash;
+  const bool is_known =
+      found_ && found_->numbers == numbers && found_->unloaded_hash == unloaded_hash;
   if (!is_known) {
     const Clock::time_point begin = Clock::now();
     DeviceForce force = make(task, part);
@@ -243,15 +257,17 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     const DeviceScale scale{*evidence.device, found_->frame_pull_off_force, found_->frame_work};
     evidence.device = scale.under(task.prediction);
     const double by_force = evidence.device->pull_off_force / force.pull_off_force;
-    const double by_work = evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
+    const double by_work =
+        evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
     force = scaled(std::move(force), by_force, by_work);
   }
   std::optional<HalfSpaceOfScan> half_space;
   SolvedHalfSpace unsolved;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto known = std::find_if(half_spaces_.begin(), half_spaces_.end(),
-                                    [&](const HalfSpaceOfScan& other) { return other.isOf(task.newest, hash); });
+    const auto known =
+        std::find_if(half_spaces_.begin(), half_spaces_.end(),
+                     [&](const HalfSpaceOfScan& other) { return other.isOf(task.newest, hash); });
     if (known != half_spaces_.end()) half_space = *known;
     is_judged_ = true;
   }
@@ -264,15 +280,18 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     evidence.why_half_space = task.half_space.why;
   }
   if (part.taken > part.scans.size()) {
-    force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +
+    force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " +
+                             std::to_string(part.taken) +
                              " scans are kept (max_part_scans and max_part_memory)");
   }
   verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model,
                       task.newest.surfaces.lower.cellArea(), evidence);
-  if (verdict->judge == Judge::kHalfSpace) {  // the device's own figures moved as those of the scan did
+  if (verdict->judge ==
+      Judge::kHalfSpace) {  // the device's own figures moved as those of the scan did
     const double separation = force.separation_at_rest;
-    force = scaled(std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
-                   half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
+    force = scaled(
+        std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
+        half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
     force.separation_at_rest = separation;
   }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
@@ -301,14 +320,16 @@ DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
 }
 
 bool DeviceForceStream::isFoundWith(const StationCase& scan) const {
-  return found_ && found_->newest.surfaces.lower.heights().data == scan.scan.surfaces.lower.heights().data &&
+  return found_ &&
+         found_->newest.surfaces.lower.heights().data == scan.scan.surfaces.lower.heights().data &&
          found_->unloaded_hash == forceHash(*scan.settings, false);
 }
 
 std::optional<DeviceScale> DeviceForceStream::scaleOf(const StationCase& scan) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!isFoundWith(scan)) return std::nullopt;
-  return DeviceScale{deviceEvidence(found_->force), found_->frame_pull_off_force, found_->frame_work};
+  return DeviceScale{deviceEvidence(found_->force), found_->frame_pull_off_force,
+                     found_->frame_work};
 }
 
 Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
@@ -325,20 +346,23 @@ Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
 bool DeviceForceStream::isExpected(std::uint64_t scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return at_hand_ == scan_id ||
-         std::any_of(waiting_.begin(), waiting_.end(), [&](const Task& task) { return task.scan.id == scan_id; });
+         std::any_of(waiting_.begin(), waiting_.end(),
+                     [&](const Task& task) { return task.scan.id == scan_id; });
 }
 
 void DeviceForceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const double seconds = since_ ? std::chrono::duration<double>(Clock::now() - *since_).count() : 0.0;
+  const double seconds =
+      since_ ? std::chrono::duration<double>(Clock::now() - *since_).count() : 0.0;
   if (counts_.failed > reported_failed_) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, last_failure_);
   } else {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    counts_.offered == 0 ? "no scan of a device with a contact area yet"
-                   : since_ ? "makes surfaces of the device's size, " + shortNumber(100.0 * share_, 2) + " % after " +
-                                  shortNumber(seconds, 2) + " s"
-                            : "knows the newest scan's device");
+                   : since_
+                       ? "makes surfaces of the device's size, " + shortNumber(100.0 * share_, 2) +
+                             " % after " + shortNumber(seconds, 2) + " s"
+                       : "knows the newest scan's device");
   }
   status.add("offered", counts_.offered);
   status.add("found", counts_.found);

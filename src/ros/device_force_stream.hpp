@@ -1,14 +1,15 @@
 #pragma once
 
 /// @file
-/// device_force/enabled: the force of the whole device beside the predictions. A thread of its own takes the newest scan
-/// with all scans of its part, makes surfaces of the device's size, publishes their force with the verdict by it, and
-/// takes what is the newest then.
+/// device_force/enabled: the force of the whole device beside the predictions. A thread of its own
+/// takes the newest scan with all scans of its part, makes surfaces of the device's size, publishes
+/// their force with the verdict by it, and takes what is the newest then.
 ///
-/// What is at hand is brought to its end, whatever comes: an answer belongs to the scan of its stamp and the settings of
-/// its prediction. Of each part its newest scan waits; those before are in its surfaces. A scan without a part waits
-/// until the next one comes. Where the same scans come again under other settings, as after ~set_load, the surfaces are
-/// not made again: their force follows that of the frame (DeviceScale), and the verdict is found anew.
+/// What is at hand is brought to its end, whatever comes: an answer belongs to the scan of its
+/// stamp and the settings of its prediction. Of each part its newest scan waits; those before are
+/// in its surfaces. A scan without a part waits until the next one comes. Where the same scans come
+/// again under other settings, as after ~set_load, the surfaces are not made again: their force
+/// follows that of the frame (DeviceScale), and the verdict is found anew.
 
 #include <atomic>
 #include <chrono>
@@ -40,13 +41,14 @@ class DeviceForceStream {
   /// Called for each scan without a force, on the stream's thread or on that of offer().
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  /// Called for each scan that was offered and that no newer one of its part has overtaken, once nothing more is to come
-  /// of it: with the verdict on its device, or without one. On the stream's thread or on that of offer().
+  /// Called for each scan that was offered and that no newer one of its part has overtaken, once
+  /// nothing more is to come of it: with the verdict on its device, or without one. On the stream's
+  /// thread or on that of offer().
   using Judged = std::function<void(const DeviceAnswer& answer)>;
 
   /// - @p pause is given way to; it must outlive the stream
-  DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause, Warn warn,
-                    Judged judged);
+  DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause,
+                    Warn warn, Judged judged);
   ~DeviceForceStream() { stop(); }
   DeviceForceStream(const DeviceForceStream&) = delete;
   DeviceForceStream& operator=(const DeviceForceStream&) = delete;
@@ -55,16 +57,19 @@ class DeviceForceStream {
   /// Gives up what is at hand, which is not published, and joins the thread.
   void stop();
 
-  /// Takes the place of a scan of the same part that waits. Nothing happens if the settings ask for no force of a
-  /// device. Copies no pixels.
+  /// Takes the place of a scan of the same part that waits. Nothing happens if the settings ask for
+  /// no force of a device. Copies no pixels.
   /// - @p predicted of the scan, under the settings of the case
   void offer(const StationCase& scan, const PredictedScan& predicted);
 
-  /// A half-space of a scan, which judges its device too: from now on, and once more if its force has been found.
+  /// A half-space of a scan, which judges its device too: from now on, and once more if its force
+  /// has been found.
   /// - @p why as of Evidence
-  void takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution, const std::string& why);
+  void takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
+                     const std::string& why);
 
-  /// The device's figures beside those of the frame, if they are known for just this scan, under this load or another.
+  /// The device's figures beside those of the frame, if they are known for just this scan, under
+  /// this load or another.
   std::optional<DeviceScale> scaleOf(const StationCase& scan) const;
   /// The same as evidence for a verdict on the scan, under the load of the case alone.
   Evidence evidenceOf(const StationCase& scan) const;
@@ -90,8 +95,8 @@ class DeviceForceStream {
   struct Found {
     PreparedScan newest;                 ///< scan
     std::vector<std::uint64_t> numbers;  ///< of the surfaces of the scans
-    std::string unloaded_hash;           ///< of the settings that bear on the force, but for the load
-    std::string hash;                    ///< of those with the load
+    std::string unloaded_hash;  ///< of the settings that bear on the force, but for the load
+    std::string hash;           ///< of those with the load
     DeviceForce force;
     double frame_pull_off_force = 0.0;  ///< of the newest scan under that load [N]
     double frame_work = 0.0;            ///< [J/m^2]
@@ -99,7 +104,8 @@ class DeviceForceStream {
   };
   /// Since start.
   struct Counts {
-    std::uint64_t offered = 0;  ///< found + judged_again + skipped + failed + the one at hand and those that wait
+    std::uint64_t offered =
+        0;  ///< found + judged_again + skipped + failed + the one at hand and those that wait
     std::uint64_t found = 0;
     std::uint64_t judged_again = 0;
     std::uint64_t skipped = 0;  ///< a newer scan came before their turn
@@ -132,11 +138,12 @@ class DeviceForceStream {
   std::atomic<bool> stopping_{false};
 
   mutable std::mutex mutex_;
-  std::optional<Found> found_;               ///< changed by the stream's thread only
-  std::deque<HalfSpaceOfScan> half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
-  std::optional<Task> last_;                 ///< that is at hand, or was
-  std::optional<std::uint64_t> at_hand_;     ///< ScanOfPart::id
-  bool is_judged_ = false;                   ///< a half-space that comes now is too late for it
+  std::optional<Found> found_;  ///< changed by the stream's thread only
+  std::deque<HalfSpaceOfScan>
+      half_spaces_;           ///< the newest first; a few, since several scans wait for theirs
+  std::optional<Task> last_;  ///< that is at hand, or was
+  std::optional<std::uint64_t> at_hand_;  ///< ScanOfPart::id
+  bool is_judged_ = false;                ///< a half-space that comes now is too late for it
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

@@ -20,7 +20,8 @@ constexpr std::size_t kMostSaid = 100;
 
 void fillAwaited(const AwaitedAnswers& awaited, DeviceVerdict& message) {
   message.waits_for = awaited.device_force ? kDeviceForceTopic : "";
-  if (awaited.half_space) message.waits_for += std::string(message.waits_for.empty() ? "" : " ") + kHalfSpaceTopic;
+  if (awaited.half_space)
+    message.waits_for += std::string(message.waits_for.empty() ? "" : " ") + kHalfSpaceTopic;
   message.is_final = static_cast<decltype(message.is_final)>(message.waits_for.empty());
 }
 
@@ -31,7 +32,8 @@ DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnsw
   message.header = answer.last.header;
   message.scan_count = 1;
   message.verdict_by = judgeText(answer.verdict->judge);
-  message.by_device_force = static_cast<decltype(message.by_device_force)>(answer.is_by_device_force);
+  message.by_device_force =
+      static_cast<decltype(message.by_device_force)>(answer.is_by_device_force);
   MessageFields fields;
   visitProvenanceFields(answer.last.provenance, fields);
   if (answer.part) {
@@ -47,10 +49,11 @@ DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnsw
   return message;
 }
 
-std::vector<DeviceVerdict> DeviceVerdicts::answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited,
+std::vector<DeviceVerdict> DeviceVerdicts::answer(const DeviceAnswer& answer,
+                                                  const AwaitedAnswers& awaited,
                                                   bool is_of_newest_scan) {
-  const auto before =
-      std::find_if(said_.begin(), said_.end(), [&](const Said& said) { return said.scan_id == answer.last.id; });
+  const auto before = std::find_if(
+      said_.begin(), said_.end(), [&](const Said& said) { return said.scan_id == answer.last.id; });
   Said said{answer.last.id, {}};
   if (answer.verdict) {
     said.message = deviceVerdictMessage(answer, awaited);
@@ -87,8 +90,10 @@ DeviceVerdictTopic::DeviceVerdictTopic(const ros::NodeHandle& handle) {
   publisher_ = node.advertise<DeviceVerdict>(kVerdictTopic, kPredictionQueue, true);
 }
 
-void DeviceVerdictTopic::publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited, bool is_of_newest_scan) {
-  for (const DeviceVerdict& message : said_.answer(answer, awaited, is_of_newest_scan)) publisher_.publish(message);
+void DeviceVerdictTopic::publish(const DeviceAnswer& answer, const AwaitedAnswers& awaited,
+                                 bool is_of_newest_scan) {
+  for (const DeviceVerdict& message : said_.answer(answer, awaited, is_of_newest_scan))
+    publisher_.publish(message);
 }
 
 }  // namespace mems_stiction

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The topic `verdict`: one answer for each part, or for each scan that names none, whoever has judged the device. Touched
-/// by the worker only.
+/// The topic `verdict`: one answer for each part, or for each scan that names none, whoever has
+/// judged the device. Touched by the worker only.
 
 #include <cstdint>
 #include <deque>
@@ -24,9 +24,10 @@ struct AwaitedAnswers {
 
 /// What judges the device of a scan.
 struct DeviceAnswer {
-  ScanOfPart last;                    ///< of the part: the scan that came last
-  std::optional<Verdict> verdict;     ///< on the device; nothing: it could not be judged
-  std::optional<PooledVerdict> part;  ///< what all scans of the part say; nothing if the scan names no part
+  ScanOfPart last;                 ///< of the part: the scan that came last
+  std::optional<Verdict> verdict;  ///< on the device; nothing: it could not be judged
+  std::optional<PooledVerdict>
+      part;  ///< what all scans of the part say; nothing if the scan names no part
   bool is_by_device_force = false;
 };
 
@@ -36,10 +37,13 @@ DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnsw
 /// Remembers the newest answers, so that a late one does not hide that on a newer scan.
 class DeviceVerdicts {
  public:
-  /// What is to be published, the last one of which is latched. Without a verdict, what was said of the scan before is said again if
-  /// it waits for less now. After a late answer on an earlier scan the newest scan's follows: whoever comes finds that one.
-  std::vector<DeviceVerdict> answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited, bool is_of_newest_scan);
-  /// Whether the last answer on the part of a scan, or on a scan that names none, was by the force of the whole device.
+  /// What is to be published, the last one of which is latched. Without a verdict, what was said of
+  /// the scan before is said again if it waits for less now. After a late answer on an earlier scan
+  /// the newest scan's follows: whoever comes finds that one.
+  std::vector<DeviceVerdict> answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited,
+                                    bool is_of_newest_scan);
+  /// Whether the last answer on the part of a scan, or on a scan that names none, was by the force
+  /// of the whole device.
   bool isByDeviceForce(const ScanOfPart& scan) const;
 
  private:

@@ -6,7 +6,8 @@ namespace mems_stiction {
 
 Diagnostics::Diagnostics(const ros::NodeHandle& handle, const std::string& node)
     : prefix_(node.substr(1) + ": "),
-      publisher_(ros::NodeHandle(handle).advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1)) {}
+      publisher_(
+          ros::NodeHandle(handle).advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1)) {}
 
 void Diagnostics::publish() const {
   diagnostic_msgs::DiagnosticArray message;

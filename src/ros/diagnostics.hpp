@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What the node says of itself on /diagnostics. diagnostic_updater's own updater asks for a parameter before each message.
+/// What the node says of itself on /diagnostics. diagnostic_updater's own updater asks for a
+/// parameter before each message.
 
 #include <functional>
 #include <string>

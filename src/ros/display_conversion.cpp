@@ -21,12 +21,14 @@ namespace {
 
 /// Low dark, high bright, over three rms heights to either side.
 Colour greyOf(double above_mean, double rms_height) {
-  const double level = rms_height > 0.0 ? std::min(std::max(above_mean / (3.0 * rms_height), -1.0), 1.0) : 0.0;
+  const double level =
+      rms_height > 0.0 ? std::min(std::max(above_mean / (3.0 * rms_height), -1.0), 1.0) : 0.0;
   const auto grey = static_cast<std::uint8_t>(140.0 + 100.0 * level);
   return {grey, grey, grey};
 }
 
-/// Share of the longer side that the rms height gets on the screen: relief that is seen and hides nothing.
+/// Share of the longer side that the rms height gets on the screen: relief that is seen and hides
+/// nothing.
 constexpr double kReliefShare = 0.015;
 constexpr double kTextHeight = 0.35;  // [m on the screen]
 
@@ -39,7 +41,8 @@ double roundedDown(double value) {
 
 /// "600 nm", "1.95 um": what a line of text can show.
 std::string lengthText(double length) {
-  return length < 1e-6 ? plainFormat("%.3g nm", length * 1e9) : plainFormat("%.3g um", length * 1e6);
+  return length < 1e-6 ? plainFormat("%.3g nm", length * 1e9)
+                       : plainFormat("%.3g um", length * 1e6);
 }
 
 /// From the scan to the screen.
@@ -59,7 +62,8 @@ class View {
     const double longer = std::max(width_, height_);
     scale = options.scale > 0.0 ? options.scale : kViewSize / longer;
     exaggeration_ = options.height_exaggeration;
-    if (exaggeration_ == 0.0) exaggeration_ = rms_height > 0.0 ? roundedDown(kReliefShare * longer / rms_height) : 1.0;
+    if (exaggeration_ == 0.0)
+      exaggeration_ = rms_height > 0.0 ? roundedDown(kReliefShare * longer / rms_height) : 1.0;
   }
 
   double x(double along_columns) const { return (along_columns - middle_x_) * scale; }
@@ -69,8 +73,8 @@ class View {
   double bottom() const { return -0.5 * height_ * scale; }
 
   std::string text() const {
-    return lengthText(width_) + " x " + lengthText(height_) + ", heights x " + plainFormat("%.3g", exaggeration_) +
-           ", rms " + lengthText(rms_height);
+    return lengthText(width_) + " x " + lengthText(height_) + ", heights x " +
+           plainFormat("%.3g", exaggeration_) + ", rms " + lengthText(rms_height);
   }
 
   std_msgs::Header header;
@@ -86,18 +90,23 @@ class View {
 /// Every how many rows and columns a point is shown.
 int strideFor(const cv::Mat& heights, int max_points) {
   int stride = 1;
-  const auto shown = [&](int size) { return (static_cast<std::int64_t>(size) + stride - 1) / stride; };
+  const auto shown = [&](int size) {
+    return (static_cast<std::int64_t>(size) + stride - 1) / stride;
+  };
   while (shown(heights.rows) * shown(heights.cols) > max_points) ++stride;
   return stride;
 }
 
-/// Square pixels over the scan, each of which shows the scan's pixel below it, so that the picture has the scan's true
-/// aspect. They are as large as the smaller pitch, or a whole number of times where that would be too many.
+/// Square pixels over the scan, each of which shows the scan's pixel below it, so that the picture
+/// has the scan's true aspect. They are as large as the smaller pitch, or a whole number of times
+/// where that would be too many.
 class PreviewGrid {
  public:
-  PreviewGrid(const HeightMap& scan, int max_size) : scan_rows_(scan.rows()), scan_cols_(scan.cols()) {
+  PreviewGrid(const HeightMap& scan, int max_size)
+      : scan_rows_(scan.rows()), scan_cols_(scan.cols()) {
     const double pitch = std::min(scan.pitchX(), scan.pitchY());
-    const double longer = std::max(scan.cols() * (scan.pitchX() / pitch), scan.rows() * (scan.pitchY() / pitch));
+    const double longer =
+        std::max(scan.cols() * (scan.pitchX() / pitch), scan.rows() * (scan.pitchY() / pitch));
     const double stride = std::max(1.0, std::ceil(longer / max_size - kRoundOff));
     step_x_ = stride * (pitch / scan.pitchX());
     step_y_ = stride * (pitch / scan.pitchY());
@@ -111,7 +120,9 @@ class PreviewGrid {
  private:
   static constexpr double kRoundOff = 1e-9;
 
-  static int count(int size, double step) { return std::max(1, static_cast<int>(std::ceil(size / step - kRoundOff))); }
+  static int count(int size, double step) {
+    return std::max(1, static_cast<int>(std::ceil(size / step - kRoundOff)));
+  }
   static int place(int pixel, double step, int size) {
     return std::min(static_cast<int>(pixel * step + kRoundOff), size - 1);
   }
@@ -135,13 +146,15 @@ GreyRange greyRange(const std::vector<double>& heights, double stated) {
   if (sorted.empty()) return {0.0, 1e-15, 0.0};
   std::sort(sorted.begin(), sorted.end());
   GreyRange range;
-  for (const double height : sorted) range.mean += (height - sorted.front()) / static_cast<double>(sorted.size());
+  for (const double height : sorted)
+    range.mean += (height - sorted.front()) / static_cast<double>(sorted.size());
   range.mean += sorted.front();
   const auto at = [&](double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
   };
   range.low = stated > 0.0 ? range.mean - 0.5 * stated : at(0.01);
-  range.high = stated > 0.0 ? range.mean + 0.5 * stated : range.low + std::max(at(0.99) - range.low, 1e-15);
+  range.high =
+      stated > 0.0 ? range.mean + 0.5 * stated : range.low + std::max(at(0.99) - range.low, 1e-15);
   return range;  // a flat surface is dark
 }
 
@@ -151,11 +164,14 @@ constexpr int kBarTextWidth = 84;    // pixels
 constexpr int kLeastBarHeight = 40;  // pixels: three lines of text
 constexpr double kBarTextScale = 0.35;
 
-/// The picture with a bar to its right: bright at the top, with the heights above the mean of both ends and of the middle.
+/// The picture with a bar to its right: bright at the top, with the heights above the mean of both
+/// ends and of the middle.
 void addBar(const GreyRange& range, sensor_msgs::Image& image) {
-  const cv::Mat picture(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1, image.data.data());
+  const cv::Mat picture(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1,
+                        image.data.data());
   const int height = std::max(picture.rows, kLeastBarHeight);
-  cv::Mat with_bar(height, picture.cols + kBarGap + kBarWidth + kBarTextWidth, CV_8UC1, cv::Scalar(0));
+  cv::Mat with_bar(height, picture.cols + kBarGap + kBarWidth + kBarTextWidth, CV_8UC1,
+                   cv::Scalar(0));
   picture.copyTo(with_bar(cv::Rect(0, 0, picture.cols, picture.rows)));
   const int left = picture.cols + kBarGap;
   for (int row = 0; row < height; ++row) {
@@ -169,8 +185,8 @@ void addBar(const GreyRange& range, sensor_msgs::Image& image) {
     const std::string sign = above_mean < 0.0 && !is_mean ? "-" : "";
     const int baseline = 10 + static_cast<int>(std::lround(share * (height - 13)));
     cv::putText(with_bar, sign + lengthText(is_mean ? 0.0 : std::abs(above_mean)),
-                cv::Point(left + kBarWidth + kBarGap, baseline), cv::FONT_HERSHEY_SIMPLEX, kBarTextScale,
-                cv::Scalar(255));
+                cv::Point(left + kBarWidth + kBarGap, baseline), cv::FONT_HERSHEY_SIMPLEX,
+                kBarTextScale, cv::Scalar(255));
   }
   image.height = static_cast<std::uint32_t>(with_bar.rows);
   image.width = static_cast<std::uint32_t>(with_bar.cols);
@@ -181,7 +197,8 @@ void addBar(const GreyRange& range, sensor_msgs::Image& image) {
 }  // namespace
 
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
-                                       const std_msgs::Header& header, const DisplayOptions& options) {
+                                       const std_msgs::Header& header,
+                                       const DisplayOptions& options) {
   const cv::Mat& heights = prediction.deformed_lower;
   const View view(heights, scan, header, options);
   const int stride = strideFor(heights, options.max_points);
@@ -198,9 +215,11 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   using sensor_msgs::PointField;
   modifier.setPointCloud2Fields(5, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
-                                PointField::FLOAT32, "height", 1, PointField::FLOAT32, "rgb", 1, PointField::FLOAT32);
+                                PointField::FLOAT32, "height", 1, PointField::FLOAT32, "rgb", 1,
+                                PointField::FLOAT32);
   modifier.resize(shown.size());
-  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z"), height(cloud, "height");
+  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z"),
+      height(cloud, "height");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> rgb(cloud, "rgb");
   for (const cv::Point& cell : shown) {
     const double above_mean = heights.at<double>(cell) - view.mean;
@@ -209,7 +228,8 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
     *z = static_cast<float>(view.z(heights.at<double>(cell)));
     *height = static_cast<float>(above_mean);
     const auto regime = static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(cell));
-    const Colour colour = regime == Regime::kApart ? greyOf(above_mean, view.rms_height) : colourOf(regime);
+    const Colour colour =
+        regime == Regime::kApart ? greyOf(above_mean, view.rms_height) : colourOf(regime);
     rgb[0] = colour.blue;
     rgb[1] = colour.green;
     rgb[2] = colour.red;
@@ -220,13 +240,15 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
 }
 
 visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const HeightMap& scan,
-                                                const std_msgs::Header& header, const DisplayOptions& options) {
+                                                const std_msgs::Header& header,
+                                                const DisplayOptions& options) {
   const View view(prediction.deformed_lower, scan, header, options);
   std::vector<const Asperity*> shown;
   for (const Asperity& asperity : prediction.asperities) shown.push_back(&asperity);
   if (shown.size() > static_cast<std::size_t>(options.max_markers)) {
-    std::stable_sort(shown.begin(), shown.end(),
-                     [](const Asperity* left, const Asperity* right) { return left->load > right->load; });
+    std::stable_sort(shown.begin(), shown.end(), [](const Asperity* left, const Asperity* right) {
+      return left->load > right->load;
+    });
     shown.resize(static_cast<std::size_t>(options.max_markers));
   }
 
@@ -260,7 +282,8 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
     disc.pose.position.y = view.y(asperity->y);
     disc.pose.position.z = view.z(asperity->z);
     disc.pose.orientation.w = 1.0;
-    disc.scale.x = disc.scale.y = std::max(2.0 * asperity->cap_radius * view.scale, options.min_marker_diameter);
+    disc.scale.x = disc.scale.y =
+        std::max(2.0 * asperity->cap_radius * view.scale, options.min_marker_diameter);
     disc.scale.z = 0.1 * disc.scale.x;
     const Colour colour = colourOf(asperity->regime);
     disc.color.r = static_cast<float>(colour.red) / 255.0F;
@@ -291,7 +314,8 @@ sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header
   const GreyRange range = greyRange(shown, options.preview_range);
   for (const double height : shown) {
     const double share = (height - range.low) / (range.high - range.low);
-    const double level = std::isfinite(height) ? 1.0 + 254.0 * std::min(std::max(share, 0.0), 1.0) : 0.0;
+    const double level =
+        std::isfinite(height) ? 1.0 + 254.0 * std::min(std::max(share, 0.0), 1.0) : 0.0;
     image.data.push_back(static_cast<std::uint8_t>(std::lround(level)));
   }
   if (options.preview_bar) addBar(range, image);

@@ -3,10 +3,11 @@
 /// @file
 /// What clients send to an action, checked before the action server of actionlib gets it.
 ///
-/// A cancel with a stamp asks for the end of all goals up to that time, and actionlib recalls each later goal that is not
-/// younger; a goal of an older stamp than the last one's it cancels. After one stamp of 2^32 - 1 s every goal ends so. Here
-/// a stamp that is yet to come becomes that of now.
-/// Goals are read with their lengths checked (checked_messages.hpp); one that is refused is rejected as actionlib would.
+/// A cancel with a stamp asks for the end of all goals up to that time, and actionlib recalls each
+/// later goal that is not younger; a goal of an older stamp than the last one's it cancels. After
+/// one stamp of 2^32 - 1 s every goal ends so. Here a stamp that is yet to come becomes that of
+/// now. Goals are read with their lengths checked (checked_messages.hpp); one that is refused is
+/// rejected as actionlib would.
 
 #include <algorithm>
 #include <string>
@@ -23,8 +24,8 @@
 
 namespace mems_stiction {
 
-/// Between the topics `goal` and `cancel` of one action and its server, which gets them on `goal_checked` and
-/// `cancel_checked`.
+/// Between the topics `goal` and `cancel` of one action and its server, which gets them on
+/// `goal_checked` and `cancel_checked`.
 template <typename Action>
 class GoalGate {
  public:
@@ -40,8 +41,9 @@ class GoalGate {
 
   /// The handle that the server of the action is made with, in the parent's namespace.
   static ros::NodeHandle inside(const ros::NodeHandle& parent, const std::string& name) {
-    return ros::NodeHandle(parent, "",
-                           {{name + "/goal", name + "/goal_checked"}, {name + "/cancel", name + "/cancel_checked"}});
+    return ros::NodeHandle(
+        parent, "",
+        {{name + "/goal", name + "/goal_checked"}, {name + "/cancel", name + "/cancel_checked"}});
   }
 
   /// From now on, as the server listens, goals and cancels pass.
@@ -50,13 +52,13 @@ class GoalGate {
         handle_, "goal", kQueue,
         {[this](const auto& goal) { takeGoal(goal); },
          [this](const auto& bytes, const auto& reason) { refuseGoal(bytes, reason); }, max_bytes_});
-    cancel_subscriber_ =
-        subscribeChecked<actionlib_msgs::GoalID>(handle_, "cancel", kQueue,
-                                                 {[this](const auto& cancel) { takeCancel(cancel); },
-                                                  [this](const auto& /*bytes*/, const auto& reason) {
-                                                    warn("a cancel of " + name_ + " is passed over: " + reason);
-                                                  },
-                                                  max_bytes_});
+    cancel_subscriber_ = subscribeChecked<actionlib_msgs::GoalID>(
+        handle_, "cancel", kQueue,
+        {[this](const auto& cancel) { takeCancel(cancel); },
+         [this](const auto& /*bytes*/, const auto& reason) {
+           warn("a cancel of " + name_ + " is passed over: " + reason);
+         },
+         max_bytes_});
   }
 
  private:

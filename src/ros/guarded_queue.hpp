@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// A queue whose callbacks cannot end the process: what one throws is said, and the next one is called.
+/// A queue whose callbacks cannot end the process: what one throws is said, and the next one is
+/// called.
 ///
-/// Nothing of this package throws there. Libraries do that act on what peers send, such as stamps whose sums are beyond 32 bits
-/// (tf2, actionlib); the threads that call would end the process, or the manager of nodelets and all that it runs.
+/// Nothing of this package throws there. Libraries do that act on what peers send, such as stamps
+/// whose sums are beyond 32 bits (tf2, actionlib); the threads that call would end the process, or
+/// the manager of nodelets and all that it runs.
 
 #include <atomic>
 #include <chrono>
@@ -45,7 +47,8 @@ class GuardedQueue : public ros::CallbackQueue {
     /// Not more often than once in so long a time.
     static void say(const std::string& what) {
       constexpr std::chrono::seconds kPause{5};
-      static std::atomic<std::chrono::steady_clock::time_point> next{std::chrono::steady_clock::time_point::min()};
+      static std::atomic<std::chrono::steady_clock::time_point> next{
+          std::chrono::steady_clock::time_point::min()};
       const auto now = std::chrono::steady_clock::now();
       if (now < next.load()) return;
       next = now + kPause;

@@ -19,12 +19,14 @@ namespace mems_stiction {
 namespace {
 
 static_assert(static_cast<int>(HalfSpaceFeedback::APPROACH) == HalfSpacePoint::APPROACH, "phase");
-static_assert(static_cast<int>(HalfSpaceFeedback::RETRACTION) == HalfSpacePoint::RETRACTION, "phase");
+static_assert(static_cast<int>(HalfSpaceFeedback::RETRACTION) == HalfSpacePoint::RETRACTION,
+              "phase");
 
 constexpr std::uint32_t kServiceThreads = 1;
 constexpr std::chrono::milliseconds kFeedbackPeriod{50};
 
-/// How far the path is. Where it will come to rest is not known on the way down, where the share approaches a half.
+/// How far the path is. Where it will come to rest is not known on the way down, where the share
+/// approaches a half.
 class PathProgress {
  public:
   HalfSpaceFeedback after(const ForcePoint& point) {
@@ -55,8 +57,9 @@ class PathProgress {
 
 }  // namespace
 
-HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
-                               double max_message_size, SolutionPause& pause, FindCase find_case, Beside beside)
+HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle,
+                               const HalfSpaceOptions& options, double max_message_size,
+                               SolutionPause& pause, FindCase find_case, Beside beside)
     : solver_(options),
       pause_(pause),
       find_case_(std::move(find_case)),
@@ -66,14 +69,14 @@ HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const Half
       handle_(private_handle),
       spinner_(kServiceThreads, &queue_) {
   handle_.setCallbackQueue(&queue_);
-  service_ = advertiseChecked<SolveHalfSpace>(handle_, kSolveHalfSpaceService,
-                                              {[this](auto& request, auto& response) { serve(request, response); },
-                                               [](auto& response, const std::string& reason) {
-                                                 response.solution =
-                                                     refusedMessage(reason, LoadOptions(), std_msgs::Header());
-                                                 response.message = response.solution.message;
-                                               },
-                                               max_message_size});
+  service_ = advertiseChecked<SolveHalfSpace>(
+      handle_, kSolveHalfSpaceService,
+      {[this](auto& request, auto& response) { serve(request, response); },
+       [](auto& response, const std::string& reason) {
+         response.solution = refusedMessage(reason, LoadOptions(), std_msgs::Header());
+         response.message = response.solution.message;
+       },
+       max_message_size});
 }
 
 HalfSpaceCalls::~HalfSpaceCalls() {
@@ -109,18 +112,22 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
     header = station_case.header;
     Configuration settings = *station_case.settings;
     if (!std::isnan(asked.voltage)) settings.model.load.voltage = asked.voltage;
-    if (!std::isnan(asked.mechanical_load)) settings.model.load.setMechanicalLoad(asked.mechanical_load);
+    if (!std::isnan(asked.mechanical_load))
+      settings.model.load.setMechanicalLoad(asked.mechanical_load);
     provenance = provenanceOf(station_case.identity, settings);
-    station_case.settings =
-        std::make_shared<const Configuration>(settings);  // what is known of the device is of a load
+    station_case.settings = std::make_shared<const Configuration>(
+        settings);  // what is known of the device is of a load
     const Options options = onFrame(settings.model, settings.device, station_case.scan.surfaces);
     load = options.load;
     options.check();
-    const SolvedHalfSpace solved = solver_.solve(halfSpaceProblem(station_case.scan, options), control);
+    const SolvedHalfSpace solved =
+        solver_.solve(halfSpaceProblem(station_case.scan, options), control);
     HalfSpaceSolution message = halfSpaceMessage(solved, load, header);
     fillProvenance(provenance, message);
     if (solved.status != HalfSpaceStatus::kCancelled) {
-      fillVerdict(halfSpaceVerdict(solved, station_case.scan, options, settings, beside_(station_case)), message);
+      fillVerdict(
+          halfSpaceVerdict(solved, station_case.scan, options, settings, beside_(station_case)),
+          message);
     }
     return message;
   } catch (const std::future_error&) {
@@ -154,7 +161,8 @@ bool HalfSpaceCalls::run(const HalfSpaceGoal& goal, HalfSpaceResult& result) {
   };
   result.solution = solve(goal, control);
   const bool is_solved = result.solution.status == HalfSpaceSolution::SOLVED;
-  if (!is_solved && result.solution.status != HalfSpaceSolution::CANCELLED) result.message = result.solution.message;
+  if (!is_solved && result.solution.status != HalfSpaceSolution::CANCELLED)
+    result.message = result.solution.message;
   return is_solved;
 }
 

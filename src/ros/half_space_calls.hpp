@@ -1,9 +1,9 @@
 #pragma once
 
 /// @file
-/// The half-space of one scan on demand: the service ~solve_half_space, which waits for the answer, and the action
-/// ~half_space with progress and cancel. Each has a thread of its own, so that neither predictions nor other services
-/// wait for it; one call and one goal at a time.
+/// The half-space of one scan on demand: the service ~solve_half_space, which waits for the answer,
+/// and the action ~half_space with progress and cancel. Each has a thread of its own, so that
+/// neither predictions nor other services wait for it; one call and one goal at a time.
 
 #include <atomic>
 #include <functional>
@@ -29,8 +29,8 @@ class HalfSpaceCalls {
   using Beside = std::function<Evidence(const StationCase& scan)>;
 
   /// - @p pause is given way to; it must outlive the calls
-  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, double max_message_size,
-                 SolutionPause& pause, FindCase find_case, Beside beside);
+  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
+                 double max_message_size, SolutionPause& pause, FindCase find_case, Beside beside);
   ~HalfSpaceCalls();
   HalfSpaceCalls(const HalfSpaceCalls&) = delete;
   HalfSpaceCalls& operator=(const HalfSpaceCalls&) = delete;

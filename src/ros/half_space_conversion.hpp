@@ -13,7 +13,8 @@
 
 namespace mems_stiction {
 
-/// Points of the message's curve each way; longer curves are thinned out evenly, the ends and the largest force stay.
+/// Points of the message's curve each way; longer curves are thinned out evenly, the ends and the
+/// largest force stay.
 inline constexpr std::size_t kMostCurvePoints = 4096;
 
 /// Without a verdict.
@@ -22,6 +23,7 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
 
 /// REFUSED, with every figure NaN and no verdict.
 /// - @p reason becomes the message, on one line
-HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header);
+HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load,
+                                 const std_msgs::Header& header);
 
 }  // namespace mems_stiction

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// The half-space's answer as pictures for a screen; bgr8, of a size that does not depend on the scan. For looking at, not
-/// for measuring. Along the lower edge stands what the solution says of where it comes from.
+/// The half-space's answer as pictures for a screen; bgr8, of a size that does not depend on the
+/// scan. For looking at, not for measuring. Along the lower edge stands what the solution says of
+/// where it comes from.
 
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
@@ -12,10 +13,11 @@
 
 namespace mems_stiction {
 
-/// Force over height: approach and retraction, with axes, the pull-off marked and the figures above; without a curve the
-/// sentence that says why.
+/// Force over height: approach and retraction, with axes, the pull-off marked and the figures
+/// above; without a curve the sentence that says why.
 /// - @p beside the prediction's, laid under it; may have no point
-sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const DrawnCurve& beside = {});
+sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution,
+                                   const DrawnCurve& beside = {});
 
 /// Both contact maps of one scan side by side, in the colours of the regimes.
 /// - @p model_map, @p half_space_map CV_8UC1 with the values of Regime, or empty

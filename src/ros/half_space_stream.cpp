@@ -24,8 +24,9 @@ constexpr std::size_t kMostCallsWaiting = 8;
 
 }  // namespace
 
-HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                                 Warn warn, Judged judged, Solved solved, Beside beside)
+HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options,
+                                 SolutionPause& pause, Warn warn, Judged judged, Solved solved,
+                                 Beside beside)
     : solver_(options),
       pause_(pause),
       transport_(handle),
@@ -53,17 +54,19 @@ void HalfSpaceStream::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan,
-                            const cv::Mat& model_map, const DrawnCurve& model_curve) {
-  Task task{call, predicted, scan, model_map.clone(), model_curve};  // the model uses its map's memory again
+void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predicted,
+                            const ScanOfPart& scan, const cv::Mat& model_map,
+                            const DrawnCurve& model_curve) {
+  Task task{call, predicted, scan, model_map.clone(),
+            model_curve};  // the model uses its map's memory again
   const std::size_t most = call.why.empty() ? 1 : kMostCallsWaiting;
   std::vector<Task> gone;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++counts_.offered;
     // the same scan under other settings is another question, and the newer one
-    const auto same =
-        std::find_if(waiting_.begin(), waiting_.end(), [&](const Task& waiting) { return waiting.scan.id == scan.id; });
+    const auto same = std::find_if(waiting_.begin(), waiting_.end(),
+                                   [&](const Task& waiting) { return waiting.scan.id == scan.id; });
     if (same != waiting_.end()) {
       ++counts_.skipped;
       waiting_.erase(same);
@@ -79,7 +82,8 @@ void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predic
   for (const Task& lost : gone) {
     judged_(lost.scan, std::nullopt);
     if (lost.call.why.empty()) continue;
-    warn_(lost.predicted.header, "half-space: " + lost.call.why + " asks for it, but newer scans came before its turn");
+    warn_(lost.predicted.header,
+          "half-space: " + lost.call.why + " asks for it, but newer scans came before its turn");
   }
 }
 
@@ -152,7 +156,8 @@ std::optional<Verdict> HalfSpaceStream::solve(const Task& task) {
 bool HalfSpaceStream::isExpected(std::uint64_t scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return at_hand_ == scan_id ||
-         std::any_of(waiting_.begin(), waiting_.end(), [&](const Task& task) { return task.scan.id == scan_id; });
+         std::any_of(waiting_.begin(), waiting_.end(),
+                     [&](const Task& task) { return task.scan.id == scan_id; });
 }
 
 void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const Task& task,
@@ -163,7 +168,8 @@ void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const Task& tas
   if (isModelMapWanted()) {
     contact_maps_publisher_.publish(contactMapsPicture(task.model_map, half_space_map, solution));
   }
-  if (curve_publisher_.getNumSubscribers() > 0) curve_publisher_.publish(curvePicture(solution, task.model_curve));
+  if (curve_publisher_.getNumSubscribers() > 0)
+    curve_publisher_.publish(curvePicture(solution, task.model_curve));
   // Last, so that whoever waits for the solution finds the maps sent.
   solution_publisher_.publish(solution);
 }
@@ -174,10 +180,11 @@ void HalfSpaceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status
   if (counts_.failed > reported_failed_) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, last_failure_);
   } else {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, counts_.offered == 0 ? "no scan yet"
-                                                          : options.enabled == HalfSpaceUse::kFlagged
-                                                              ? "solves scans whose flags ask for it"
-                                                              : "solves the newest scan");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   counts_.offered == 0 ? "no scan yet"
+                   : options.enabled == HalfSpaceUse::kFlagged
+                       ? "solves scans whose flags ask for it"
+                       : "solves the newest scan");
   }
   status.add("offered", counts_.offered);
   status.add("solved", counts_.solved);

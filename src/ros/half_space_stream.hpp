@@ -1,10 +1,11 @@
 #pragma once
 
 /// @file
-/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes the
-/// answer, and takes the scan that is the newest then. Of those between, some wait whose flags ask for it; the others are
-/// skipped. It takes the prepared scan and the settings of its prediction, whatever changes meanwhile: the answer belongs
-/// to the prediction of its stamp.
+/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest
+/// scan, publishes the answer, and takes the scan that is the newest then. Of those between, some
+/// wait whose flags ask for it; the others are skipped. It takes the prepared scan and the settings
+/// of its prediction, whatever changes meanwhile: the answer belongs to the prediction of its
+/// stamp.
 
 #include <atomic>
 #include <condition_variable>
@@ -32,22 +33,24 @@ namespace mems_stiction {
 /// Solves the newest of the scans that it is offered.
 class HalfSpaceStream {
  public:
-  /// Called for each scan without a solution, on the thread of the half-space or on that of offer().
+  /// Called for each scan without a solution, on the thread of the half-space or on that of
+  /// offer().
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  /// Called for each scan whose turn has come or has passed: with the verdict, or without one. On the thread of the
-  /// half-space or on that of offer().
+  /// Called for each scan whose turn has come or has passed: with the verdict, or without one. On
+  /// the thread of the half-space or on that of offer().
   using Judged = std::function<void(const ScanOfPart& scan, const std::optional<Verdict>& verdict)>;
 
   /// Called before that with what judges it, on the thread of the half-space.
-  using Solved = std::function<void(const StationCase& scan, const SolvedHalfSpace& solution, const std::string& why)>;
+  using Solved = std::function<void(const StationCase& scan, const SolvedHalfSpace& solution,
+                                    const std::string& why)>;
 
   /// What is known of the device of a scan, called on the thread of the half-space.
   using Beside = std::function<Evidence(const StationCase& scan)>;
 
   /// - @p pause is given way to; it must outlive the stream
-  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn,
-                  Judged judged, Solved solved, Beside beside);
+  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options,
+                  SolutionPause& pause, Warn warn, Judged judged, Solved solved, Beside beside);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
   HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
@@ -59,13 +62,14 @@ class HalfSpaceStream {
   /// Whether offer() wants the model's contact map.
   bool isModelMapWanted() const { return contact_maps_publisher_.getNumSubscribers() > 0; }
 
-  /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels but the map's.
+  /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels but the
+  /// map's.
   /// - @p call that is made
   /// - @p scan where its prediction comes from
   /// - @p model_map contact map of the prediction; may be empty
   /// - @p model_curve that the prediction has followed; may have no point
-  void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
-             const DrawnCurve& model_curve);
+  void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan,
+             const cv::Mat& model_map, const DrawnCurve& model_curve);
 
   /// Whether a scan waits for its solution, or is at hand. @param scan_id ScanOfPart::id
   bool isExpected(std::uint64_t scan_id) const;
@@ -93,7 +97,8 @@ class HalfSpaceStream {
   /// @return the verdict on the scan's device; nothing if it could not be judged
   std::optional<Verdict> solve(const Task& task);
   /// The message always, maps and pictures while somebody listens.
-  void publish(const HalfSpaceSolution& solution, const Task& task, const cv::Mat& half_space_map) const;
+  void publish(const HalfSpaceSolution& solution, const Task& task,
+               const cv::Mat& half_space_map) const;
 
   const HalfSpaceSolver solver_;
   SolutionPause& pause_;

@@ -20,7 +20,7 @@ namespace mems_stiction {
 /// A scan as it arrived.
 struct ReceivedScan {
   std_msgs::Header header;
-  HeightMap surface;                                ///< shares the message, where it shows its pixels
+  HeightMap surface;  ///< shares the message, where it shows its pixels
   std::optional<SurfacePose> counter_surface_pose;  ///< at the scan's stamp; none = as configured
   ScanIdentity identity;                            ///< as the scan states it
 };
@@ -28,7 +28,8 @@ struct ReceivedScan {
 /// The encodings that carry heights, for messages: "32FC1, 64FC1, ...".
 std::string acceptedEncodings();
 
-/// The message over the parameters: every field that the message leaves at its default keeps the parameter's value.
+/// The message over the parameters: every field that the message leaves at its default keeps the
+/// parameter's value.
 /// @throw SurfaceError naming a field that is negative, not finite, or stated nowhere.
 ScanOptions scanOptions(const ScanInfo& info, const ScanOptions& parameters);
 
@@ -43,14 +44,18 @@ ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info);
 /// What was scanned, as a message states it.
 void fillIdentity(const ScanIdentity& identity, ScanInfo& info);
 
-/// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0, no invalid value and no height
-/// beyond kLargestHeight, which counts as missing; copies otherwise. The image's memory is never written to.
-/// @throw SurfaceError if the encoding is not accepted, the size is zero, step or data size do not fit, or the pitch is
+/// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0, no
+/// invalid value and no height beyond kLargestHeight, which counts as missing; copies otherwise.
+/// The image's memory is never written to.
+/// @throw SurfaceError if the encoding is not accepted, the size is zero, step or data size do not
+/// fit, or the pitch is
 ///        not stated.
 ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options);
 
-/// Pixels in this machine's byte order; cv_bridge would load GDAL and a hundred libraries more into each program.
-sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding, const std_msgs::Header& header);
+/// Pixels in this machine's byte order; cv_bridge would load GDAL and a hundred libraries more into
+/// each program.
+sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding,
+                                   const std_msgs::Header& header);
 
 /// rows x cols CV_32FC1 or CV_64FC1 [m] as 32FC1 [m], NaN where invalid. Float32 keeps 7 digits: a
 /// stage offset should have come off before.

@@ -38,13 +38,15 @@ LivePredictor::LivePredictor(const Configuration& configuration, bool accumulate
       accumulate_deformation_(accumulate_deformation) {}
 
 void LivePredictor::requireCounterSurface() const {
-  if (settings_.snapshot()->counter_surface.type == CounterSurfaceType::kTopic && !has_counter_surface_) {
+  if (settings_.snapshot()->counter_surface.type == CounterSurfaceType::kTopic &&
+      !has_counter_surface_) {
     throw SurfaceError("no counter-surface has arrived yet (counter_surface/type is topic)");
   }
 }
 
 void LivePredictor::setPoseOf(const ReceivedScan& scan) {
-  if (scan.counter_surface_pose) predictor_.preparer().setCounterSurfacePose(*scan.counter_surface_pose);
+  if (scan.counter_surface_pose)
+    predictor_.preparer().setCounterSurfacePose(*scan.counter_surface_pose);
 }
 
 PreparedScan LivePredictor::prepare(const ReceivedScan& scan) {
@@ -70,32 +72,37 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
                                     const ScanPredictor::OnModel& on_model) {
   PredictedScan predicted;
   Evidence evidence;
-  if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kDeviceOnTopic;
+  if (wantsDeviceForce(settings.device, settings.device_force))
+    evidence.why_no_device = kDeviceOnTopic;
   predictor_.setDevice(settings.device);
   predicted.prediction = predictor_.predict(prepared, on_model);
-  predicted.half_space = halfSpaceCall(predicted.prediction, prepared, predictor_.options(), settings);
+  predicted.half_space =
+      halfSpaceCall(predicted.prediction, prepared, predictor_.options(), settings);
   const SolvedHalfSpace unsolved = unsolvedHalfSpace(predicted.half_space.objection);
   if (!predicted.half_space.objection.empty()) evidence.half_space = &unsolved;
   evidence.why_half_space = predicted.half_space.why;
   evidence.where_half_space = where_half_space;
-  predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
-                                prepared.surfaces.lower.cellArea(), evidence);
+  predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty,
+                                predictor_.options(), prepared.surfaces.lower.cellArea(), evidence);
   predicted.preprocessing = prepared.record;
   predicted.formulation = predictor_.options().formulation;
-  predicted.warnings = predictionWarnings(prepared, settings, predicted.prediction, predictor_.options());
+  predicted.warnings =
+      predictionWarnings(prepared, settings, predicted.prediction, predictor_.options());
   Configuration used = settings;
   used.model = predictor_.options();
-  used.counter_surface.pose = predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one
+  used.counter_surface.pose =
+      predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one
   predicted.provenance = provenanceOf(identity, used);
-  predicted.pool_settings_hash = settingsHash(settings);  // without the pose that came with this scan
+  predicted.pool_settings_hash =
+      settingsHash(settings);  // without the pose that came with this scan
   predicted.curve = curveOf(predicted.prediction, predictor_.options().interface);
   return predicted;
 }
 
 void LivePredictor::addToPart(const ReceivedScan& scan, PredictedScan& predicted) {
-  predicted.part =
-      parts_.add(keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), predicted.scan_id,
-                 statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
+  predicted.part = parts_.add(
+      keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), predicted.scan_id,
+      statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
 }
 
 std::optional<PartNews> LivePredictor::judgeAgain(const ScanOfPart& scan, const Verdict& verdict) {
@@ -110,7 +117,8 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   const SettingsOwner::Snapshot settings = settings_.snapshot();
   Options options = settings->model;
   options.output = output;
-  options.output.asperities = true;  // whether or not somebody listens to them, the verdict is the same
+  options.output.asperities =
+      true;  // whether or not somebody listens to them, the verdict is the same
   options.output.deformed_surfaces = output.deformed_surfaces || accumulate_deformation_;
   predictor_.setOptions(options);
 
@@ -121,16 +129,19 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
     requireDeformedSurfaces(contact);
     wear.add(as_made.model_surfaces, contact.deformed_lower, contact.deformed_upper);
   };
-  PredictedScan predicted = judged(prepared, *settings, scan.identity, kHalfSpaceOnTopic,
-                                   accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
-  predicted.scan_id = scan.header.stamp.isZero() ? kUnstamped | ++unstamped_ : scan.header.stamp.toNSec();
+  PredictedScan predicted =
+      judged(prepared, *settings, scan.identity, kHalfSpaceOnTopic,
+             accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
+  predicted.scan_id =
+      scan.header.stamp.isZero() ? kUnstamped | ++unstamped_ : scan.header.stamp.toNSec();
   addToPart(scan, predicted);
   as_made.preparation_time = 0.0;  // later predictions of this scan do not prepare it
-  last_ = LastScan{scan,
-                   as_made,
-                   prepared,
-                   {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
-                   wear_};
+  last_ =
+      LastScan{scan,
+               as_made,
+               prepared,
+               {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+               wear_};
   last_->prepared.preparation_time = 0.0;
   wear_ = std::move(wear);
   figures_ = {settings, loadFiguresOf(predicted.prediction)};
@@ -143,7 +154,8 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresAlone();
   predictor_.setOptions(options);
-  PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity, kHalfSpaceOnTopic);
+  PredictedScan predicted =
+      judged(lastPrepared(), *settings, last_->received.identity, kHalfSpaceOnTopic);
   predicted.scan_id = last_->part.id;
   figures_ = {settings, loadFiguresOf(predicted.prediction)};
   return predicted;
@@ -155,7 +167,8 @@ std::optional<LoadFigures> LivePredictor::lastFigures() {
   return figures_.figures;
 }
 
-PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
+PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage,
+                                         double mechanical_load) {
   const SettingsOwner::Snapshot settings = settings_.snapshot();
   Options options = settings->model;
   options.output = figuresAlone();
@@ -166,7 +179,8 @@ PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltag
 }
 
 StationCase LivePredictor::stationCase(const ReceivedScan* given) {
-  if (given != nullptr) return {given->header, given->identity, prepare(*given), settings_.snapshot()};
+  if (given != nullptr)
+    return {given->header, given->identity, prepare(*given), settings_.snapshot()};
   if (!last_) throw SurfaceError("no scan yet, and none was given");
   return {last_->received.header, last_->received.identity, lastPrepared(), settings_.snapshot()};
 }

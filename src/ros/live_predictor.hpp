@@ -1,12 +1,14 @@
 #pragma once
 
 /// @file
-/// What the node remembers between scans, and the core beside it: the settings that may change, the last scan, the
-/// counter-surface and the deformation that has accumulated. No ROS graph; one object serves one thread.
+/// What the node remembers between scans, and the core beside it: the settings that may change, the
+/// last scan, the counter-surface and the deformation that has accumulated. No ROS graph; one
+/// object serves one thread.
 ///
-/// A scan is cleaned once, when it comes. As the last scan it stays prepared: new loads, long runs and the preview take
-/// it from there; under a newer counter-surface it is mounted again, not cleaned. The contacts before have left their mark on
-/// both cleaned surfaces (surface/wear.hpp), as in cycles. No running setting bears on its preparation.
+/// A scan is cleaned once, when it comes. As the last scan it stays prepared: new loads, long runs
+/// and the preview take it from there; under a newer counter-surface it is mounted again, not
+/// cleaned. The contacts before have left their mark on both cleaned surfaces (surface/wear.hpp),
+/// as in cycles. No running setting bears on its preparation.
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +24,8 @@ namespace mems_stiction {
 
 /// Where the half-space is found that flags ask for.
 inline constexpr char kHalfSpaceOnDemand[] = "~solve_half_space has it";
-inline constexpr char kHalfSpaceOnTopic[] = "it follows on the topic half_space; ~solve_half_space has it on demand";
+inline constexpr char kHalfSpaceOnTopic[] =
+    "it follows on the topic half_space; ~solve_half_space has it on demand";
 
 /// Why a verdict has no force of the device.
 inline constexpr char kDeviceOnTopic[] =
@@ -45,15 +48,18 @@ struct LoadFigures {
 
 /// How many parts the node remembers: that which has waited longest for a scan is forgotten first.
 inline constexpr std::size_t kMostParts = 100;
-/// And scans of each, the newest: some 500 bytes a scan, 50 MB for all; with names as long as they may be, 150 MB.
+/// And scans of each, the newest: some 500 bytes a scan, 50 MB for all; with names as long as they
+/// may be, 150 MB.
 inline constexpr std::size_t kMostScansOfAPart = 1000;
 
 /// The core as the node uses it, one scan after the other.
 class LivePredictor {
  public:
-  /// - @p accumulate_deformation the depth that a contact has pressed into a scan and into what it meets is taken off the
-  ///        scans of the same size that follow: every scan, and the counter-surface, is then taken for the surface as it
-  ///        was made, worn by the contacts before. The same scan again and again is cycleContacts(), to the bit.
+  /// - @p accumulate_deformation the depth that a contact has pressed into a scan and into what it
+  /// meets is taken off the
+  ///        scans of the same size that follow: every scan, and the counter-surface, is then taken
+  ///        for the surface as it was made, worn by the contacts before. The same scan again and
+  ///        again is cycleContacts(), to the bit.
   /// @throw OptionsError if the configuration is out of range.
   LivePredictor(const Configuration& configuration, bool accumulate_deformation);
 
@@ -61,18 +67,22 @@ class LivePredictor {
   SettingsOwner& settings() { return settings_; }
   const SettingsOwner& settings() const { return settings_; }
 
-  /// The scan that the topic brought; it counts for its part, if it states one. @throw SurfaceError if it cannot be predicted; then nothing changes.
+  /// The scan that the topic brought; it counts for its part, if it states one. @throw SurfaceError
+  /// if it cannot be predicted; then nothing changes.
   PredictedScan predictScan(const ReceivedScan& scan, const OutputOptions& output);
 
   /// The last scan again, with the settings of now, without adding to the accumulated deformation.
-  /// @return nothing if there is no scan yet. @throw SurfaceError if it does not fit a newer counter-surface.
+  /// @return nothing if there is no scan yet. @throw SurfaceError if it does not fit a newer
+  /// counter-surface.
   std::optional<PredictedScan> predictLastScan();
 
   /// Another verdict on a scan that predictScan() has counted for its part.
-  /// @return what all scans of the part say now; nothing if the scan states no part, or is not among its scans any more.
+  /// @return what all scans of the part say now; nothing if the scan states no part, or is not
+  /// among its scans any more.
   std::optional<PartNews> judgeAgain(const ScanOfPart& scan, const Verdict& verdict);
 
-  /// What the last scan gives with the settings of now: as it was predicted last, or predicted again if they have changed.
+  /// What the last scan gives with the settings of now: as it was predicted last, or predicted
+  /// again if they have changed.
   /// @return nothing if there is no scan yet. @throw SurfaceError as above.
   std::optional<LoadFigures> lastFigures();
 
@@ -124,8 +134,9 @@ class LivePredictor {
   /// The prediction among those of its part.
   void addToPart(const ReceivedScan& scan, PredictedScan& predicted);
   /// The prediction with `options` set before, and its verdict.
-  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
-                       const char* where_half_space, const ScanPredictor::OnModel& on_model = {});
+  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings,
+                       const ScanIdentity& identity, const char* where_half_space,
+                       const ScanPredictor::OnModel& on_model = {});
 
   SettingsOwner settings_;
   ScanPredictor predictor_;

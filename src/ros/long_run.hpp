@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// One action of the node: each goal runs on a thread of its own, so that live scans go on; a new goal takes the place of
-/// the one that runs.
+/// One action of the node: each goal runs on a thread of its own, so that live scans go on; a new
+/// goal takes the place of the one that runs.
 ///
 ///     LongRun<SweepLoadAction> sweep(handle, "sweep_load", [&](const auto& goal, auto& result) {
 ///       return fill(result, goal, sweep.cancel());  // whether it came to its end
@@ -33,17 +33,18 @@ class LongRun {
   using Goal = typename Action::_action_goal_type::_goal_type;
   using Result = typename Action::_action_result_type::_result_type;
   using Feedback = typename Action::_action_feedback_type::_feedback_type;
-  /// Fills the result and returns whether it came to its end; if not, and it leaves the message empty, it was cancelled.
-  /// What it throws is the client's answer.
+  /// Fills the result and returns whether it came to its end; if not, and it leaves the message
+  /// empty, it was cancelled. What it throws is the client's answer.
   using Work = std::function<bool(const Goal& goal, Result& result)>;
 
   /// - @p max_goal_size of a goal as it comes [bytes]
-  LongRun(const ros::NodeHandle& private_handle, const std::string& name, double max_goal_size, Work work)
+  LongRun(const ros::NodeHandle& private_handle, const std::string& name, double max_goal_size,
+          Work work)
       : work_(std::move(work)),
         gate_(private_handle, name, max_goal_size),
         server_(
-            GoalGate<Action>::inside(private_handle, name), name, [this](const auto& goal) { answer(*goal); },
-            kNoAutoStart) {
+            GoalGate<Action>::inside(private_handle, name), name,
+            [this](const auto& goal) { answer(*goal); }, kNoAutoStart) {
     server_.registerPreemptCallback([this] { cancel_ = true; });
   }
   ~LongRun() { stop(); }
@@ -66,8 +67,9 @@ class LongRun {
 
  private:
   static constexpr bool kNoAutoStart = false;
-  /// From the arrival of a goal: rospy's SimpleActionClient never hears of an answer that comes before its send_goal has
-  /// returned, and waits on (https://github.com/ros/actionlib/issues/206). Goals that are refused are answered that soon.
+  /// From the arrival of a goal: rospy's SimpleActionClient never hears of an answer that comes
+  /// before its send_goal has returned, and waits on (https://github.com/ros/actionlib/issues/206).
+  /// Goals that are refused are answered that soon.
   static constexpr std::chrono::milliseconds kEarliestAnswer{100};
 
   void answer(const Goal& goal) {
@@ -80,7 +82,8 @@ class LongRun {
     bool has_failed = false;
     try {
       is_complete = work_(goal, result);
-      if (!is_complete && result.message.empty()) result.message = stopping_ ? kShuttingDown : "cancelled";
+      if (!is_complete && result.message.empty())
+        result.message = stopping_ ? kShuttingDown : "cancelled";
     } catch (const std::future_error&) {
       result.message = kShuttingDown;
     } catch (const std::exception& error) {

@@ -27,7 +27,8 @@ class EndingClient : public XmlRpc::XmlRpcClient {
  public:
   using XmlRpc::XmlRpcClient::XmlRpcClient;
 
-  bool call(const char* method, const XmlRpcValue& request, XmlRpcValue& response, const std::atomic<int>& give_up) {
+  bool call(const char* method, const XmlRpcValue& request, XmlRpcValue& response,
+            const std::atomic<int>& give_up) {
     if (!executeNonBlock(method, request)) return false;
     const Clock::time_point end = Clock::now() + kCallPatience;
     while (_connectionState != IDLE && !_disp._sources.empty()) {
@@ -41,7 +42,8 @@ class EndingClient : public XmlRpc::XmlRpcClient {
 /// The payload of [code, status message, payload] if the code says success.
 bool payloadOf(XmlRpcValue& response, XmlRpcValue& payload) {
   if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return false;
-  if (response[0].getType() != XmlRpcValue::TypeInt || static_cast<int>(response[0]) != 1) return false;
+  if (response[0].getType() != XmlRpcValue::TypeInt || static_cast<int>(response[0]) != 1)
+    return false;
   payload = response[2];
   return true;
 }
@@ -56,10 +58,12 @@ XmlRpcValue parameterRequest(const std::string& name, const XmlRpcValue& value) 
 
 }  // namespace
 
-bool MasterCalls::hears(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) const {
+bool MasterCalls::hears(const char* method, const XmlRpcValue& request,
+                        XmlRpcValue& payload) const {
   payload.clear();
   XmlRpcValue response;
-  EndingClient client(ros::master::getHost().c_str(), static_cast<int>(ros::master::getPort()), "/");
+  EndingClient client(ros::master::getHost().c_str(), static_cast<int>(ros::master::getPort()),
+                      "/");
   if (ros::isShuttingDown() || !client.call(method, request, response, give_up)) return false;
   payloadOf(response, payload);
   return true;
@@ -69,8 +73,8 @@ bool MasterCalls::ask(const char* method, const XmlRpcValue& request, XmlRpcValu
   return hears(method, request, payload) && payload.valid();
 }
 
-bool MasterCalls::askProcess(const std::string& address, const char* method, const XmlRpcValue& request,
-                             XmlRpcValue& payload) const {
+bool MasterCalls::askProcess(const std::string& address, const char* method,
+                             const XmlRpcValue& request, XmlRpcValue& payload) const {
   std::string host;
   std::uint32_t port = 0;
   if (ros::isShuttingDown() || !ros::network::splitURI(address, host, port)) return false;
@@ -79,7 +83,8 @@ bool MasterCalls::askProcess(const std::string& address, const char* method, con
   return client.call(method, request, response, give_up) && payloadOf(response, payload);
 }
 
-bool MasterCalls::askOurselves(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) const {
+bool MasterCalls::askOurselves(const char* method, const XmlRpcValue& request,
+                               XmlRpcValue& payload) const {
   return askProcess(ros::XMLRPCManager::instance()->getServerURI(), method, request, payload);
 }
 
@@ -96,7 +101,8 @@ std::string livingOwnerOf(const std::string& name) {
   of_name[1] = name;
   XmlRpcValue address;
   XmlRpcValue process;
-  if (!calls.ask("lookupNode", of_name, address) || address.getType() != XmlRpcValue::TypeString) return "";
+  if (!calls.ask("lookupNode", of_name, address) || address.getType() != XmlRpcValue::TypeString)
+    return "";
   const std::string owner = address;
   return calls.askProcess(owner, "getPid", request, process) ? owner : "";
 }

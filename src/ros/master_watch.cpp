@@ -96,7 +96,8 @@ void MasterWatch::loop() {
   for (;;) {
     if (std::chrono::steady_clock::now() >= next_look) {
       const bool is_whole = look();
-      next_look = std::chrono::steady_clock::now() + (is_whole ? std::chrono::milliseconds(kLookPeriod) : kSoon);
+      next_look = std::chrono::steady_clock::now() +
+                  (is_whole ? std::chrono::milliseconds(kLookPeriod) : kSoon);
       if (is_whole) {
         const std::lock_guard<std::mutex> lock(mutex_);
         looks_made_ = asked;
@@ -105,7 +106,8 @@ void MasterWatch::loop() {
     }
     write();
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_until(lock, next_look, [&] { return stopping_ || is_asked_ || looks_asked_ != asked; });
+    changed_.wait_until(lock, next_look,
+                        [&] { return stopping_ || is_asked_ || looks_asked_ != asked; });
     if (stopping_) return;
     if (std::exchange(asked, looks_asked_) != asked) next_look = std::chrono::steady_clock::now();
   }
@@ -152,7 +154,8 @@ void MasterWatch::registerAgain() {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++registered_again_;
   }
-  logSoon(ros::console::levels::Warn, "registered again, with the settings, loads and counts of before");
+  logSoon(ros::console::levels::Warn,
+          "registered again, with the settings, loads and counts of before");
   enter(Registrations::State::kKnown);
 }
 
@@ -169,10 +172,12 @@ void MasterWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) co
   const std::lock_guard<std::mutex> lock(mutex_);
   const double since = (ros::SteadyTime::now() - last_known_).toSec();
   const bool is_known = state_ == Registrations::State::kKnown && since < kPatience;
-  const Registrations::State shown =
-      !is_known && state_ == Registrations::State::kKnown ? Registrations::State::kNoMaster : state_;
-  status.summary(is_known ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
-                 meaningOf(shown));
+  const Registrations::State shown = !is_known && state_ == Registrations::State::kKnown
+                                         ? Registrations::State::kNoMaster
+                                         : state_;
+  status.summary(
+      is_known ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
+      meaningOf(shown));
   status.add("registered_again", registered_again_);
   status.add("last_known [s ago]", since);
 }

@@ -1,12 +1,13 @@
 #pragma once
 
 /// @file
-/// Notices that the ROS master has gone or was restarted, says so, and brings the process back into the new one's books. Its thread
-/// is the only one that talks to the master once the node runs: nobody waits for it, so it may wait for the master.
+/// Notices that the ROS master has gone or was restarted, says so, and brings the process back into
+/// the new one's books. Its thread is the only one that talks to the master once the node runs:
+/// nobody waits for it, so it may wait for the master.
 ///
 ///     watch_ = MasterWatch::ofThisProcess();
-///     watch_->add(this, {[this](const MasterCalls& calls) { return putParametersBack(calls); }, writeMirror});
-///     watch_->writeSoon(this);
+///     watch_->add(this, {[this](const MasterCalls& calls) { return putParametersBack(calls); },
+///     writeMirror}); watch_->writeSoon(this);
 
 #include <condition_variable>
 #include <functional>
@@ -24,14 +25,18 @@
 
 namespace mems_stiction {
 
-/// One per process, since a process is registered as a whole: the nodelets of a manager share it. Every thread may call.
+/// One per process, since a process is registered as a whole: the nodelets of a manager share it.
+/// Every thread may call.
 class MasterWatch {
  public:
-  /// What the master has of a member. Each is called again if it returns false, since the master was gone before the end.
+  /// What the master has of a member. Each is called again if it returns false, since the master
+  /// was gone before the end.
   struct Member {
-    std::function<bool(const MasterCalls&)> put_back;  ///< all of it, before the process is registered again
-    std::function<bool(const MasterCalls&)> write;     ///< what changes while the node runs
-    bool is_doubtful = false;  ///< the last write had no answer: a master that goes on may still do it, after the next
+    std::function<bool(const MasterCalls&)>
+        put_back;  ///< all of it, before the process is registered again
+    std::function<bool(const MasterCalls&)> write;  ///< what changes while the node runs
+    bool is_doubtful = false;  ///< the last write had no answer: a master that goes on may still do
+                               ///< it, after the next
   };
 
   /// Watches for as long as somebody owns it.
@@ -40,9 +45,9 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  /// To be called once all of the member is advertised. Returns when the watch has seen at the master what the process offers
-  /// there: a master that ends right afterwards costs nothing. One that is gone already, or silent, is waited for as long as a
-  /// look takes, some seconds.
+  /// To be called once all of the member is advertised. Returns when the watch has seen at the
+  /// master what the process offers there: a master that ends right afterwards costs nothing. One
+  /// that is gone already, or silent, is waited for as long as a look takes, some seconds.
   void add(const void* owner, Member member);
   /// Afterwards nothing of the member runs any more.
   void remove(const void* owner);

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Figures into the fields of a message that bear their names, so that no field is written down beside the definition of
-/// the message and the declaration of the figure. A figure without a field is left out, as is a field without a figure.
+/// Figures into the fields of a message that bear their names, so that no field is written down
+/// beside the definition of the message and the declaration of the figure. A figure without a field
+/// is left out, as is a field without a figure.
 ///
 ///     MessageFields fields;
 ///     visitPredictionFields(prediction, fields);
@@ -20,10 +21,12 @@
 
 namespace mems_stiction {
 
-/// The fields of a definition in their order, without constants; those of the messages within are not.
+/// The fields of a definition in their order, without constants; those of the messages within are
+/// not.
 std::vector<std::string> fieldNames(const std::string& definition);
 
-/// Visitor that takes figures, and what the fields of a message are then read from, as from the wire. Texts must live until then.
+/// Visitor that takes figures, and what the fields of a message are then read from, as from the
+/// wire. Texts must live until then.
 class MessageFields {
  public:
   template <typename Value>
@@ -38,7 +41,8 @@ class MessageFields {
   /// Forgets the figures.
   template <typename Message>
   void fill(Message& message) {
-    static const std::vector<std::string> names = fieldNames(ros::message_traits::Definition<Message>::value());
+    static const std::vector<std::string> names =
+        fieldNames(ros::message_traits::Definition<Message>::value());
     name_ = names.data();
     ros::serialization::deserialize(*this, message);
     figures_.clear();

@@ -14,7 +14,8 @@
 
 namespace mems_stiction {
 
-/// Semicolons in the place of commas: `rostopic echo -p` puts commas between fields and no marks around texts.
+/// Semicolons in the place of commas: `rostopic echo -p` puts commas between fields and no marks
+/// around texts.
 inline std::string withoutCommas(std::string text) {
   std::replace(text.begin(), text.end(), ',', ';');
   return text;
@@ -47,7 +48,8 @@ void clearVerdict(Message& message) {
   message.verdict_by.clear();
 }
 
-/// What was scanned: between ScanIdentity, ScanInfo and the messages with results, which name it alike.
+/// What was scanned: between ScanIdentity, ScanInfo and the messages with results, which name it
+/// alike.
 template <typename Source, typename Target>
 void copyIdentity(const Source& source, Target& target) {
   target.scan_name = source.scan_name;

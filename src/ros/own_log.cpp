@@ -16,12 +16,14 @@ namespace {
 constexpr std::size_t kMostLines = 1000;
 constexpr std::chrono::seconds kLongestFinish{1};
 
-/// Lives as long as the process, since nobody can end a thread that rosconsole holds. The process ends behind its last
-/// line: rosconsole's locks go with the process, and a line that is written then would abort it.
+/// Lives as long as the process, since nobody can end a thread that rosconsole holds. The process
+/// ends behind its last line: rosconsole's locks go with the process, and a line that is written
+/// then would abort it.
 class OwnLog {
  public:
   static OwnLog& ofThisProcess() {
-    static OwnLog* const log = new OwnLog;  // NOLINT(cppcoreguidelines-owning-memory): its thread uses it to the end
+    static OwnLog* const log =
+        new OwnLog;  // NOLINT(cppcoreguidelines-owning-memory): its thread uses it to the end
     return *log;
   }
 
@@ -68,7 +70,9 @@ class OwnLog {
       const std::size_t lost = std::exchange(lost_, 0);
       lock.unlock();
       ROS_LOG_STREAM(level, ROSCONSOLE_DEFAULT_NAME, text);
-      if (lost > 0) ROS_WARN_STREAM(lost << " lines of the log are missing: it could not be written for a while");
+      if (lost > 0)
+        ROS_WARN_STREAM(
+            lost << " lines of the log are missing: it could not be written for a while");
       lock.lock();
       lines_.pop_front();  // only now, so that finish() waits for it
       is_writing_ = false;
@@ -86,7 +90,9 @@ class OwnLog {
 
 }  // namespace
 
-void logSoon(ros::console::Level level, std::string text) { OwnLog::ofThisProcess().push(level, std::move(text)); }
+void logSoon(ros::console::Level level, std::string text) {
+  OwnLog::ofThisProcess().push(level, std::move(text));
+}
 
 void prepareLog() {
   bool ignored = false;

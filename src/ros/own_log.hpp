@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Log lines of threads that must not wait. rosconsole locks while roscpp looks up a cached parameter for each line,
-/// and whoever sets a parameter in this process locks all of them until the master has answered.
+/// Log lines of threads that must not wait. rosconsole locks while roscpp looks up a cached
+/// parameter for each line, and whoever sets a parameter in this process locks all of them until
+/// the master has answered.
 
 #include <string>
 
@@ -10,12 +11,12 @@
 
 namespace mems_stiction {
 
-/// Has the line written by a thread of the process, in order. Returns at once; when far too many wait, the newest are
-/// counted instead.
+/// Has the line written by a thread of the process, in order. Returns at once; when far too many
+/// wait, the newest are counted instead.
 void logSoon(ros::console::Level level, std::string text);
 
-/// While the master is there: asks it what roscpp else would ask with the first line of the log, and with each one
-/// after it until it is answered.
+/// While the master is there: asks it what roscpp else would ask with the first line of the log,
+/// and with each one after it until it is answered.
 void prepareLog();
 
 /// Waits for the lines that wait, but not for long.

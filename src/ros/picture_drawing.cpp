@@ -24,14 +24,16 @@ cv::Size sizeOf(const std::string& text) {
 
 }  // namespace
 
-void write(cv::Mat& picture, const std::string& text, cv::Point at, const cv::Scalar& colour, Align align) {
+void write(cv::Mat& picture, const std::string& text, cv::Point at, const cv::Scalar& colour,
+           Align align) {
   const int width = sizeOf(text).width;
   if (align == Align::kMiddle) at.x -= width / 2;
   if (align == Align::kRight) at.x -= width;
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, kLetters, colour, 1, cv::LINE_AA);
 }
 
-int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int width, const cv::Scalar& colour) {
+int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int width,
+                 const cv::Scalar& colour) {
   std::string line;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
@@ -53,8 +55,8 @@ int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int wi
 void writeLabel(cv::Mat& picture, const std::string& text, cv::Point at, int left, int right) {
   const cv::Size size = sizeOf(text);
   at.x = std::clamp(at.x - size.width / 2, left + 8, right - size.width - 8);
-  cv::rectangle(picture, {at.x - 4, at.y - size.height - 4}, {at.x + size.width + 4, at.y + 6}, kBackgroundColour,
-                cv::FILLED);
+  cv::rectangle(picture, {at.x - 4, at.y - size.height - 4}, {at.x + size.width + 4, at.y + 6},
+                kBackgroundColour, cv::FILLED);
   write(picture, text, at, kTextColour);
 }
 
@@ -67,9 +69,10 @@ void sign(cv::Mat& picture, const Provenance& provenance) {
         std::pair("mems_stiction ", provenance.version)}) {
     if (!value.empty()) text += (text.empty() ? "" : ", ") + (word + value);
   }
-  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSmallLetters, 1, nullptr).width;
-  cv::putText(picture, text, {std::max(10, picture.cols - 10 - width), picture.rows - 10}, cv::FONT_HERSHEY_SIMPLEX,
-              kSmallLetters, kQuietColour, 1, cv::LINE_AA);
+  const int width =
+      cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSmallLetters, 1, nullptr).width;
+  cv::putText(picture, text, {std::max(10, picture.cols - 10 - width), picture.rows - 10},
+              cv::FONT_HERSHEY_SIMPLEX, kSmallLetters, kQuietColour, 1, cv::LINE_AA);
 }
 
 Prefix prefixOf(double largest) {
@@ -87,11 +90,12 @@ std::string quantity(double value, const char* unit) {
   return shortNumber(value / prefix.factor) + " " + prefix.letter + unit;
 }
 
-std::string figuresText(double pull_off_force, double apparent_work_of_adhesion, double contact_fraction,
-                        long contacts) {
+std::string figuresText(double pull_off_force, double apparent_work_of_adhesion,
+                        double contact_fraction, long contacts) {
   return "pull-off " + quantity(pull_off_force, "N") + ", apparent work " +
-         quantity(apparent_work_of_adhesion, "J/m^2") + ", " + shortNumber(100.0 * contact_fraction) + " % in " +
-         std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
+         quantity(apparent_work_of_adhesion, "J/m^2") + ", " +
+         shortNumber(100.0 * contact_fraction) + " % in " + std::to_string(contacts) +
+         (contacts == 1 ? " contact" : " contacts");
 }
 
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header) {

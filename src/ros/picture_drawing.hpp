@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What the pictures for a screen have in common: their size and colours, text, quantities with prefixes.
+/// What the pictures for a screen have in common: their size and colours, text, quantities with
+/// prefixes.
 
 #include <string>
 
@@ -27,7 +28,8 @@ enum class Align { kLeft, kMiddle, kRight };
 void write(cv::Mat& picture, const std::string& text, cv::Point at, const cv::Scalar& colour,
            Align align = Align::kLeft);
 /// In lines that fit the width [pixels]; returns the height that the next line would have.
-int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int width, const cv::Scalar& colour);
+int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int width,
+                 const cv::Scalar& colour);
 /// In front of whatever is there, its middle as near to that of `at` as the limits [pixels] allow.
 void writeLabel(cv::Mat& picture, const std::string& text, cv::Point at, int left, int right);
 
@@ -45,8 +47,8 @@ Prefix prefixOf(double largest);
 std::string quantity(double value, const char* unit);
 
 /// "pull-off 1.2 uN, apparent work 3 mJ/m^2, 0.5 % in 12 contacts"
-std::string figuresText(double pull_off_force, double apparent_work_of_adhesion, double contact_fraction,
-                        long contacts);
+std::string figuresText(double pull_off_force, double apparent_work_of_adhesion,
+                        double contact_fraction, long contacts);
 
 /// bgr8
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header);

@@ -24,7 +24,8 @@ struct ScanOfPart {
   std_msgs::Header header;
   Provenance provenance;           ///< what was scanned, and what it was predicted with
   std::string pool_settings_hash;  ///< of the settings that the scans of the pool share
-  std::uint64_t id = 0;            ///< tells it from the others: its stamp, or a number of its own if it has none
+  std::uint64_t id =
+      0;  ///< tells it from the others: its stamp, or a number of its own if it has none
 };
 
 /// What all scans of a part say, and the last of them.
@@ -41,11 +42,13 @@ struct PredictedScan {
   std::string formulation;            ///< approach/formulation
   std::vector<std::string> warnings;  ///< about scan and settings, in words
   Provenance provenance;              ///< what was scanned, and what it was predicted with
-  std::optional<PooledVerdict> part;  ///< what all scans of its part say with it; nothing if it states no part
-  std::string pool_settings_hash;     ///< of the settings that those scans share
-  std::uint64_t scan_id = 0;          ///< ScanOfPart::id; 0: not from the topic
-  HalfSpaceCall half_space;           ///< whether it is to be solved as a half-space
-  std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
+  std::optional<PooledVerdict>
+      part;  ///< what all scans of its part say with it; nothing if it states no part
+  std::string pool_settings_hash;  ///< of the settings that those scans share
+  std::uint64_t scan_id = 0;       ///< ScanOfPart::id; 0: not from the topic
+  HalfSpaceCall half_space;        ///< whether it is to be solved as a half-space
+  std::vector<CurvePoint>
+      curve;  ///< force over height; empty if the formulation does not follow it
 };
 
 }  // namespace mems_stiction

@@ -15,33 +15,53 @@ namespace {
 // The messages state the same numbers as the core's enumerations.
 static_assert(static_cast<int>(Status::kEquilibrium) == StictionPrediction::EQUILIBRIUM, "status");
 static_assert(static_cast<int>(Status::kBonded) == StictionPrediction::BONDED, "status");
-static_assert(static_cast<int>(Status::kNoEquilibrium) == StictionPrediction::NO_EQUILIBRIUM, "status");
-static_assert(static_cast<int>(BondingRegime::kBonding) == StictionPrediction::REGIME_BONDING, "bonding_regime");
-static_assert(static_cast<int>(BondingRegime::kAdherence) == StictionPrediction::REGIME_ADHERENCE, "bonding_regime");
-static_assert(static_cast<int>(BondingRegime::kNonBonding) == StictionPrediction::REGIME_NON_BONDING, "bonding_regime");
-static_assert(static_cast<int>(ContactTheory::kDmt) == StictionPrediction::THEORY_DMT, "contact_theory");
-static_assert(static_cast<int>(ContactTheory::kTransition) == StictionPrediction::THEORY_TRANSITION, "contact_theory");
-static_assert(static_cast<int>(ContactTheory::kJkr) == StictionPrediction::THEORY_JKR, "contact_theory");
+static_assert(static_cast<int>(Status::kNoEquilibrium) == StictionPrediction::NO_EQUILIBRIUM,
+              "status");
+static_assert(static_cast<int>(BondingRegime::kBonding) == StictionPrediction::REGIME_BONDING,
+              "bonding_regime");
+static_assert(static_cast<int>(BondingRegime::kAdherence) == StictionPrediction::REGIME_ADHERENCE,
+              "bonding_regime");
+static_assert(static_cast<int>(BondingRegime::kNonBonding) ==
+                  StictionPrediction::REGIME_NON_BONDING,
+              "bonding_regime");
+static_assert(static_cast<int>(ContactTheory::kDmt) == StictionPrediction::THEORY_DMT,
+              "contact_theory");
+static_assert(static_cast<int>(ContactTheory::kTransition) == StictionPrediction::THEORY_TRANSITION,
+              "contact_theory");
+static_assert(static_cast<int>(ContactTheory::kJkr) == StictionPrediction::THEORY_JKR,
+              "contact_theory");
 static_assert(static_cast<int>(Regime::kElastic) == AsperityContact::ELASTIC, "regime");
-static_assert(static_cast<int>(Regime::kElastoPlastic) == AsperityContact::ELASTO_PLASTIC, "regime");
+static_assert(static_cast<int>(Regime::kElastoPlastic) == AsperityContact::ELASTO_PLASTIC,
+              "regime");
 static_assert(static_cast<int>(Regime::kPlastic) == AsperityContact::PLASTIC, "regime");
 static_assert(static_cast<int>(Sticks::kNo) == StictionPrediction::STICKS_NO, "sticks");
 static_assert(static_cast<int>(Sticks::kMarginal) == StictionPrediction::STICKS_MARGINAL, "sticks");
 static_assert(static_cast<int>(Sticks::kYes) == StictionPrediction::STICKS_YES, "sticks");
 static_assert(static_cast<int>(Sticks::kUnknown) == StictionPrediction::STICKS_UNKNOWN, "sticks");
-static_assert(static_cast<std::uint32_t>(kBondedFlag) == StictionPrediction::FLAG_BONDED, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kNoEquilibriumFlag) == StictionPrediction::FLAG_NO_EQUILIBRIUM,
+static_assert(static_cast<std::uint32_t>(kBondedFlag) == StictionPrediction::FLAG_BONDED,
               "regime_flags");
-static_assert(static_cast<std::uint32_t>(kTaborFlag) == StictionPrediction::FLAG_TABOR, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kPlasticityFlag) == StictionPrediction::FLAG_PLASTICITY, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kResolutionFlag) == StictionPrediction::FLAG_RESOLUTION, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kFewContactsFlag) == StictionPrediction::FLAG_FEW_CONTACTS, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kNearBondingFlag) == StictionPrediction::FLAG_NEAR_BONDING, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kBorderFlag) == StictionPrediction::FLAG_BORDER, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kOnePixelFlag) == StictionPrediction::FLAG_ONE_PIXEL, "regime_flags");
-static_assert(static_cast<std::uint32_t>(kUnresolvedFlag) == StictionPrediction::FLAG_UNRESOLVED, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kNoEquilibriumFlag) ==
+                  StictionPrediction::FLAG_NO_EQUILIBRIUM,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kTaborFlag) == StictionPrediction::FLAG_TABOR,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kPlasticityFlag) == StictionPrediction::FLAG_PLASTICITY,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kResolutionFlag) == StictionPrediction::FLAG_RESOLUTION,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kFewContactsFlag) == StictionPrediction::FLAG_FEW_CONTACTS,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kNearBondingFlag) == StictionPrediction::FLAG_NEAR_BONDING,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kBorderFlag) == StictionPrediction::FLAG_BORDER,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kOnePixelFlag) == StictionPrediction::FLAG_ONE_PIXEL,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kUnresolvedFlag) == StictionPrediction::FLAG_UNRESOLVED,
+              "regime_flags");
 
-/// At most so many points of a curve; of a longer one, every other, fourth, ... and its largest force.
+/// At most so many points of a curve; of a longer one, every other, fourth, ... and its largest
+/// force.
 constexpr std::size_t kMostCurvePoints = 512;
 
 std::vector<SeparationPoint> curveMessage(const std::vector<SeparationCurvePoint>& curve) {
@@ -93,9 +113,11 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
 std::string summaryOf(const PredictedScan& scan) {
   const Prediction& prediction = scan.prediction;
   const Verdict& verdict = scan.verdict;
-  std::string line = scan.provenance.scan_name + ": sticks " + sticksText(verdict.sticks) + " (" + verdict.reason +
-                     "); pull-off force " + shortNumber(prediction.pull_off_force) + " N";
-  if (prediction.has_asperities) line += "; " + std::to_string(prediction.asperity_count) + " contacts";
+  std::string line = scan.provenance.scan_name + ": sticks " + sticksText(verdict.sticks) + " (" +
+                     verdict.reason + "); pull-off force " +
+                     shortNumber(prediction.pull_off_force) + " N";
+  if (prediction.has_asperities)
+    line += "; " + std::to_string(prediction.asperity_count) + " contacts";
   for (const std::string& flag : regimeFlagList(verdict.regime_flags)) line += "; " + flag;
   for (const std::string& warning : scan.warnings) line += "; warning: " + warning;
   return oneLine(line);

@@ -16,7 +16,8 @@ namespace mems_stiction {
 
 StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::Header& header);
 
-/// What matters of it in one line, for `rostopic echo`: name, verdict with its reason, force, contacts, what speaks against it.
+/// What matters of it in one line, for `rostopic echo`: name, verdict with its reason, force,
+/// contacts, what speaks against it.
 std::string summaryOf(const PredictedScan& scan);
 
 /// What a part's scans say together.

@@ -20,7 +20,8 @@
 namespace mems_stiction {
 namespace {
 
-// dynamic_reconfigure's names are the keys without their section (`voltage` for `load/voltage`): lastPart().
+// dynamic_reconfigure's names are the keys without their section (`voltage` for `load/voltage`):
+// lastPart().
 
 /// A message's entries for values of this type.
 template <typename Value, typename Message>
@@ -46,7 +47,8 @@ class Reader : public ValueVisitor<Take> {
               const std::string& meaning) override {
     ValueVisitor<Take>::choice(key, value, names, meaning);
     if (std::find(names.begin(), names.end(), value) != names.end()) return;
-    std::string line = key + ": '" + shortened(value, kLongestQuotation) + "' is not allowed, must be one of";
+    std::string line =
+        key + ": '" + shortened(value, kLongestQuotation) + "' is not allowed, must be one of";
     for (const std::string& name : names) line += " " + name;
     violations.push_back(line);
   }
@@ -89,12 +91,13 @@ template <typename List>
 void compare(const List& before, const List& now, std::string& differences) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (before[i].value == now[i].value) continue;
-    differences += (differences.empty() ? "" : "; ") + now[i].name + " was " + shown(before[i].value) + " and is " +
-                   shown(now[i].value);
+    differences += (differences.empty() ? "" : "; ") + now[i].name + " was " +
+                   shown(before[i].value) + " and is " + shown(now[i].value);
   }
 }
 
-/// What was changed in a run before this one, which ended without a word or was started again: "voltage was 3 and is 0".
+/// What was changed in a run before this one, which ended without a word or was started again:
+/// "voltage was 3 and is 0".
 std::string lostSettings(const ros::NodeHandle& private_handle, const RunningSettings& settings) {
   if (!private_handle.hasParam(kReconfigureParameters)) return {};
   StictionConfig left = configOf(settings);
@@ -107,7 +110,8 @@ std::string lostSettings(const ros::NodeHandle& private_handle, const RunningSet
   compare(before.doubles, now.doubles, differences);
   compare(before.strs, now.strs, differences);
   if (differences.empty()) return {};
-  return "what was changed in the run before is lost: " + oneLine(shortened(differences, kLongestSentence));
+  return "what was changed in the run before is lost: " +
+         oneLine(shortened(differences, kLongestSentence));
 }
 
 ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
@@ -122,14 +126,16 @@ ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
-                                     Change change, std::function<void()> changed)
+ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle,
+                                     const SettingsOwner& settings, Change change,
+                                     std::function<void()> changed)
     : settings_(settings),
       change_(std::move(change)),
       changed_(std::move(changed)),
       mirror_name_(private_handle.resolveName(kReconfigureParameters)),
       lost_(lostSettings(private_handle, settings.current())),
-      server_(std::make_unique<dynamic_reconfigure::Server<ShownConfig>>(mutex_, reconfigureHandle(private_handle))) {
+      server_(std::make_unique<dynamic_reconfigure::Server<ShownConfig>>(
+          mutex_, reconfigureHandle(private_handle))) {
   if (!lost_.empty()) logSoon(ros::console::levels::Warn, lost_);
   server_->updateConfig(configOf(settings.current()));
   setParameterAtStart(mirror_name_, mirror());
@@ -182,7 +188,7 @@ void ReconfigureServer::take(ShownConfig& config) {
     config = configOf(settings_.current());
   } catch (const std::future_error&) {
     config = configOf(settings_.current());  // the node is shutting down
-  } catch (const std::exception& error) {    // such as memory that is not to be had: show what is set
+  } catch (const std::exception& error) {  // such as memory that is not to be had: show what is set
     logSoon(ros::console::levels::Error, "reconfigure failed: " + oneLine(reasonOf(error)));
     config = configOf(settings_.current());
   }

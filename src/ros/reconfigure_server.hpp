@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// dynamic_reconfigure beside the services: shows what is set, passes changes to the one setter, and puts back what it
-/// refuses.
+/// dynamic_reconfigure beside the services: shows what is set, passes changes to the one setter,
+/// and puts back what it refuses.
 
 #include <functional>
 #include <memory>
@@ -19,8 +19,9 @@
 
 namespace mems_stiction {
 
-/// Whom dynamic_reconfigure's server asks to read and write parameters, within the calls that it serves and under the lock of all
-/// parameters. They do nothing here, where the mirror is written by a thread that may wait for the master.
+/// Whom dynamic_reconfigure's server asks to read and write parameters, within the calls that it
+/// serves and under the lock of all parameters. They do nothing here, where the mirror is written
+/// by a thread that may wait for the master.
 struct ShownConfig : StictionConfig {
   ShownConfig() = default;
   ShownConfig(const StictionConfig& config)
@@ -37,15 +38,15 @@ class ReconfigureServer {
   /// @throw OptionsError naming refused values; then nothing has changed.
   using Change = std::function<void(const RunningSettings&)>;
 
-  /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads, stand in
-  /// `reconfigure` there, where they cannot be taken for settings.
+  /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads,
+  /// stand in `reconfigure` there, where they cannot be taken for settings.
   /// - @p settings outlive the server
   /// - @p changed the mirror is to be written
-  ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings, Change change,
-                    std::function<void()> changed);
+  ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
+                    Change change, std::function<void()> changed);
 
-  /// Held from reading the settings to changing them, so that a change by a service and one by reconfigure do not undo
-  /// each other.
+  /// Held from reading the settings to changing them, so that a change by a service and one by
+  /// reconfigure do not undo each other.
   boost::recursive_mutex& mutex() { return mutex_; }
 
   /// After a change by somebody else, with the mutex held.
@@ -53,8 +54,8 @@ class ReconfigureServer {
   /// @return false: no answer from the master
   bool writeMirror(const MasterCalls& calls) const;
 
-  /// What an earlier run of the node was set to last, and this one is not; empty once something is set. Waits for
-  /// nobody, so that diagnostics may ask.
+  /// What an earlier run of the node was set to last, and this one is not; empty once something is
+  /// set. Waits for nobody, so that diagnostics may ask.
   std::string lost() const;
 
  private:

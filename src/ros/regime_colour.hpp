@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The colours of deformation regimes, as in all our pictures: told apart without red-green vision too.
+/// The colours of deformation regimes, as in all our pictures: told apart without red-green vision
+/// too.
 
 #include <cstdint>
 
@@ -14,7 +15,8 @@ struct Colour {
   std::uint8_t red, green, blue;
 };
 
-inline constexpr char kRegimeLegend[] = "grey: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
+inline constexpr char kRegimeLegend[] =
+    "grey: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
 
 inline Colour colourOf(Regime regime) {
   switch (regime) {

@@ -18,7 +18,9 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-void append(XmlRpcValue& list, const std::string& text) { list[list.valid() ? list.size() : 0] = text; }
+void append(XmlRpcValue& list, const std::string& text) {
+  list[list.valid() ? list.size() : 0] = text;
+}
 
 XmlRpcValue listOf(std::initializer_list<std::string> texts) {
   XmlRpcValue list;
@@ -32,26 +34,30 @@ std::string ownAddress() { return ros::XMLRPCManager::instance()->getServerURI()
 std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
   std::vector<XmlRpcValue> elements;
   elements.reserve(static_cast<std::size_t>(array.size()));
-  // NOLINTNEXTLINE(modernize-loop-convert): the begin() of a value is that of a struct, not of an array
+  // NOLINTNEXTLINE(modernize-loop-convert): the begin() of a value is that of a struct, not of an
+  // array
   for (int i = 0; i < array.size(); ++i) elements.push_back(array[i]);
   return elements;
 }
 
 bool contains(XmlRpcValue& names, const std::string& name) {
   const std::vector<XmlRpcValue> elements = elementsOf(names);
-  return std::any_of(elements.begin(), elements.end(),
-                     [&](XmlRpcValue element) { return static_cast<std::string>(element) == name; });
+  return std::any_of(elements.begin(), elements.end(), [&](XmlRpcValue element) {
+    return static_cast<std::string>(element) == name;
+  });
 }
 
 /// Addresses of those that this process gets messages of the topic from.
 std::vector<std::string> connectedPublishers(const MasterCalls& calls, const std::string& topic) {
   std::vector<std::string> addresses;
   XmlRpcValue connections;
-  if (!calls.askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections)) return addresses;
+  if (!calls.askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections))
+    return addresses;
   // Each [number, address of the other end, "i" for in, transport, topic, ...].
   for (XmlRpcValue& connection : elementsOf(connections)) {
     const std::string direction = connection[2];
-    if (direction == "i" && static_cast<std::string>(connection[4]) == topic) addresses.push_back(connection[1]);
+    if (direction == "i" && static_cast<std::string>(connection[4]) == topic)
+      addresses.push_back(connection[1]);
   }
   return addresses;
 }
@@ -87,7 +93,9 @@ bool Registrations::repeatPublications(const MasterCalls& calls) {
   if (!calls.askOurselves("getPublications", listOf({name}), topics)) return false;
   for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue subscribers;
-    if (!calls.ask("registerPublisher", listOf({name, topic[0], topic[1], ownAddress()}), subscribers)) return false;
+    if (!calls.ask("registerPublisher", listOf({name, topic[0], topic[1], ownAddress()}),
+                   subscribers))
+      return false;
   }
   return true;
 }
@@ -98,8 +106,11 @@ bool Registrations::repeatSubscriptions(const MasterCalls& calls) {
   if (!calls.askOurselves("getSubscriptions", listOf({name}), topics)) return false;
   for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue publishers;
-    if (!calls.ask("registerSubscriber", listOf({name, topic[0], topic[1], ownAddress()}), publishers)) return false;
-    // Publishers that are connected and have not registered anew stay: what is not in the list is disconnected.
+    if (!calls.ask("registerSubscriber", listOf({name, topic[0], topic[1], ownAddress()}),
+                   publishers))
+      return false;
+    // Publishers that are connected and have not registered anew stay: what is not in the list is
+    // disconnected.
     for (const std::string& publisher : connectedPublishers(calls, topic[0])) {
       if (!contains(publishers, publisher)) append(publishers, publisher);
     }
@@ -114,13 +125,14 @@ bool Registrations::repeatSubscriptions(const MasterCalls& calls) {
 
 bool Registrations::repeatServices(const MasterCalls& calls) const {
   const std::string& name = ros::this_node::getName();
-  const std::string address =
-      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  const std::string address = "rosrpc://" + ros::network::getHost() + ":" +
+                              std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   // ~get_loggers last: by it the process counts as known.
   const std::string last = name + "/get_loggers";
   const auto isRegistered = [&](const std::string& service) {
     XmlRpcValue ignored;
-    if (!ros::ServiceManager::instance()->lookupServicePublication(service)) return true;  // no longer offered
+    if (!ros::ServiceManager::instance()->lookupServicePublication(service))
+      return true;  // no longer offered
     return calls.ask("registerService", listOf({name, service, address, ownAddress()}), ignored);
   };
   for (const std::string& service : services_) {
@@ -129,9 +141,11 @@ bool Registrations::repeatServices(const MasterCalls& calls) const {
   return isRegistered(last);
 }
 
-RememberedParameters::RememberedParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+RememberedParameters::RememberedParameters(const ros::NodeHandle& handle,
+                                           const ros::NodeHandle& private_handle) {
   std::vector<std::string> names = {private_handle.getNamespace()};
-  for (const char* topic : kImageTopics) names.push_back(handle.resolveName(topic) + "/disable_pub_plugins");
+  for (const char* topic : kImageTopics)
+    names.push_back(handle.resolveName(topic) + "/disable_pub_plugins");
   for (const std::string& name : names) {
     XmlRpc::XmlRpcValue value;
     if (handle.getParam(name, value)) parameters_.emplace_back(name, value);
@@ -139,8 +153,9 @@ RememberedParameters::RememberedParameters(const ros::NodeHandle& handle, const 
 }
 
 bool RememberedParameters::putBack(const MasterCalls& calls) const {
-  return std::all_of(parameters_.begin(), parameters_.end(),
-                     [&calls](const auto& parameter) { return calls.setParameter(parameter.first, parameter.second); });
+  return std::all_of(parameters_.begin(), parameters_.end(), [&calls](const auto& parameter) {
+    return calls.setParameter(parameter.first, parameter.second);
+  });
 }
 
 }  // namespace mems_stiction

@@ -32,12 +32,16 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
   contact_map_ = transport_.advertise(kContactMapTopic, kMapQueue);
   asperities_ = node.advertise<AsperityArray>(kAsperitiesTopic, kMapQueue);
   surface_points_ = node.advertise<sensor_msgs::PointCloud2>(kSurfacePointsTopic, kDisplayQueue);
-  asperity_markers_ = node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
+  asperity_markers_ =
+      node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
   force_curve_ = node.advertise<sensor_msgs::Image>(kForceCurveTopic, kDisplayQueue);
-  // Latched for who looks for it, and made anew for whoever comes, since the latched one may be old.
+  // Latched for who looks for it, and made anew for whoever comes, since the latched one may be
+  // old.
   preview_ = node.advertise<sensor_msgs::Image>(
       kPreviewTopic, kDisplayQueue,
-      [preview_wanted = std::move(preview_wanted)](const ros::SingleSubscriberPublisher&) { preview_wanted(); },
+      [preview_wanted = std::move(preview_wanted)](const ros::SingleSubscriberPublisher&) {
+        preview_wanted();
+      },
       ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true);
 }
 
@@ -65,7 +69,8 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
   if (!prediction.deformed_upper.empty() && hasListener(deformed_counter_height_)) {
     deformed_counter_height_.publish(heightImage(prediction.deformed_upper, header));
   }
-  if (has_map && hasListener(contact_map_)) contact_map_.publish(contactMapImage(prediction.contact_map, header));
+  if (has_map && hasListener(contact_map_))
+    contact_map_.publish(contactMapImage(prediction.contact_map, header));
   if (hasListener(asperities_)) asperities_.publish(asperitiesMessage(prediction, header));
   if (has_surfaces && has_map && hasListener(surface_points_)) {
     surface_points_.publish(surfacePoints(prediction, scan.surface, header, display_));
@@ -74,7 +79,8 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
     asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
   if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
-  if (predicted.part) publishPart(*predicted.part, {header, predicted.provenance, predicted.pool_settings_hash});
+  if (predicted.part)
+    publishPart(*predicted.part, {header, predicted.provenance, predicted.pool_settings_hash});
   if (hasListener(summary_)) {
     std_msgs::String summary;
     summary.data = summaryOf(predicted);
@@ -90,7 +96,8 @@ void ResultPublisher::publishPart(const PooledVerdict& part, const ScanOfPart& l
 
 bool ResultPublisher::isPreviewWanted() const { return hasListener(preview_); }
 
-void ResultPublisher::publishPreview(const HeightMap& surface, const std_msgs::Header& header) const {
+void ResultPublisher::publishPreview(const HeightMap& surface,
+                                     const std_msgs::Header& header) const {
   preview_.publish(previewImage(surface, header, display_));
 }
 

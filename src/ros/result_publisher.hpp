@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What goes out for a predicted scan: the prediction, and what somebody listens to. Nothing else is computed.
+/// What goes out for a predicted scan: the prediction, and what somebody listens to. Nothing else
+/// is computed.
 
 #include <functional>
 
@@ -17,13 +18,16 @@ namespace mems_stiction {
 /// Every topic that the node publishes, but the diagnostics.
 class ResultPublisher {
  public:
-  /// - @p preview_wanted called on the handle's queue when somebody starts to listen to the preview.
-  ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display, std::function<void()> preview_wanted);
+  /// - @p preview_wanted called on the handle's queue when somebody starts to listen to the
+  /// preview.
+  ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display,
+                  std::function<void()> preview_wanted);
 
   /// What the subscribers of this moment need.
   OutputOptions demanded() const;
 
-  /// Publishes the prediction, what its part's scans say, and of the rest what it has and somebody listens to.
+  /// Publishes the prediction, what its part's scans say, and of the rest what it has and somebody
+  /// listens to.
   void publish(const PredictedScan& predicted, const ReceivedScan& scan) const;
 
   void publishPart(const PooledVerdict& part, const ScanOfPart& last) const;

@@ -20,17 +20,20 @@ std::string named(const char* what, const std_msgs::Header& header, const std::s
   return text.str();
 }
 
-/// From the first quotation mark before a word to the last behind one: what a message says may hold such marks itself.
+/// From the first quotation mark before a word to the last behind one: what a message says may hold
+/// such marks itself.
 std::string withoutQuotation(const std::string& text, char mark) {
   const auto is_in_word = [&text](std::size_t at) {
     return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
   };
   std::size_t opening = text.find(mark);
-  while (opening != std::string::npos && opening > 0 && is_in_word(opening - 1)) opening = text.find(mark, opening + 1);
+  while (opening != std::string::npos && opening > 0 && is_in_word(opening - 1))
+    opening = text.find(mark, opening + 1);
   std::size_t closing = text.rfind(mark);
   while (closing != std::string::npos && closing > 0 && is_in_word(closing + 1))
     closing = text.rfind(mark, closing - 1);
-  if (opening == std::string::npos || closing == std::string::npos || closing <= opening) return text;
+  if (opening == std::string::npos || closing == std::string::npos || closing <= opening)
+    return text;
   return text.substr(0, opening) + text.substr(closing + 1);
 }
 
@@ -59,13 +62,17 @@ ScanAccounting::ScanAccounting(ros::WallDuration warning_period, ros::WallDurati
 
 void ScanAccounting::arrived(const std_msgs::Header& header) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!sequences_.empty() && header.stamp <= sequences_.front().stamp) ++counts_.stamps_not_increasing;
-  // The sequence that this number continues, or else the one whose last number is the nearest below.
-  auto chosen = std::find_if(sequences_.begin(), sequences_.end(),
-                             [&](const Sequence& sequence) { return header.seq == sequence.last + 1; });
+  if (!sequences_.empty() && header.stamp <= sequences_.front().stamp)
+    ++counts_.stamps_not_increasing;
+  // The sequence that this number continues, or else the one whose last number is the nearest
+  // below.
+  auto chosen = std::find_if(sequences_.begin(), sequences_.end(), [&](const Sequence& sequence) {
+    return header.seq == sequence.last + 1;
+  });
   if (chosen == sequences_.end()) {
     for (auto one = sequences_.begin(); one != sequences_.end(); ++one) {
-      if (one->last < header.seq && (chosen == sequences_.end() || one->last > chosen->last)) chosen = one;
+      if (one->last < header.seq && (chosen == sequences_.end() || one->last > chosen->last))
+        chosen = one;
     }
   }
   Sequence next{header.seq, header.stamp, 0};
@@ -113,7 +120,8 @@ void ScanAccounting::counterSurfaceAccepted() {
   ++counts_.counter_surfaces;
 }
 
-void ScanAccounting::counterSurfaceRejected(const std_msgs::Header& header, const std::string& reason) {
+void ScanAccounting::counterSurfaceRejected(const std_msgs::Header& header,
+                                            const std::string& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.counter_surfaces_rejected;
   last_reason_ = named("rejected the counter-surface", header, reason);
@@ -156,18 +164,21 @@ void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status)
                     counts_.missing_by_sequence > reported_.missing_by_sequence ||
                     counts_.counter_surfaces_rejected > reported_.counter_surfaces_rejected;
   if (lost) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
-                   last_reason_.empty() ? "scans are missing by their sequence numbers" : last_reason_);
+    status.summary(
+        diagnostic_msgs::DiagnosticStatus::WARN,
+        last_reason_.empty() ? "scans are missing by their sequence numbers" : last_reason_);
   } else if (counts_.received == 0) {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no scan yet");
   } else {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "every scan since the last report is predicted or waits");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   "every scan since the last report is predicted or waits");
   }
   const double pause = elapsed - report_period_.toSec();
   longest_pause_ = std::max(longest_pause_, pause);
   if (pause > kNoticedPause + report_period_.toSec()) {
     PlainStream text;
-    text << "the node stood still for " << std::lround(pause) << " s: stopped, suspended, or without a processor";
+    text << "the node stood still for " << std::lround(pause)
+         << " s: stopped, suspended, or without a processor";
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, text.str());
   }
   status.add("received", counts_.received);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The books of the node: every scan that arrives ends as exactly one of predicted, dropped or rejected; the last two
-/// with a reason and a throttled warning. May be called from every thread.
+/// The books of the node: every scan that arrives ends as exactly one of predicted, dropped or
+/// rejected; the last two with a reason and a throttled warning. May be called from every thread.
 
 #include <cstdint>
 #include <deque>
@@ -24,8 +24,9 @@ struct ScanCounts {
   std::uint64_t rejected = 0;   ///< cannot be predicted
   std::uint64_t missing_by_sequence =
       0;  ///< numbers that header.seq skipped in one publisher's sequence: lost on the way
-  std::uint64_t stamps_not_increasing = 0;  ///< scans not newer than the one before: a bag in a loop, a clock set back
-  std::uint64_t counter_surfaces = 0;       ///< accepted
+  std::uint64_t stamps_not_increasing =
+      0;  ///< scans not newer than the one before: a bag in a loop, a clock set back
+  std::uint64_t counter_surfaces = 0;           ///< accepted
   std::uint64_t counter_surfaces_rejected = 0;  ///< cannot be used
   std::uint64_t waiting() const { return received - predicted - dropped - rejected; }
 };
@@ -34,10 +35,13 @@ struct ScanCounts {
 class ScanAccounting {
  public:
   /// @param warning_period at most one warning of a kind in so long a time.
-  /// @param report_period between calls of report(); a pause much longer is one in which the process stood still.
-  explicit ScanAccounting(ros::WallDuration warning_period, ros::WallDuration report_period = ros::WallDuration(1.0));
+  /// @param report_period between calls of report(); a pause much longer is one in which the
+  /// process stood still.
+  explicit ScanAccounting(ros::WallDuration warning_period,
+                          ros::WallDuration report_period = ros::WallDuration(1.0));
 
-  /// An image came, before it is known whether it is a scan: its number and stamp tell what is missing before it.
+  /// An image came, before it is known whether it is a scan: its number and stamp tell what is
+  /// missing before it.
   void arrived(const std_msgs::Header& header);
   /// A scan enters the books.
   void received();
@@ -52,7 +56,8 @@ class ScanAccounting {
 
   ScanCounts counts() const;
 
-  /// One status with every count; WARN if scans were lost since the last report, or the process did not run.
+  /// One status with every count; WARN if scans were lost since the last report, or the process did
+  /// not run.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
@@ -66,7 +71,8 @@ class ScanAccounting {
   struct Sequence {
     std::uint32_t last;
     ros::Time stamp;
-    std::uint64_t missing;  ///< counted when a number went beyond it; taken back if the sequence goes on
+    std::uint64_t
+        missing;  ///< counted when a number went beyond it; taken back if the sequence goes on
   };
 
   /// @param kind the text without the scan; figures and quotations in it do not matter

@@ -18,8 +18,9 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kNear = 1.0;     // between stamps that may have been meant to be one [s]
-constexpr double kSettling = 10;  // timeouts for which is remembered what came, and that stamps went back or repeated
+constexpr double kNear = 1.0;  // between stamps that may have been meant to be one [s]
+constexpr double kSettling =
+    10;  // timeouts for which is remembered what came, and that stamps went back or repeated
 
 constexpr const char* kDoubtful =
     "; a scan of this stamp that was predicted before may have got the scan_info of another";
@@ -58,11 +59,13 @@ std::vector<ros::Time> stampsOf(const Queue& queue) {
 
 template <typename Queue>
 std::size_t bytesOfAll(const Queue& queue) {
-  return std::accumulate(queue.begin(), queue.end(), std::size_t{0},
-                         [](std::size_t sum, const auto& waiting) { return sum + bytesOf(waiting.message); });
+  return std::accumulate(
+      queue.begin(), queue.end(), std::size_t{0},
+      [](std::size_t sum, const auto& waiting) { return sum + bytesOf(waiting.message); });
 }
 
-/// "; one came with the stamp 12.000001000, 1e-06 s later": two clocks, or a stamp that was rounded. Empty if none is near.
+/// "; one came with the stamp 12.000001000, 1e-06 s later": two clocks, or a stamp that was
+/// rounded. Empty if none is near.
 std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& stamp) {
   // not by ros::Time, whose differences end at 2^31 s, and throw beyond
   const auto distance = [&](const ros::Time& other) {
@@ -70,7 +73,8 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
                                                static_cast<std::int64_t>(stamp.toNSec())));
   };
   const auto nearest = std::min_element(
-      stamps.begin(), stamps.end(), [&](const ros::Time& a, const ros::Time& b) { return distance(a) < distance(b); });
+      stamps.begin(), stamps.end(),
+      [&](const ros::Time& a, const ros::Time& b) { return distance(a) < distance(b); });
   if (nearest == stamps.end() || distance(*nearest) > kNear || *nearest == stamp) return "";
   PlainStream text;
   text << "; one came with the stamp " << *nearest << ", " << distance(*nearest) << " s "
@@ -83,17 +87,23 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
 std::size_t contentOf(ScanInfo info) {
   info.header.seq = 0;
   std::string bytes(ros::serialization::serializationLength(info), '\0');
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the bytes of a string, as roscpp wants them
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the bytes of a string, as roscpp
+  // wants them
   ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
                                      static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, info);
   return std::hash<std::string>()(bytes);
 }
 
-ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject, std::size_t max_bytes)
-    : timeout_(timeout), max_bytes_(max_bytes), accept_(std::move(accept)), reject_(std::move(reject)) {}
+ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject,
+                       std::size_t max_bytes)
+    : timeout_(timeout),
+      max_bytes_(max_bytes),
+      accept_(std::move(accept)),
+      reject_(std::move(reject)) {}
 
-/// Rejects those of the topic that `is_lone` picks, in the order of arrival, but for whom the partner was counted before.
+/// Rejects those of the topic that `is_lone` picks, in the order of arrival, but for whom the
+/// partner was counted before.
 /// - @p partners stamps of the other topic's
 template <typename Message, typename Other, typename Predicate>
 void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone,
@@ -131,8 +141,8 @@ void ScanPairer::end(const ros::Time& stamp, const Bearers& bearers) {
 
 ScanPairer::Bearers& ScanPairer::bearersOf(const ros::Time& stamp, ros::WallTime now) {
   Bearers& bearers = bearers_[stamp];
-  const bool is_over =
-      now - bearers.last > timeout_ && countOf(images_.waiting, stamp) + countOf(infos_.waiting, stamp) == 0;
+  const bool is_over = now - bearers.last > timeout_ &&
+                       countOf(images_.waiting, stamp) + countOf(infos_.waiting, stamp) == 0;
   if (is_over) end(stamp, bearers);
   if (is_over || bearers.round != round_) bearers = Bearers();
   bearers.round = round_;
@@ -141,7 +151,9 @@ ScanPairer::Bearers& ScanPairer::bearersOf(const ros::Time& stamp, ros::WallTime
   return bearers_[stamp];
 }
 
-void ScanPairer::count(const sensor_msgs::ImageConstPtr& /*image*/, Bearers& bearers) { ++bearers.images; }
+void ScanPairer::count(const sensor_msgs::ImageConstPtr& /*image*/, Bearers& bearers) {
+  ++bearers.images;
+}
 
 void ScanPairer::count(const ScanInfoConstPtr& info, Bearers& bearers) {
   const std::size_t content = contentOf(*info);
@@ -167,12 +179,14 @@ void ScanPairer::pairAllBut(std::size_t most_waiting, const ros::Time& stamp) {
 }
 
 void ScanPairer::rejectAllOf(const ros::Time& stamp) {
-  const std::string reason = std::string(kAmbiguousStamp) + (bearers_[stamp].accepted ? kDoubtful : "");
+  const std::string reason =
+      std::string(kAmbiguousStamp) + (bearers_[stamp].accepted ? kDoubtful : "");
   rejectIf(images_, infos_, bears(stamp), reason, {});
   rejectIf(infos_, images_, bears(stamp), reason, {});
 }
 
-/// Rejects the oldest ones of the topic, but never the newest, until the others hold no more than they may.
+/// Rejects the oldest ones of the topic, but never the newest, until the others hold no more than
+/// they may.
 template <typename Message, typename Other>
 void ScanPairer::makeRoom(Topic<Message>& topic, Topic<Other>& other) {
   std::size_t bytes = bytesOfAll(topic.waiting);
@@ -183,14 +197,18 @@ void ScanPairer::makeRoom(Topic<Message>& topic, Topic<Other>& other) {
   }
   const std::uint64_t first_to_stay = topic.waiting[count].arrival;
   const auto is_too_old = [&](const auto& waiting) { return waiting.arrival < first_to_stay; };
-  rejectIf(topic, other, is_too_old, topic.reason + std::string(" before newer ones held more than max_waiting_memory"),
+  rejectIf(topic, other, is_too_old,
+           topic.reason + std::string(" before newer ones held more than max_waiting_memory"),
            stampsOf(other.waiting));
 }
 
-std::size_t ScanPairer::waitingBytes() const { return bytesOfAll(images_.waiting) + bytesOfAll(infos_.waiting); }
+std::size_t ScanPairer::waitingBytes() const {
+  return bytesOfAll(images_.waiting) + bytesOfAll(infos_.waiting);
+}
 
 template <typename Message, typename Other>
-void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other) {
+void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic,
+                     Topic<Other>& other) {
   const ros::Time stamp = message->header.stamp;
   const std::uint64_t arrival = ++topic.arrivals;
   if (!stamp.isZero()) {
@@ -204,12 +222,14 @@ void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& 
     }
   }
   const auto given_up = topic.given_up.find(stamp);
-  if (given_up != topic.given_up.end() && given_up->second.arrival < topic.anew) topic.given_up.erase(given_up);
+  if (given_up != topic.given_up.end() && given_up->second.arrival < topic.anew)
+    topic.given_up.erase(given_up);
   if (!several_publishers_) {
     const auto is_from_before = [&](const auto& waiting) {
       return waiting.arrival < topic.anew && bears(stamp)(waiting) && !stamp.isZero();
     };
-    rejectIf(topic, other, is_from_before, topic.reason + std::string(" before the stamps began anew"), {});
+    rejectIf(topic, other, is_from_before,
+             topic.reason + std::string(" before the stamps began anew"), {});
   }
 
   Bearers& bearers = bearersOf(stamp, now);
@@ -249,14 +269,19 @@ void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoCon
   accept_(image, info);
 }
 
-void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) { add(image, now, images_, infos_); }
+void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) {
+  add(image, now, images_, infos_);
+}
 
-void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) { add(info, now, infos_, images_); }
+void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) {
+  add(info, now, infos_, images_);
+}
 
 template <typename Message, typename Other>
-void ScanPairer::refuse(const std_msgs::Header& header, const std::string& reason, Topic<Message>& topic,
-                        Topic<Other>& other) {
-  const auto partner = std::find_if(other.waiting.begin(), other.waiting.end(), bears(header.stamp));
+void ScanPairer::refuse(const std_msgs::Header& header, const std::string& reason,
+                        Topic<Message>& topic, Topic<Other>& other) {
+  const auto partner =
+      std::find_if(other.waiting.begin(), other.waiting.end(), bears(header.stamp));
   const auto counted = other.given_up.find(header.stamp);
   if (partner != other.waiting.end()) {
     other.waiting.erase(partner);
@@ -285,8 +310,8 @@ bool ScanPairer::isLate(const Waiting<Message>& waiting, ros::WallTime now) cons
   return now - waiting.since > timeout_ && waiting.looks >= kFewestLooks;
 }
 
-/// Those of a stamp that have waited for what comes after them, of both kinds: pairs once nothing has come, as many of one
-/// kind as of the other.
+/// Those of a stamp that have waited for what comes after them, of both kinds: pairs once nothing
+/// has come, as many of one kind as of the other.
 void ScanPairer::settleLate(ros::WallTime now) {
   std::vector<ros::Time> stamps;
   const auto look = [&](auto& topic) {
@@ -301,7 +326,9 @@ void ScanPairer::settleLate(ros::WallTime now) {
     const std::size_t images = countOf(images_.waiting, stamp);
     const std::size_t infos = countOf(infos_.waiting, stamp);
     if (images == 0 || infos == 0) continue;
-    const auto comes = [&](const auto& waiting) { return bears(stamp)(waiting) && !isLate(waiting, now); };
+    const auto comes = [&](const auto& waiting) {
+      return bears(stamp)(waiting) && !isLate(waiting, now);
+    };
     if (images != infos) {
       rejectAllOf(stamp);
     } else if (std::none_of(images_.waiting.begin(), images_.waiting.end(), comes) &&
@@ -318,8 +345,8 @@ void ScanPairer::expire(ros::WallTime now) {
   const std::vector<ros::Time> infos = stampsOf(infos_.waiting);
   const auto is_late_without = [&](const std::vector<ros::Time>& partners) {
     return [&](const auto& waiting) {
-      return isLate(waiting, now) &&
-             std::find(partners.begin(), partners.end(), waiting.message->header.stamp) == partners.end();
+      return isLate(waiting, now) && std::find(partners.begin(), partners.end(),
+                                               waiting.message->header.stamp) == partners.end();
     };
   };
   rejectIf(images_, infos_, is_late_without(infos), images_.reason + after, infos);

@@ -32,7 +32,8 @@ struct Cancelled {};
 
 /// What is known of the device, or found by the scan alone.
 /// @throw Cancelled
-std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& known, const std::atomic<bool>& cancel) {
+std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& known,
+                                   const std::atomic<bool>& cancel) {
   if (std::optional<DeviceScale> scale = known(scan)) return scale;
   const auto go_on = [&cancel] {
     if (cancel) throw Cancelled();
@@ -43,8 +44,8 @@ std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& k
 
 }  // namespace
 
-StationActions::StationActions(const ros::NodeHandle& private_handle, double max_goal_size, FindCase find_case,
-                               KnownDevice known_device)
+StationActions::StationActions(const ros::NodeHandle& private_handle, double max_goal_size,
+                               FindCase find_case, KnownDevice known_device)
     : find_case_(std::move(find_case)),
       known_device_(std::move(known_device)),
       sweep_(private_handle, kSweepLoadAction, max_goal_size,
@@ -75,12 +76,14 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   if (request.mechanical_loads.empty()) request.mechanical_loads = {model.load.mechanical_load};
   std::optional<DeviceScale> scale;
   try {  // a request that is refused is refused at once
-    if (request.validate(model).empty()) scale = scaleOf(station_case, known_device_, sweep_.cancel());
+    if (request.validate(model).empty())
+      scale = scaleOf(station_case, known_device_, sweep_.cancel());
   } catch (const Cancelled&) {
     return false;
   }
-  const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
-                                           settings.uncertainty, controlOf(sweep_), scale);
+  const LoadSweepResult swept =
+      sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
+                 settings.uncertainty, controlOf(sweep_), scale);
   result = sweepMessage(swept);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);
@@ -100,9 +103,10 @@ bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& res
     return false;
   }
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
-  const ContactCyclesResult cycled = cycleContacts(
-      onFrame(settings.model, settings.device, station_case.scan.surfaces), station_case.scan.model_surfaces,
-      static_cast<int>(std::min(goal.count, kMost)), settings.device, settings.uncertainty, controlOf(cycle_), scale);
+  const ContactCyclesResult cycled =
+      cycleContacts(onFrame(settings.model, settings.device, station_case.scan.surfaces),
+                    station_case.scan.model_surfaces, static_cast<int>(std::min(goal.count, kMost)),
+                    settings.device, settings.uncertainty, controlOf(cycle_), scale);
   result = cyclesMessage(cycled);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);

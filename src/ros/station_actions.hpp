@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The long runs of a test station, ~sweep_load and ~cycle_contact, each with surfaces and settings of its own.
+/// The long runs of a test station, ~sweep_load and ~cycle_contact, each with surfaces and settings
+/// of its own.
 
 #include <functional>
 #include <optional>
@@ -15,7 +16,8 @@
 
 namespace mems_stiction {
 
-/// The scan of a goal, or the last one if the image has no pixels. May throw; what() is the client's answer.
+/// The scan of a goal, or the last one if the image has no pixels. May throw; what() is the
+/// client's answer.
 using FindCase = std::function<StationCase(const sensor_msgs::Image& height, const ScanInfo& info)>;
 
 /// The device's figures beside those of the scan, if they are known.

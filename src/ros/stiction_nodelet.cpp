@@ -1,5 +1,5 @@
-/// The nodelet: constructs the server in whatever manager loads it. With bad parameters it says so and stays idle,
-/// since an exception would end its neighbours in the manager too.
+/// The nodelet: constructs the server in whatever manager loads it. With bad parameters it says so
+/// and stays idle, since an exception would end its neighbours in the manager too.
 
 #include <memory>
 
@@ -17,21 +17,25 @@ class StictionNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       waitForName();
-      server_ = std::make_unique<StictionServer>(getNodeHandle(), getPrivateNodeHandle(), getName());
+      server_ =
+          std::make_unique<StictionServer>(getNodeHandle(), getPrivateNodeHandle(), getName());
     } catch (const OptionsError& error) {
-      for (const std::string& line : error.violations()) NODELET_FATAL_STREAM("parameter ~" << line);
+      for (const std::string& line : error.violations())
+        NODELET_FATAL_STREAM("parameter ~" << line);
       NODELET_FATAL("stays idle: mend the parameters and load the nodelet again");
     } catch (const std::exception& error) {
       NODELET_FATAL_STREAM("stays idle: " << error.what());
     }
   }
 
-  /// One that is being unloaded, or a node that has been told to end, gets its time. @throw Error if it stays
+  /// One that is being unloaded, or a node that has been told to end, gets its time. @throw Error
+  /// if it stays
   void waitForName() {
     const std::string service = getPrivateNodeHandle().resolveName("set_load");
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(5.0);
     while (ros::service::exists(service, false)) {
-      if (ros::WallTime::now() > end) throw Error("another node or nodelet of the name " + getName() + " runs already");
+      if (ros::WallTime::now() > end)
+        throw Error("another node or nodelet of the name " + getName() + " runs already");
       ros::WallDuration(0.1).sleep();
     }
   }

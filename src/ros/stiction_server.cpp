@@ -45,24 +45,30 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       private_handle_(withQueue(private_handle, topic_queue_)),
       service_handle_(withQueue(private_handle, service_queue_)),
       options_(configuration.node),
-      accounting_(ros::WallDuration(options_.warning_period), ros::WallDuration(options_.diagnostic_period)),
+      accounting_(ros::WallDuration(options_.warning_period),
+                  ros::WallDuration(options_.diagnostic_period)),
       predictor_(predictorFromFolders(configuration.core, options_.accumulate_deformation)),
-      // image_transport's plugins serve dynamic_reconfigure, which talks to the master: not on the topic thread
+      // image_transport's plugins serve dynamic_reconfigure, which talks to the master: not on the
+      // topic thread
       publisher_(withQueue(handle, service_queue_), options_.display,
                  [this] { worker_.push([this] { showLastScan(); }); }),
-      half_space_(
-          configuration.core.half_space.enabled == HalfSpaceUse::kNever
-              ? nullptr
-              : std::make_unique<HalfSpaceStream>(
-                    withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
-                    [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
-                    [this](const auto& scan, const auto& verdict) {
-                      worker_.push([=] { takeHalfSpaceVerdict(scan, verdict); });
-                    },
-                    [this](const auto& scan, const auto& solution, const auto& why) {
-                      if (device_force_) device_force_->takeHalfSpace(scan, solution, why);
-                    },
-                    [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); })),
+      half_space_(configuration.core.half_space.enabled == HalfSpaceUse::kNever
+                      ? nullptr
+                      : std::make_unique<HalfSpaceStream>(
+                            withQueue(handle, service_queue_), configuration.core.half_space,
+                            half_space_pause_,
+                            [this](const auto& header, const auto& text) {
+                              accounting_.warn(header, text);
+                            },
+                            [this](const auto& scan, const auto& verdict) {
+                              worker_.push([=] { takeHalfSpaceVerdict(scan, verdict); });
+                            },
+                            [this](const auto& scan, const auto& solution, const auto& why) {
+                              if (device_force_) device_force_->takeHalfSpace(scan, solution, why);
+                            },
+                            [this](const auto& scan) {
+                              return device_force_ ? device_force_->evidenceOf(scan) : Evidence();
+                            })),
       device_force_(!configuration.core.device_force.enabled
                         ? nullptr
                         : std::make_unique<DeviceForceStream>(
@@ -70,13 +76,18 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                               SurfaceLimits{static_cast<std::size_t>(options_.max_part_scans),
                                             static_cast<std::size_t>(options_.max_part_memory)},
                               half_space_pause_,
-                              [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
-                              [this](const auto& answer) { worker_.push([=] { takeDeviceVerdict(answer); }); })),
+                              [this](const auto& header, const auto& text) {
+                                accounting_.warn(header, text);
+                              },
+                              [this](const auto& answer) {
+                                worker_.push([=] { takeDeviceVerdict(answer); });
+                              })),
       verdict_(withQueue(handle, service_queue_)),
       worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
-      counter_surface_frame_(options_.transform.frame.empty()
-                                 ? nullptr
-                                 : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
+      counter_surface_frame_(
+          options_.transform.frame.empty()
+              ? nullptr
+              : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
       gate_(
           ros::WallDuration(options_.transform.timeout),
           [this](const std_msgs::Header& header) { return counter_surface_frame_->poseAt(header); },
@@ -89,19 +100,26 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       counter_surfaces_(
           ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
-          [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); },
+          [this](const auto& header, const auto& reason) {
+            accounting_.counterSurfaceRejected(header, reason);
+          },
           static_cast<std::size_t>(options_.max_waiting_memory)),
       reconfigure_(
-          service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); },
-          [this] { master_->writeSoon(this); }),
+          service_handle_, predictor_.settings(),
+          [this](const auto& settings) { change(settings); }, [this] { master_->writeSoon(this); }),
       actions_(
           service_handle_, options_.max_message_size,
           [this](const auto& height, const auto& info) { return findCase(height, info); },
-          [this](const auto& scan) { return device_force_ ? device_force_->scaleOf(scan) : std::nullopt; }),
+          [this](const auto& scan) {
+            return device_force_ ? device_force_->scaleOf(scan) : std::nullopt;
+          }),
       half_space_calls_(
-          service_handle_, configuration.core.half_space, options_.max_message_size, half_space_pause_,
+          service_handle_, configuration.core.half_space, options_.max_message_size,
+          half_space_pause_,
           [this](const auto& height, const auto& info) { return findCase(height, info); },
-          [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); }),
+          [this](const auto& scan) {
+            return device_force_ ? device_force_->evidenceOf(scan) : Evidence();
+          }),
       diagnostics_(handle_, name),
       parameters_(handle_, private_handle_),
       master_(MasterWatch::ofThisProcess()),
@@ -115,14 +133,16 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   worker_.start();
   actions_.start();
   half_space_calls_.start();
-  master_->add(this, {[this](const MasterCalls& calls) { return putParametersBack(calls); },
-                      [this](const MasterCalls& calls) { return reconfigure_.writeMirror(calls); }});
+  master_->add(this,
+               {[this](const MasterCalls& calls) { return putParametersBack(calls); },
+                [this](const MasterCalls& calls) { return reconfigure_.writeMirror(calls); }});
   service_queue_.start();
   topic_spinner_.start();
 }
 
 StictionServer::~StictionServer() {
-  // Long runs and the worker first: a service that waits for them gets its refusal, so that the spinners can end.
+  // Long runs and the worker first: a service that waits for them gets its refusal, so that the
+  // spinners can end.
   stopping_ = true;
   master_->remove(this);
   actions_.stop();
@@ -134,7 +154,8 @@ StictionServer::~StictionServer() {
   topic_spinner_.stop();
   const ScanCounts counts = accounting_.counts();
   if (counts.waiting() > 0) {
-    logSoon(ros::console::levels::Info, std::to_string(counts.waiting()) + " scans were still waiting at shutdown");
+    logSoon(ros::console::levels::Info,
+            std::to_string(counts.waiting()) + " scans were still waiting at shutdown");
   }
   finishLog();
 }
@@ -142,10 +163,13 @@ StictionServer::~StictionServer() {
 void StictionServer::subscribe() {
   using ImagePtr = sensor_msgs::ImageConstPtr;
   const bool use_scan_info = options_.use_scan_info;
-  const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
-                                 ros::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
+  const auto subscribePair = [&](const char* image_topic, const char* info_topic,
+                                 ScanPairer& pairer, auto on_single,
+                                 ros::Subscriber& image_subscriber,
+                                 ros::Subscriber& info_subscriber) {
     const auto addToPairs = [&](const auto& half) {
-      pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 || info_subscriber.getNumPublishers() > 1);
+      pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 ||
+                                  info_subscriber.getNumPublishers() > 1);
       pairer.add(half, ros::WallTime::now());
     };
     const bool is_scan = &pairer == &scans_;
@@ -170,38 +194,44 @@ void StictionServer::subscribe() {
         accounting_.counterSurfaceRejected(header, reason);
       }
     };
-    image_subscriber =
-        subscribeChecked<sensor_msgs::Image>(handle_, image_topic, kSubscriberQueue, {take, refuseImage, most});
+    image_subscriber = subscribeChecked<sensor_msgs::Image>(handle_, image_topic, kSubscriberQueue,
+                                                            {take, refuseImage, most});
     if (!use_scan_info) return;
-    info_subscriber = subscribeChecked<ScanInfo>(handle_, info_topic, kSubscriberQueue,
-                                                 {[=](const ScanInfoConstPtr& info) { addToPairs(info); },
-                                                  [&pairer](const auto& bytes, const auto& reason) {
-                                                    std_msgs::Header header;
-                                                    readBeginning(bytes, header);
-                                                    pairer.refuseInfo(header, reason);
-                                                  },
-                                                  most});
+    info_subscriber =
+        subscribeChecked<ScanInfo>(handle_, info_topic, kSubscriberQueue,
+                                   {[=](const ScanInfoConstPtr& info) { addToPairs(info); },
+                                    [&pairer](const auto& bytes, const auto& reason) {
+                                      std_msgs::Header header;
+                                      readBeginning(bytes, header);
+                                      pairer.refuseInfo(header, reason);
+                                    },
+                                    most});
   };
   subscribePair(kHeightTopic, kScanInfoTopic, scans_, &StictionServer::onScan, height_, scan_info_);
   if (predictor_.settings().snapshot()->counter_surface.type == CounterSurfaceType::kTopic) {
-    subscribePair(kCounterHeightTopic, kCounterScanInfoTopic, counter_surfaces_, &StictionServer::onCounterSurface,
-                  counter_height_, counter_scan_info_);
+    subscribePair(kCounterHeightTopic, kCounterScanInfoTopic, counter_surfaces_,
+                  &StictionServer::onCounterSurface, counter_height_, counter_scan_info_);
   }
 }
 
 void StictionServer::startTimers() {
   diagnostics_.add("scans", [this](auto& status) { report(status); });
   diagnostics_.add("master", [this](auto& status) { master_->report(status); });
-  if (half_space_) diagnostics_.add("half_space", [this](auto& status) { half_space_->report(status); });
-  if (device_force_) diagnostics_.add("device_force", [this](auto& status) { device_force_->report(status); });
-  diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
-                                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
-  pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout), [this](const auto&) {
-    scans_.expire(ros::WallTime::now());
-    counter_surfaces_.expire(ros::WallTime::now());
-  });
+  if (half_space_)
+    diagnostics_.add("half_space", [this](auto& status) { half_space_->report(status); });
+  if (device_force_)
+    diagnostics_.add("device_force", [this](auto& status) { device_force_->report(status); });
+  diagnostic_timer_ =
+      handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
+                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
+  pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout),
+                                           [this](const auto&) {
+                                             scans_.expire(ros::WallTime::now());
+                                             counter_surfaces_.expire(ros::WallTime::now());
+                                           });
   if (counter_surface_frame_) {
-    gate_timer_ = handle_.createWallTimer(kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
+    gate_timer_ = handle_.createWallTimer(
+        kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
   }
 }
 
@@ -214,8 +244,9 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("cleaned", predictor_.cleanings());
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
-  status.add("waiting_memory [bytes]",
-             worker_.waitingBytes() + gate_.waitingBytes() + scans_.waitingBytes() + counter_surfaces_.waitingBytes());
+  status.add("waiting_memory [bytes]", worker_.waitingBytes() + gate_.waitingBytes() +
+                                           scans_.waitingBytes() +
+                                           counter_surfaces_.waitingBytes());
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(options_.queue_size)) {
@@ -239,31 +270,42 @@ void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanI
     return;
   }
   gate_.add(
-      image->header, [this, image, info, arrival](const SurfacePose& pose) { queueScan(image, info, arrival, pose); },
-      [this, header = image->header](const std::string& reason) { accounting_.rejected(header, oneLine(reason)); },
-      [this, header = image->header] { accounting_.dropped(header, kTooMuchWaits); }, bytesOf(image) + bytesOf(info),
-      arrival);
+      image->header,
+      [this, image, info, arrival](const SurfacePose& pose) {
+        queueScan(image, info, arrival, pose);
+      },
+      [this, header = image->header](const std::string& reason) {
+        accounting_.rejected(header, oneLine(reason));
+      },
+      [this, header = image->header] { accounting_.dropped(header, kTooMuchWaits); },
+      bytesOf(image) + bytesOf(info), arrival);
 }
 
-void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
-                               ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
-  worker_.pushScan([this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
-                   [this, header = image->header] {
-                     accounting_.dropped(header, options_.drop_policy == DropPolicy::kLatest
-                                                     ? "newer scans came before its turn (drop_policy is latest)"
-                                                     : kTooMuchWaits);
-                   },
-                   bytesOf(image) + bytesOf(info));
+void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image,
+                               const ScanInfoConstPtr& info, ros::WallTime arrival,
+                               const std::optional<SurfacePose>& pose) {
+  worker_.pushScan(
+      [this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
+      [this, header = image->header] {
+        accounting_.dropped(header, options_.drop_policy == DropPolicy::kLatest
+                                        ? "newer scans came before its turn (drop_policy is latest)"
+                                        : kTooMuchWaits);
+      },
+      bytesOf(image) + bytesOf(info));
 }
 
-void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
-  // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the live run.
+void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image,
+                                      const ScanInfoConstPtr& info) {
+  // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the
+  // live run.
   const auto drop = [this, header = image->header] {
-    accounting_.counterSurfaceRejected(header, std::string("a newer one came before its turn, and ") + kTooMuchWaits);
+    accounting_.counterSurfaceRejected(
+        header, std::string("a newer one came before its turn, and ") + kTooMuchWaits);
   };
   const std::size_t bytes = bytesOf(image) + bytesOf(info);
   const auto queue = [this, image, info, drop, bytes] {
-    worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop, bytes);
+    worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop,
+                               bytes);
   };
   if (counter_surface_frame_) {
     gate_.addCounterSurface(queue, drop, bytes, ros::WallTime::now());
@@ -272,17 +314,21 @@ void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, c
   }
 }
 
-ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const {
+ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image,
+                                     const ScanInfo* info) const {
   const SettingsOwner::Snapshot settings = predictor_.settings().snapshot();
-  ReceivedScan scan = receiveScan(image, info == nullptr ? settings->scan : scanOptions(*info, settings->scan));
+  ReceivedScan scan =
+      receiveScan(image, info == nullptr ? settings->scan : scanOptions(*info, settings->scan));
   scan.identity = identityOf(image->header, info);
   return scan;
 }
 
 ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const {
-  ReceivedScan scan = receive(boost::make_shared<const sensor_msgs::Image>(std::move(image)), &info);
+  ReceivedScan scan =
+      receive(boost::make_shared<const sensor_msgs::Image>(std::move(image)), &info);
   if (!counter_surface_frame_) return scan;
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(options_.transform.timeout);
+  const ros::WallTime deadline =
+      ros::WallTime::now() + ros::WallDuration(options_.transform.timeout);
   for (;;) {
     try {
       scan.counter_surface_pose = counter_surface_frame_->poseAt(scan.header);
@@ -307,17 +353,20 @@ void StictionServer::change(const RunningSettings& settings) {
   worker_.call([&] {
     predictor_.settings().change(settings);
     const SettingsOwner::Snapshot changed = predictor_.settings().snapshot();
-    const bool wants_device = device_force_ && wantsDeviceForce(changed->device, changed->device_force);
-    const bool wants_half_space =
-        half_space_ && changed->half_space.enabled == HalfSpaceUse::kFlagged && mayCallHalfSpace(*changed);
+    const bool wants_device =
+        device_force_ && wantsDeviceForce(changed->device, changed->device_force);
+    const bool wants_half_space = half_space_ &&
+                                  changed->half_space.enabled == HalfSpaceUse::kFlagged &&
+                                  mayCallHalfSpace(*changed);
     if (!wants_device && !wants_half_space) return;
     const std::optional<PredictedScan> predicted = lastScanOrNothing();
     if (predicted) offerAgain(*predicted);
   });
 }
 
-void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
-                                       ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
+void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image,
+                                       const ScanInfoConstPtr& info, ros::WallTime arrival,
+                                       const std::optional<SurfacePose>& pose) {
   const SolutionPause::Request request(half_space_pause_);
   try {
     ReceivedScan scan = receive(image, info.get());
@@ -329,21 +378,26 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     offerToHalfSpace(predicted);
     offerToDevice(predicted);
     if (predictor_.settings().snapshot()->device.isStated()) {
-      publishVerdict({{scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
-                      predicted.verdict,
-                      predicted.part});
+      publishVerdict(
+          {{scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+           predicted.verdict,
+           predicted.part});
     }
-    if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
-    accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
+    if (publisher_.isPreviewWanted())
+      publisher_.publishPreview(predictor_.lastSurface(), scan.header);
+    accounting_.predicted((ros::WallTime::now() - arrival).toSec(),
+                          predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {
     accounting_.rejected(image->header, oneLine(reasonOf(error)));
   }
 }
 
-void StictionServer::takeHalfSpaceVerdict(const ScanOfPart& scan, const std::optional<Verdict>& verdict) {
+void StictionServer::takeHalfSpaceVerdict(const ScanOfPart& scan,
+                                          const std::optional<Verdict>& verdict) {
   DeviceAnswer answer{scan, std::nullopt, std::nullopt};
-  const std::optional<PartNews> news = verdict ? predictor_.judgeAgain(scan, *verdict) : std::nullopt;
+  const std::optional<PartNews> news =
+      verdict ? predictor_.judgeAgain(scan, *verdict) : std::nullopt;
   // A device that has been judged by its own force is not judged by one frame after that.
   if (verdict && !verdict_.said().isByDeviceForce(scan)) {
     answer.verdict = verdict;
@@ -357,11 +411,13 @@ void StictionServer::takeHalfSpaceVerdict(const ScanOfPart& scan, const std::opt
 }
 
 void StictionServer::offerToHalfSpace(const PredictedScan& predicted) {
-  if (!half_space_ || !predicted.half_space.is_made || !predicted.half_space.objection.empty()) return;
+  if (!half_space_ || !predicted.half_space.is_made || !predicted.half_space.objection.empty())
+    return;
   const StationCase scan = predictor_.stationCase(nullptr);
-  half_space_->offer(predicted.half_space, scan,
-                     {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
-                     predicted.prediction.contact_map, drawnCurve(predicted));
+  half_space_->offer(
+      predicted.half_space, scan,
+      {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+      predicted.prediction.contact_map, drawnCurve(predicted));
 }
 
 void StictionServer::offerAgain(const PredictedScan& predicted) {
@@ -390,7 +446,8 @@ void StictionServer::showLastScan() {
   if (scan != nullptr) publisher_.publishPreview(predictor_.lastSurface(), scan->header);
 }
 
-void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
+void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image,
+                                        const ScanInfoConstPtr& info) {
   try {
     predictor_.setCounterSurface(receive(image, info.get()));
     accounting_.counterSurfaceAccepted();

@@ -1,13 +1,15 @@
 #pragma once
 
 /// @file
-/// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
+/// The one implementation behind node and nodelet: connects topics and services with the worker
+/// that owns the core.
 ///
-/// Threads of the node: one for topics, transforms and timers; one for the core (WorkQueue); one for each call of a
-/// service that waits, and one for the next; one for each action; one for ~solve_half_space; one that solves the newest
-/// scan as a half-space, one that finds the force of the newest device. Threads of the process: one that writes the log, and one that watches the master and alone
-/// talks to it. The worker serves services that need the core before the scans that wait. Actions and half-spaces take
-/// from it what they need, and then work by themselves.
+/// Threads of the node: one for topics, transforms and timers; one for the core (WorkQueue); one
+/// for each call of a service that waits, and one for the next; one for each action; one for
+/// ~solve_half_space; one that solves the newest scan as a half-space, one that finds the force of
+/// the newest device. Threads of the process: one that writes the log, and one that watches the
+/// master and alone talks to it. The worker serves services that need the core before the scans
+/// that wait. Actions and half-spaces take from it what they need, and then work by themselves.
 
 #include <atomic>
 #include <cstdint>
@@ -52,15 +54,16 @@ class StictionServer {
  public:
   /// Reads the parameters and starts to serve.
   /// @throw OptionsError one line per bad parameter; then nothing was advertised.
-  StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name);
+  StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                 const std::string& name);
   /// Finishes the scan at hand, answers or refuses the calls that wait, and joins every thread.
   ~StictionServer();
   StictionServer(const StictionServer&) = delete;
   StictionServer& operator=(const StictionServer&) = delete;
 
  private:
-  StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name,
-                 const NodeConfiguration& configuration);
+  StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                 const std::string& name, const NodeConfiguration& configuration);
   void advertiseServices();
   void subscribe();
   void startTimers();
@@ -68,15 +71,16 @@ class StictionServer {
   void onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   /// @param pose of the counter-surface at the scan's stamp, when counter_surface/frame is set
-  void queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
-                 const std::optional<SurfacePose>& pose);
-  void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
-                         const std::optional<SurfacePose>& pose);
+  void queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
+                 ros::WallTime arrival, const std::optional<SurfacePose>& pose);
+  void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
+                         ros::WallTime arrival, const std::optional<SurfacePose>& pose);
   /// What is said of a scan and its part once the half-space has judged it, or cannot.
   void takeHalfSpaceVerdict(const ScanOfPart& scan, const std::optional<Verdict>& verdict);
   /// The last scan to the stream that solves it as a half-space, if it is to be.
   void offerToHalfSpace(const PredictedScan& predicted);
-  /// The last scan to both streams, under settings that have changed: to that of the half-space if its flags ask for it.
+  /// The last scan to both streams, under settings that have changed: to that of the half-space if
+  /// its flags ask for it.
   void offerAgain(const PredictedScan& predicted);
   /// The last scan to the stream that finds its device's force.
   void offerToDevice(const PredictedScan& predicted);
@@ -86,12 +90,14 @@ class StictionServer {
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
-  /// What a restarted master has lost; the mirror of reconfigure shows the settings of now. @return false: no master
+  /// What a restarted master has lost; the mirror of reconfigure shows the settings of now. @return
+  /// false: no master
   bool putParametersBack(const MasterCalls& calls) const;
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   /// @param info null: the parameters serve.
   ReceivedScan receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const;
-  /// A scan that came by a call, with its pose; waits for the transform. Not for the worker and the topic thread.
+  /// A scan that came by a call, with its pose; waits for the transform. Not for the worker and the
+  /// topic thread.
   ReceivedScan receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const;
   StationCase findCase(const sensor_msgs::Image& height, const ScanInfo& info);
   /// The one way to change settings, on the worker. @throw OptionsError, std::future_error.
@@ -99,8 +105,10 @@ class StictionServer {
 
   bool setLoad(SetLoad::Request& request, SetLoad::Response& response);
   bool setVoltage(SetVoltage::Request& request, SetVoltage::Response& response);
-  bool setMechanicalLoad(SetMechanicalLoad::Request& request, SetMechanicalLoad::Response& response);
-  /// @param set makes the load that is asked for of the one that is set @param response as of the three services
+  bool setMechanicalLoad(SetMechanicalLoad::Request& request,
+                         SetMechanicalLoad::Response& response);
+  /// @param set makes the load that is asked for of the one that is set @param response as of the
+  /// three services
   template <typename Response>
   void changeLoad(const std::function<void(LoadOptions&)>& set, Response& response);
   /// On the worker: nothing also when the last scan cannot be predicted.
@@ -129,10 +137,11 @@ class StictionServer {
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};
 
-  std::unique_ptr<CounterSurfaceFrame> counter_surface_frame_;  ///< null: counter_surface/frame is not set
-  TransformGate gate_;                                          ///< touched by the topic thread only
-  ScanPairer scans_;                                            ///< touched by the topic thread only
-  ScanPairer counter_surfaces_;                                 ///< touched by the topic thread only
+  std::unique_ptr<CounterSurfaceFrame>
+      counter_surface_frame_;    ///< null: counter_surface/frame is not set
+  TransformGate gate_;           ///< touched by the topic thread only
+  ScanPairer scans_;             ///< touched by the topic thread only
+  ScanPairer counter_surfaces_;  ///< touched by the topic thread only
   ros::Subscriber height_;
   ros::Subscriber scan_info_;
   ros::Subscriber counter_height_;

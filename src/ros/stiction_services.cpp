@@ -25,19 +25,24 @@ std::string pressingText(const LoadOptions& load) {
   return numberText(load.mechanical_load) + " N";
 }
 
-std::string changeText(const std::string& what, const std::string& before, const std::string& after) {
+std::string changeText(const std::string& what, const std::string& before,
+                       const std::string& after) {
   return what + (before == after ? " stays at " + after : " from " + before + " to " + after);
 }
 
-/// What changed, in words. A load that falls to 0 while the other one changes may have been left out of the request, which
-/// ROS cannot tell from a 0 that was given: it is said what sets one load alone.
+/// What changed, in words. A load that falls to 0 while the other one changes may have been left
+/// out of the request, which ROS cannot tell from a 0 that was given: it is said what sets one load
+/// alone.
 std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
-  std::string text = changeText("voltage", numberText(before.voltage) + " V", numberText(after.voltage) + " V") + "; " +
-                     changeText("mechanical load", pressingText(before), pressingText(after));
+  std::string text =
+      changeText("voltage", numberText(before.voltage) + " V", numberText(after.voltage) + " V") +
+      "; " + changeText("mechanical load", pressingText(before), pressingText(after));
   const bool pressed = before.mechanical_load > 0.0 || before.isPerArea();
   const bool presses = after.mechanical_load > 0.0 || after.isPerArea();
-  if (pressed && !presses && before.voltage != after.voltage) text += " (~set_voltage leaves it as it is)";
-  if (before.voltage != 0.0 && after.voltage == 0.0 && pressingText(before) != pressingText(after)) {
+  if (pressed && !presses && before.voltage != after.voltage)
+    text += " (~set_voltage leaves it as it is)";
+  if (before.voltage != 0.0 && after.voltage == 0.0 &&
+      pressingText(before) != pressingText(after)) {
     text += " (~set_mechanical_load leaves the voltage as it is)";
   }
   return text;
@@ -61,8 +66,12 @@ std::string figure(double value, const char* unit) { return shortNumber(value) +
 
 /// What another load has done to the same scan.
 std::string effect(const LoadFigures& before, const Prediction& after) {
-  return changeText("pull-off force", figure(before.pull_off_force, "N"), figure(after.pull_off_force, "N")) + "; " +
-         changeText("contact area", figure(before.contact_area, "m^2"), figure(after.contact_area, "m^2")) + "; " +
+  return changeText("pull-off force", figure(before.pull_off_force, "N"),
+                    figure(after.pull_off_force, "N")) +
+         "; " +
+         changeText("contact area", figure(before.contact_area, "m^2"),
+                    figure(after.contact_area, "m^2")) +
+         "; " +
          changeText("electrostatic force", figure(before.electrostatic_force, "N"),
                     figure(after.electrostatic_force, "N"));
 }
@@ -70,21 +79,23 @@ std::string effect(const LoadFigures& before, const Prediction& after) {
 }  // namespace
 
 void StictionServer::advertiseServices() {
-  services_ = {service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
-               service_handle_.advertiseService(kSetVoltageService, &StictionServer::setVoltage, this),
-               service_handle_.advertiseService(kSetMechanicalLoadService, &StictionServer::setMechanicalLoad, this),
-               service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
-               service_handle_.advertiseService(kGetPredictionService, &StictionServer::getPrediction, this),
-               advertiseChecked<Predict>(service_handle_, kPredictService,
-                                         {[this](auto& request, auto& response) { predict(request, response); },
-                                          [](auto& response, const std::string& reason) {
-                                            response.prediction =
-                                                predictionMessage(PredictedScan(), std_msgs::Header());
-                                            response.success = false;
-                                            response.message = oneLine(reason);
-                                          },
-                                          options_.max_message_size}),
-               service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
+  services_ = {
+      service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
+      service_handle_.advertiseService(kSetVoltageService, &StictionServer::setVoltage, this),
+      service_handle_.advertiseService(kSetMechanicalLoadService,
+                                       &StictionServer::setMechanicalLoad, this),
+      service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
+      service_handle_.advertiseService(kGetPredictionService, &StictionServer::getPrediction, this),
+      advertiseChecked<Predict>(
+          service_handle_, kPredictService,
+          {[this](auto& request, auto& response) { predict(request, response); },
+           [](auto& response, const std::string& reason) {
+             response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
+             response.success = false;
+             response.message = oneLine(reason);
+           },
+           options_.max_message_size}),
+      service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
 }
 
 bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
@@ -102,7 +113,8 @@ bool StictionServer::setVoltage(SetVoltage::Request& request, SetVoltage::Respon
   return true;
 }
 
-bool StictionServer::setMechanicalLoad(SetMechanicalLoad::Request& request, SetMechanicalLoad::Response& response) {
+bool StictionServer::setMechanicalLoad(SetMechanicalLoad::Request& request,
+                                       SetMechanicalLoad::Response& response) {
   changeLoad([&](LoadOptions& load) { load.setMechanicalLoad(request.mechanical_load); }, response);
   return true;
 }
@@ -142,7 +154,8 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
 std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
   try {
     return predictor_.predictLastScan();
-  } catch (const std::exception&) {  // memory that is not to be had, too: the settings are set all the same
+  } catch (const std::exception&) {  // memory that is not to be had, too: the settings are set all
+                                     // the same
     return std::nullopt;
   }
 }
@@ -166,13 +179,15 @@ bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& r
   return true;
 }
 
-bool StictionServer::getPrediction(GetPrediction::Request& /*request*/, GetPrediction::Response& response) {
+bool StictionServer::getPrediction(GetPrediction::Request& /*request*/,
+                                   GetPrediction::Response& response) {
   response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
   answer(response, [&] {
     worker_.call([&] {
       const std::optional<PredictedScan> predicted = predictor_.predictLastScan();
       response.success = predicted.has_value();
-      if (predicted) response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
+      if (predicted)
+        response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
     });
     if (!response.success) response.message = "no scan yet";
   });
@@ -184,7 +199,8 @@ void StictionServer::predict(Predict::Request& request, Predict::Response& respo
   answer(response, [&] {
     const ReceivedScan scan = receiveByCall(std::move(request.height), request.scan_info);
     worker_.call([&] {
-      const PredictedScan predicted = predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
+      const PredictedScan predicted =
+          predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
       response.prediction = predictionMessage(predicted, scan.header);
       for (const std::string& warning : predicted.warnings) {
         response.message += (response.message.empty() ? "" : "; ") + oneLine(warning);
@@ -194,12 +210,14 @@ void StictionServer::predict(Predict::Request& request, Predict::Response& respo
   });
 }
 
-bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/,
+                                  std_srvs::Trigger::Response& response) {
   answer(response, [&] {
     worker_.call([this] { predictor_.resetSurface(); });
     response.success = true;
-    response.message = options_.accumulate_deformation ? "the next scan is taken as it was made"
-                                                       : "nothing to forget: accumulate_deformation is false";
+    response.message = options_.accumulate_deformation
+                           ? "the next scan is taken as it was made"
+                           : "nothing to forget: accumulate_deformation is false";
   });
   return true;
 }

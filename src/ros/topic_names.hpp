@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Every name that the ROS layer gives to a topic, service or action, and how many messages each connection may hold back.
+/// Every name that the ROS layer gives to a topic, service or action, and how many messages each
+/// connection may hold back.
 
 #include <array>
 #include <cstdint>
@@ -34,9 +35,9 @@ inline constexpr char kHalfSpaceCurveTopic[] = "half_space_curve";
 inline constexpr char kContactMapsTopic[] = "contact_maps";
 
 /// Those that carry heights or maps by image_transport.
-inline constexpr std::array<const char*, 6> kImageTopics = {kHeightTopic,         kCounterHeightTopic,
-                                                            kDeformedHeightTopic, kDeformedCounterHeightTopic,
-                                                            kContactMapTopic,     kHalfSpaceContactMapTopic};
+inline constexpr std::array<const char*, 6> kImageTopics = {
+    kHeightTopic,     kCounterHeightTopic,      kDeformedHeightTopic, kDeformedCounterHeightTopic,
+    kContactMapTopic, kHalfSpaceContactMapTopic};
 
 // Services, in the node's private namespace
 inline constexpr char kSetLoadService[] = "set_load";
@@ -59,8 +60,8 @@ inline constexpr char kReconfigureParameters[] = "reconfigure";
 /// What a caller reads when the node ends before it could answer.
 inline constexpr char kShuttingDown[] = "the node is shutting down";
 
-/// roscpp drops the oldest message of a full queue without a count. Ours is unlimited (0): messages pass at once to the
-/// node's own queue, which is bounded by `queue_size` and counts what it drops.
+/// roscpp drops the oldest message of a full queue without a count. Ours is unlimited (0): messages
+/// pass at once to the node's own queue, which is bounded by `queue_size` and counts what it drops.
 inline constexpr std::uint32_t kSubscriberQueue = 0;
 /// Predictions are small and there is one per scan: a subscriber may fall this far behind.
 inline constexpr std::uint32_t kPredictionQueue = 1000;

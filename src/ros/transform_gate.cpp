@@ -16,13 +16,16 @@ void TransformGate::push(Waiting waiting, LineMember member, std::size_t bytes) 
   poll(now);
 }
 
-void TransformGate::add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop, std::size_t bytes,
-                        ros::WallTime now) {
-  push({header, std::move(accept), std::move(reject), std::move(drop), now}, LineMember::kScan, bytes);
+void TransformGate::add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop,
+                        std::size_t bytes, ros::WallTime now) {
+  push({header, std::move(accept), std::move(reject), std::move(drop), now}, LineMember::kScan,
+       bytes);
 }
 
-void TransformGate::addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes, ros::WallTime now) {
-  push({std_msgs::Header(), [run = std::move(run)](const SurfacePose&) { run(); }, nullptr, std::move(drop), now},
+void TransformGate::addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes,
+                                      ros::WallTime now) {
+  push({std_msgs::Header(), [run = std::move(run)](const SurfacePose&) { run(); }, nullptr,
+        std::move(drop), now},
        LineMember::kCounterSurface, bytes);
 }
 

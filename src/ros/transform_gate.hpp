@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Scans that wait for their transform, and counter-surfaces among them, in the order of arrival: the first in line lets
-/// nobody pass. Nobody sleeps here; whoever owns the gate asks it now and then. One object serves one thread.
+/// Scans that wait for their transform, and counter-surfaces among them, in the order of arrival:
+/// the first in line lets nobody pass. Nobody sleeps here; whoever owns the gate asks it now and
+/// then. One object serves one thread.
 
 #include <functional>
 #include <string>
@@ -25,19 +26,22 @@ class TransformGate {
   using Drop = std::function<void()>;
 
   /// - @p timeout how long a scan waits, from its arrival.
-  /// - @p max_bytes that those who wait may take together; 0 = any number. Older ones are dropped (WaitingLine), but not the
+  /// - @p max_bytes that those who wait may take together; 0 = any number. Older ones are dropped
+  /// (WaitingLine), but not the
   ///        first in line: transforms that come late would let nobody through.
   TransformGate(ros::WallDuration timeout, Lookup lookup, std::size_t max_bytes = 0);
 
   /// Exactly one of the three is called, here or by a later call.
   /// - @p bytes that the scan takes
-  void add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop, std::size_t bytes,
-           ros::WallTime now);
+  void add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop,
+           std::size_t bytes, ros::WallTime now);
 
   /// It needs no transform, but must keep its place behind the scans.
-  void addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes, ros::WallTime now);
+  void addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes,
+                         ros::WallTime now);
 
-  /// Lets through, from the first in line on, what has its transform; rejects what has waited for too long.
+  /// Lets through, from the first in line on, what has its transform; rejects what has waited for
+  /// too long.
   void poll(ros::WallTime now);
 
   std::size_t waiting() const { return line_.size(); }

@@ -13,22 +13,25 @@ namespace mems_stiction {
 TransformListener::TransformListener(const ros::NodeHandle& handle) : handle_(handle) {
   constexpr std::uint32_t kQueue = 100;
   const auto subscribe = [&](const std::string& topic, bool is_static) {
-    return subscribeChecked<tf2_msgs::TFMessage>(handle_, topic, kQueue,
-                                                 {[this, is_static](const auto& message) { take(*message, is_static); },
-                                                  [topic](const auto&, const std::string& reason) {
-                                                    logSoon(ros::console::levels::Warn,
-                                                            "a message of " + topic + " is passed over: " + reason);
-                                                  }});
+    return subscribeChecked<tf2_msgs::TFMessage>(
+        handle_, topic, kQueue,
+        {[this, is_static](const auto& message) { take(*message, is_static); },
+         [topic](const auto&, const std::string& reason) {
+           logSoon(ros::console::levels::Warn,
+                   "a message of " + topic + " is passed over: " + reason);
+         }});
   };
   moving_ = subscribe("/tf", false);
   static_ = subscribe("/tf_static", true);
 }
 
-/// As tf2_ros::TransformListener does, but one transform that tf2 cannot take leaves the others of the message.
+/// As tf2_ros::TransformListener does, but one transform that tf2 cannot take leaves the others of
+/// the message.
 void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
   const ros::Time now = ros::Time::now();
   if (now < last_update_) {
-    logSoon(ros::console::levels::Warn, "the clock has jumped back: transforms from before are forgotten");
+    logSoon(ros::console::levels::Warn,
+            "the clock has jumped back: transforms from before are forgotten");
     buffer_.clear();
   }
   last_update_ = now;

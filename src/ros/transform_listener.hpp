@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// What /tf and /tf_static have said. In place of tf2_ros::TransformListener, which believes how many transforms a message
-/// states.
+/// What /tf and /tf_static have said. In place of tf2_ros::TransformListener, which believes how
+/// many transforms a message states.
 
 #include <cstdint>
 #include <stdexcept>
@@ -28,7 +28,8 @@ class TransformListener {
 
   /// From a frame into another at a stamp, without waiting. May be called from every thread.
   /// @throw NoTransform if there is none yet. @throw SurfaceError if there can be none.
-  geometry_msgs::Transform at(const std::string& target, const std::string& source, const ros::Time& stamp) const;
+  geometry_msgs::Transform at(const std::string& target, const std::string& source,
+                              const ros::Time& stamp) const;
 
  private:
   void take(const tf2_msgs::TFMessage& message, bool is_static);

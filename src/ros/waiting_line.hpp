@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// A line of scans and counter-surfaces in the order of arrival. When it has too many, some leave it before their turn.
+/// A line of scans and counter-surfaces in the order of arrival. When it has too many, some leave
+/// it before their turn.
 ///
-/// The oldest scans go first. A counter-surface goes once no scan stands between it and a newer one: those behind it
-/// are pressed against it. The newest scan and the newest counter-surface stay.
+/// The oldest scans go first. A counter-surface goes once no scan stands between it and a newer
+/// one: those behind it are pressed against it. The newest scan and the newest counter-surface
+/// stay.
 
 #include <algorithm>
 #include <deque>
@@ -17,8 +19,8 @@ enum class LineMember { kScan, kCounterSurface, kOther };  ///< others take noth
 
 /// What may wait in one line.
 struct LineLimits {
-  std::size_t scans = 0;         ///< 0 = any number
-  std::size_t bytes = 0;         ///< that scans and counter-surfaces may take together; 0 = any number
+  std::size_t scans = 0;  ///< 0 = any number
+  std::size_t bytes = 0;  ///< that scans and counter-surfaces may take together; 0 = any number
   bool does_first_stay = false;  ///< whoever is first in line never goes
 };
 
@@ -74,15 +76,18 @@ class WaitingLine {
 
   Place nextToGo() {
     const auto is_scan = [](const Waiting& waiting) { return waiting.member == LineMember::kScan; };
-    const auto is_no_other = [](const Waiting& waiting) { return waiting.member != LineMember::kOther; };
+    const auto is_no_other = [](const Waiting& waiting) {
+      return waiting.member != LineMember::kOther;
+    };
     const bool has_too_many = limits_.scans > 0 && scans_ > limits_.scans;
     if (!has_too_many && (limits_.bytes == 0 || bytes_ <= limits_.bytes)) return line_.end();
     const Place first = line_.begin() + (limits_.does_first_stay ? 1 : 0);
     if (has_too_many) return std::find_if(first, line_.end(), is_scan);
     for (Place place = std::find_if(first, line_.end(), is_no_other); place != line_.end();) {
       const Place next = std::find_if(place + 1, line_.end(), is_no_other);
-      const bool may_go = is_scan(*place) ? std::any_of(next, line_.end(), is_scan)
-                                          : next != line_.end() && next->member == LineMember::kCounterSurface;
+      const bool may_go = is_scan(*place)
+                              ? std::any_of(next, line_.end(), is_scan)
+                              : next != line_.end() && next->member == LineMember::kCounterSurface;
       if (may_go) return place;
       place = next;
     }

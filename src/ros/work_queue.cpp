@@ -17,12 +17,14 @@ namespace {
 /// The allocator keeps what was freed for later; worth asking back after so many bytes.
 constexpr std::size_t kLargeBacklog = 64 << 20;
 
-/// What a job throws must not end the process, nor the jobs behind it. Calls hand what they throw to their callers.
+/// What a job throws must not end the process, nor the jobs behind it. Calls hand what they throw
+/// to their callers.
 void runGuarded(const std::function<void()>& run) {
   try {
     run();
   } catch (const std::exception& error) {
-    logSoon(ros::console::levels::Error, "a job of the worker is given up: " + oneLine(reasonOf(error)));
+    logSoon(ros::console::levels::Error,
+            "a job of the worker is given up: " + oneLine(reasonOf(error)));
   }
 }
 
@@ -62,11 +64,14 @@ void WorkQueue::pushScan(std::function<void()> run, std::function<void()> drop, 
   append({std::move(run), std::move(drop)}, LineMember::kScan, bytes);
 }
 
-void WorkQueue::pushCounterSurface(std::function<void()> run, std::function<void()> drop, std::size_t bytes) {
+void WorkQueue::pushCounterSurface(std::function<void()> run, std::function<void()> drop,
+                                   std::size_t bytes) {
   append({std::move(run), std::move(drop)}, LineMember::kCounterSurface, bytes);
 }
 
-void WorkQueue::push(std::function<void()> run) { append({std::move(run), nullptr}, LineMember::kOther, 0); }
+void WorkQueue::push(std::function<void()> run) {
+  append({std::move(run), nullptr}, LineMember::kOther, 0);
+}
 
 void WorkQueue::pushUrgent(std::function<void()> run) {
   {

@@ -8,8 +8,8 @@
 namespace mems_stiction {
 namespace {
 
-/// Number, mean and extremes of the valid heights. The sum runs over differences from the first valid height, so that a
-/// stage offset of millimetres costs no digits.
+/// Number, mean and extremes of the valid heights. The sum runs over differences from the first
+/// valid height, so that a stage offset of millimetres costs no digits.
 struct FirstPass {
   long long count = 0;
   double mean = 0.0;
@@ -56,12 +56,16 @@ Gradients gradients(const HeightMap& surface) {
     const Scalar* line = heights.ptr<Scalar>(row);
     const Scalar* below = heights.ptr<Scalar>(row + 1);
     for (int col = 1; col + 1 < heights.cols; ++col) {
-      const double slope_x = (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
-      const double slope_y = (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
+      const double slope_x =
+          (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
+      const double slope_y =
+          (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
       const double square = slope_x * slope_x + slope_y * slope_y;
-      if (!std::isfinite(square) || !std::isfinite(line[col])) continue;  // an invalid neighbour reaches the square
+      if (!std::isfinite(square) || !std::isfinite(line[col]))
+        continue;  // an invalid neighbour reaches the square
       sums.squares += square;
-      sums.excess_area += square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
+      sums.excess_area +=
+          square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
       ++sums.count;
     }
   }
@@ -77,7 +81,8 @@ ArealParameters parametersOf(const HeightMap& surface) {
   double squares = 0.0;
   double cubes = 0.0;
   double fourths = 0.0;
-  // Powers of the deviation in units of the height range: cubes and fourths of nanometres stay far from underflow.
+  // Powers of the deviation in units of the height range: cubes and fourths of nanometres stay far
+  // from underflow.
   const double range = pass.max - pass.min;
   const double unit = range > 0.0 ? range : 1.0;
   for (int row = 0; row < heights.rows; ++row) {
@@ -120,7 +125,8 @@ ArealParameters parametersOf(const HeightMap& surface) {
 
 ArealParameters arealParameters(const HeightMap& surface) {
   if (surface.empty()) throw SurfaceError("the height map is empty");
-  return surface.heights().depth() == CV_32F ? parametersOf<float>(surface) : parametersOf<double>(surface);
+  return surface.heights().depth() == CV_32F ? parametersOf<float>(surface)
+                                             : parametersOf<double>(surface);
 }
 
 }  // namespace mems_stiction

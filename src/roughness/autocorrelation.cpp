@@ -33,7 +33,8 @@ double valueAt(const cv::Mat& acf, double x, double y) {
 }
 
 /// @return lags up to half_rows, half_cols, at most half of the frame
-cv::Mat autocorrelationUpTo(int half_rows, int half_cols, const HeightMap& surface, FrameBoundary boundary) {
+cv::Mat autocorrelationUpTo(int half_rows, int half_cols, const HeightMap& surface,
+                            FrameBoundary boundary) {
   WorkingSurface work(surface);
   cv::Mat& heights = work.heights;
   const double mean = meansOf(heights, work.memory).height;
@@ -44,10 +45,10 @@ cv::Mat autocorrelationUpTo(int half_rows, int half_cols, const HeightMap& surfa
   if (range.highest == range.lowest) {
     return cv::Mat(2 * half_rows + 1, 2 * half_cols + 1, CV_64FC1, cv::Scalar(0.0));
   }
-  const cv::Size frame =
-      boundary == FrameBoundary::kPeriodic
-          ? heights.size()
-          : cv::Size(cv::getOptimalDFTSize(heights.cols + half_cols), cv::getOptimalDFTSize(heights.rows + half_rows));
+  const cv::Size frame = boundary == FrameBoundary::kPeriodic
+                             ? heights.size()
+                             : cv::Size(cv::getOptimalDFTSize(heights.cols + half_cols),
+                                        cv::getOptimalDFTSize(heights.rows + half_rows));
   const bool is_whole = range.count == static_cast<long long>(heights.total());
   cv::Mat pairs;
   if (!is_whole) {
@@ -61,16 +62,19 @@ cv::Mat autocorrelationUpTo(int half_rows, int half_cols, const HeightMap& surfa
   heights /= range.highest - range.lowest;
   cv::Mat acf = pairSums(heights, frame, half_rows, half_cols);
   const auto countAt = [&](int row, int col) {
-    if (!is_whole) return std::round(pairs.at<double>(row, col));  // a whole number but for round-off
+    if (!is_whole)
+      return std::round(pairs.at<double>(row, col));  // a whole number but for round-off
     if (boundary == FrameBoundary::kPeriodic) return static_cast<double>(heights.total());
-    return static_cast<double>(heights.rows - std::abs(row - half_rows)) * (heights.cols - std::abs(col - half_cols));
+    return static_cast<double>(heights.rows - std::abs(row - half_rows)) *
+           (heights.cols - std::abs(col - half_cols));
   };
   const double variance = acf.at<double>(half_rows, half_cols) / countAt(half_rows, half_cols);
   for (int row = 0; row < acf.rows; ++row) {
     double* line = acf.ptr<double>(row);
     for (int col = 0; col < acf.cols; ++col) {
       const double count = countAt(row, col);
-      line[col] = count > 0.0 ? line[col] / count / variance : std::numeric_limits<double>::quiet_NaN();
+      line[col] =
+          count > 0.0 ? line[col] / count / variance : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return acf;
@@ -90,9 +94,9 @@ SpatialParameters parametersOf(const cv::Mat& acf, const HeightMap& surface, dou
     const double along_x = std::cos(angle) / surface.pitchX();
     const double along_y = std::sin(angle) / surface.pitchY();
     const double step = 1.0 / (kStepsPerPixel * std::hypot(along_x, along_y));
-    const double limit =
-        std::min(std::fabs(along_x) > 1e-9 / surface.pitchX() ? half_cols / std::fabs(along_x) : 1e300,
-                 std::fabs(along_y) > 1e-9 / surface.pitchY() ? half_rows / std::fabs(along_y) : 1e300);
+    const double limit = std::min(
+        std::fabs(along_x) > 1e-9 / surface.pitchX() ? half_cols / std::fabs(along_x) : 1e300,
+        std::fabs(along_y) > 1e-9 / surface.pitchY() ? half_rows / std::fabs(along_y) : 1e300);
     double before = 1.0;
     double lag = limit;
     bool crossed = false;
@@ -128,7 +132,8 @@ SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boun
   }
   if (boundary == FrameBoundary::kOpen) {
     // Most surfaces forget themselves within short lags, which a smaller transform gives.
-    const cv::Mat near = autocorrelationUpTo(surface.rows() / 8, surface.cols() / 8, surface, boundary);
+    const cv::Mat near =
+        autocorrelationUpTo(surface.rows() / 8, surface.cols() / 8, surface, boundary);
     const SpatialParameters found = parametersOf(near, surface, s);
     if (found.decayed) return found;
   }

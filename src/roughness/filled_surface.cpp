@@ -19,8 +19,9 @@ namespace {
 constexpr float kNearMeasured = 3.0F;
 /// More pixels are too many for one plate: all of them come from the coarser surface.
 constexpr int kMostOfPlate = 300000;
-/// A pixel at a distance d from a measured one knows waves of fewer radians per pixel than this over d: the plate through
-/// the neighbours of one pixel gives three quarters of the height of waves of four pixels, and a fifth of those of two.
+/// A pixel at a distance d from a measured one knows waves of fewer radians per pixel than this
+/// over d: the plate through the neighbours of one pixel gives three quarters of the height of
+/// waves of four pixels, and a fifth of those of two.
 constexpr double kKnownRadians = 2.0;
 /// Steps of distances [pixels].
 constexpr double kDistanceStep = 0.25;
@@ -42,7 +43,8 @@ cv::Mat halved(const cv::Mat& heights) {
           ++count;
         }
       }
-      half.at<double>(row, col) = count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+      half.at<double>(row, col) =
+          count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return half;
@@ -109,10 +111,11 @@ std::string filledSentence(const HeightMap& surface) {
   if (share == 0.0) return "";
   const auto total = static_cast<double>(surface.heights().total());
   const double missing = std::round(share * total);
-  const std::string text = shortNumber(missing, 6) + " of " + shortNumber(total, 9) + " pixels are missing (" +
-                           shortNumber(100.0 * share, 2) +
-                           " %): the spectrum takes them as a plate through their surroundings, without waves that are "
-                           "shorter than the holes";
+  const std::string text =
+      shortNumber(missing, 6) + " of " + shortNumber(total, 9) + " pixels are missing (" +
+      shortNumber(100.0 * share, 2) +
+      " %): the spectrum takes them as a plate through their surroundings, without waves that are "
+      "shorter than the holes";
   return share < kMuchMissing ? text : text + "; so much is missing that it may be out by as much";
 }
 
@@ -122,8 +125,10 @@ KnownShare::KnownShare(const cv::Mat& distances, const std::vector<double>& weig
   for (int row = 0; row < distances.rows; ++row) {
     const auto* line = distances.ptr<float>(row);
     for (int col = 0; col < distances.cols; ++col) {
-      const double weight = weights_y[static_cast<std::size_t>(row)] * weights_x[static_cast<std::size_t>(col)];
-      const auto step = static_cast<std::size_t>(std::ceil(static_cast<double>(line[col]) / kDistanceStep));
+      const double weight =
+          weights_y[static_cast<std::size_t>(row)] * weights_x[static_cast<std::size_t>(col)];
+      const auto step =
+          static_cast<std::size_t>(std::ceil(static_cast<double>(line[col]) / kDistanceStep));
       if (step >= shares_.size()) shares_.resize(step + 1, 0.0);
       shares_[step] += weight * weight;
     }

@@ -8,7 +8,8 @@
 
 namespace mems_stiction {
 
-/// - @p boundary `periodic`: the last column goes on in the first, and the last row in the first row. Then autocorrelation and
+/// - @p boundary `periodic`: the last column goes on in the first, and the last row in the first
+/// row. Then autocorrelation and
 ///   summits wrap around, and the spectrum needs no window.
 /// @throw SurfaceError if no pixel is valid.
 SpatialRoughness spatialRoughness(const HeightMap& surface, const SpatialRoughnessOptions& options,

@@ -8,7 +8,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kBlock = 16;  ///< lines that are turned into columns at a time: their cache lines are then full
+constexpr int kBlock =
+    16;  ///< lines that are turned into columns at a time: their cache lines are then full
 
 /// The transform of a real line as OpenCV packs it: Re 0, Re 1, Im 1, Re 2, ...
 class PackedLine {
@@ -64,8 +65,8 @@ cv::Mat pairSums(const cv::Mat& values, const cv::Size& frame, int half_rows, in
     double* power = powers.ptr<double>(k_x);
     for (int k_y = 0; k_y < powers.cols; ++k_y) power[k_y] = std::norm(line[k_y]);
   }
-  // Back along y: powers are real, so that forward is backward but for the sign of the imaginary part, and negative lags
-  // are the mirror image of positive ones.
+  // Back along y: powers are real, so that forward is backward but for the sign of the imaginary
+  // part, and negative lags are the mirror image of positive ones.
   cv::dft(powers, powers, cv::DFT_ROWS);
   cv::Mat lines(half_rows + 1, frame.width, CV_64FC1);
   forBlocks(powers.rows, half_rows + 1, [&](int k_x, int lag) {

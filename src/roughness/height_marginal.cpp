@@ -23,7 +23,8 @@ constexpr double kAlmostStraight = 1e-6;
 double straight(const std::vector<double>& x, const std::vector<double>& y, double wanted) {
   if (wanted <= x.front()) return y.front();
   if (wanted >= x.back()) return y.back();
-  const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), wanted) - x.begin());
+  const auto above =
+      static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), wanted) - x.begin());
   const double share = (wanted - x[above - 1]) / (x[above] - x[above - 1]);
   return y[above - 1] + share * (y[above] - y[above - 1]);
 }
@@ -61,8 +62,13 @@ struct Tail {
 /// Counts between levels against those of a tail: - ln likelihood of (a, ln b, c).
 class TailCost : public cv::MinProblemSolver::Function {
  public:
-  TailCost(std::vector<double> levels, std::vector<double> shares, double independent, double from, TailForm form)
-      : levels_(std::move(levels)), shares_(std::move(shares)), independent_(independent), from_(from), form_(form) {}
+  TailCost(std::vector<double> levels, std::vector<double> shares, double independent, double from,
+           TailForm form)
+      : levels_(std::move(levels)),
+        shares_(std::move(shares)),
+        independent_(independent),
+        from_(from),
+        form_(form) {}
 
   int getDims() const override { return 3; }
   double calc(const double* x) const override {
@@ -114,7 +120,8 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent, T
 
   // on the grid of the table
   const double wanted = -normalNumber(std::min(0.5, kTailPlaces / independent));
-  const double from = std::round(std::clamp(wanted, kLeastTailFrom, kMostTailFrom) / kBodyStep) * kBodyStep;
+  const double from =
+      std::round(std::clamp(wanted, kLeastTailFrom, kMostTailFrom) / kBodyStep) * kBodyStep;
   std::vector<double> levels;
   const double top = normalNumber(1.0 - 1.0 / std::max(independent, kFewestPlaces));
   for (double g = from; g < top || levels.empty(); g += kLevelStep) {
@@ -124,8 +131,9 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent, T
   std::vector<double> shares;
   double before = 0.0;
   for (const double level : levels) {
-    const double below =
-        static_cast<double>(std::lower_bound(sample.begin(), sample.end(), level) - sample.begin()) / count;
+    const double below = static_cast<double>(std::lower_bound(sample.begin(), sample.end(), level) -
+                                             sample.begin()) /
+                         count;
     shares.push_back(below - before);
     before = below;
   }
@@ -136,11 +144,12 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent, T
 
   cv::Mat found = (cv::Mat_<double>(1, 3) << 0.0, 0.0, 0.0);
   const cv::Mat steps = (cv::Mat_<double>(1, 3) << 0.2, 0.2, 0.1);
-  const cv::Ptr<cv::DownhillSolver> solver =
-      cv::DownhillSolver::create(cv::makePtr<TailCost>(levels, shares, independent, from, form), steps,
-                                 cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 2000, 1e-6));
+  const cv::Ptr<cv::DownhillSolver> solver = cv::DownhillSolver::create(
+      cv::makePtr<TailCost>(levels, shares, independent, from, form), steps,
+      cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 2000, 1e-6));
   solver->minimize(found);
-  const Tail tail{from, found.at<double>(0), std::exp(found.at<double>(1)), found.at<double>(2), form};
+  const Tail tail{from, found.at<double>(0), std::exp(found.at<double>(1)), found.at<double>(2),
+                  form};
   tail_shape_ = tail.c;
 
   // the body moves so that it meets the tail
@@ -160,7 +169,9 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent, T
 
 double HeightMarginal::heightOf(double g) const { return straight(numbers_, heights_, g); }
 
-double HeightMarginal::numberOf(double height) const { return straight(heights_, numbers_, height); }
+double HeightMarginal::numberOf(double height) const {
+  return straight(heights_, numbers_, height);
+}
 
 HeightMarginal HeightMarginal::mixed(double share, double mean, double deviation) const {
   HeightMarginal mixture = *this;

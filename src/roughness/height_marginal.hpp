@@ -1,16 +1,17 @@
 #pragma once
 
 /// @file
-/// From which standard normal numbers do the heights of a surface come, and how does their distribution go on beyond the
-/// highest one that was measured?
+/// From which standard normal numbers do the heights of a surface come, and how does their
+/// distribution go on beyond the highest one that was measured?
 ///
 ///     z = T(g)                                   T rises: the translation of a Gaussian field
 ///     T' = b exp(c (g - g0))                     above g0: c > 0 a longer, c < 0 a shorter tail
-///     T' = b (g/g0)^(c (g0 + 1))                 another form of the longer one: heights hardly tell which
+///     T' = b (g/g0)^(c (g0 + 1))                 another form of the longer one: heights hardly
+///     tell which
 ///
-/// Below g0, T is the distribution of the heights themselves; g0 is the normal number that some 800 independent places
-/// exceed. a = T(g0), b and c are the likeliest by how many of these places lie between levels; c has a prior about 0, so that few
-/// places say "as a Gaussian surface".
+/// Below g0, T is the distribution of the heights themselves; g0 is the normal number that some 800
+/// independent places exceed. a = T(g0), b and c are the likeliest by how many of these places lie
+/// between levels; c has a prior about 0, so that few places say "as a Gaussian surface".
 
 #include <vector>
 
@@ -26,7 +27,8 @@ class HeightMarginal {
   HeightMarginal(double mean, double deviation);
   /// - @p heights [m], any number above 100 of them
   /// - @p independent so many of them are independent of each other
-  HeightMarginal(std::vector<double> heights, double independent, TailForm form = TailForm::kExponential);
+  HeightMarginal(std::vector<double> heights, double independent,
+                 TailForm form = TailForm::kExponential);
 
   double heightOf(double g) const;
   double numberOf(double height) const;

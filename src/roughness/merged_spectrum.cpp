@@ -15,12 +15,14 @@ constexpr double kFirstWave = 2.0;           ///< along a side: fewer are what l
 constexpr double kFirstWaveOfLargest = 1.0;  ///< of the largest scan nobody else sees them
 constexpr double kPixelsOfShortest = 10.0;   ///< a coarse scan blurs and aliases shorter waves
 constexpr int kCorrections = 4;
-/// Degrees of freedom for each wave (of both halves) under Hann's window: (sum w^2)^2/(N sum w^4), of both axes.
+/// Degrees of freedom for each wave (of both halves) under Hann's window: (sum w^2)^2/(N sum w^4),
+/// of both axes.
 constexpr double kHannFreedom = 0.264;
 /// Below so many waves along a side nothing of the surface is thought to arrive.
 constexpr double kLeastSource = 0.4;
 
-/// Spectra that fall faster than this power of the wave number are what Hann's window lets through of longer waves.
+/// Spectra that fall faster than this power of the wave number are what Hann's window lets through
+/// of longer waves.
 constexpr double kLeakage = 5.0;
 
 // the search for a stretch
@@ -56,7 +58,8 @@ struct ScanGroup {
 };
 
 /// Waves of scans that are alike, all together: each lies in one band, whatever the scan.
-void addWaves(const std::vector<const ScanWaves*>& alike, const SpectrumStretch& stretch, ScanGroup& group) {
+void addWaves(const std::vector<const ScanWaves*>& alike, const SpectrumStretch& stretch,
+              ScanGroup& group) {
   const ScanWaves& first = *alike.front();
   group.first = &first;
   group.count = static_cast<double>(alike.size());
@@ -67,7 +70,8 @@ void addWaves(const std::vector<const ScanWaves*>& alike, const SpectrumStretch&
   ScanWaves::visit(alike, [&](const FrameWave& wave, double power, double weight) {
     const double q_x = first.waveNumberX(wave.x);
     const double q_y = first.waveNumberY(wave.y);
-    if (wave.x * wave.x + wave.y * wave.y < least_square || q_x * q_x + q_y * q_y > most_square) return;
+    if (wave.x * wave.x + wave.y * wave.y < least_square || q_x * q_x + q_y * q_y > most_square)
+      return;
     const double wave_number = stretch.roundWave(q_x, q_y);
     const int band = bandOf(wave_number, kBandsPerOctave);
     if (sum == nullptr || band != last_band) sum = &group.bands[band];
@@ -78,14 +82,15 @@ void addWaves(const std::vector<const ScanWaves*>& alike, const SpectrumStretch&
   });
 }
 
-std::vector<ScanGroup> groupsOf(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
+std::vector<ScanGroup> groupsOf(const std::vector<ScanWaves>& scans,
+                                const std::vector<ScanTrust>& trust,
                                 const SpectrumStretch& stretch) {
   std::vector<std::vector<const ScanWaves*>> alike;
   std::vector<ScanGroup> groups;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     std::size_t place = 0;
-    while (place < groups.size() &&
-           !(alike[place].front()->isAlike(scans[i]) && groups[place].trust.least_waves == trust[i].least_waves)) {
+    while (place < groups.size() && !(alike[place].front()->isAlike(scans[i]) &&
+                                      groups[place].trust.least_waves == trust[i].least_waves)) {
       ++place;
     }
     if (place == groups.size()) {
@@ -98,7 +103,8 @@ std::vector<ScanGroup> groupsOf(const std::vector<ScanWaves>& scans, const std::
   return groups;
 }
 
-MergedSpectrum pooled(const std::vector<ScanGroup>& groups, const SpectrumStretch& stretch, double largest) {
+MergedSpectrum pooled(const std::vector<ScanGroup>& groups, const SpectrumStretch& stretch,
+                      double largest) {
   std::map<int, BandSum> together;
   for (const ScanGroup& group : groups) {
     for (const auto& [band, sum] : group.bands) {
@@ -113,8 +119,8 @@ MergedSpectrum pooled(const std::vector<ScanGroup>& groups, const SpectrumStretc
   spectrum.largest_wave_number = largest;
   for (const auto& [band, sum] : together) {
     if (!(sum.power > 0.0)) continue;
-    spectrum.bands.push_back(
-        {std::exp(sum.log_wave_number / sum.count), sum.power / sum.count, kHannFreedom * sum.count});
+    spectrum.bands.push_back({std::exp(sum.log_wave_number / sum.count), sum.power / sum.count,
+                              kHannFreedom * sum.count});
   }
   return spectrum;
 }
@@ -124,7 +130,8 @@ void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
   const WaveTransfer& transfer = waveTransfer();
   const ScanWaves& scan = *group.first;
   const auto densityOf = [&](const FrameWave& wave) {
-    return spectrum.densityAt(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)));
+    return spectrum.densityAt(
+        spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)));
   };
   std::vector<double> sources;
   const bool is_round = spectrum.stretch.ratio == 1.0 && scan.sideX() == scan.sideY();
@@ -150,14 +157,16 @@ void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
     if (wave.count() < group.trust.least_waves) continue;
     const double weight = transfer.weights[i];
     Found& of_band =
-        found[bandOf(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)), kBandsPerOctave)];
+        found[bandOf(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)),
+                     kBandsPerOctave)];
     of_band.count += weight;
     of_band.expected += weight * arrived.at<double>(static_cast<int>(i));
     of_band.density += weight * densityOf(wave);
   }
   for (const auto& [band, of_band] : found) {
     const auto place = group.bands.find(band);
-    if (place == group.bands.end() || !(of_band.expected > 0.0) || !(of_band.density > 0.0)) continue;
+    if (place == group.bands.end() || !(of_band.expected > 0.0) || !(of_band.density > 0.0))
+      continue;
     // bands that lie wholly among the long waves
     if (std::abs(of_band.count * group.count - place->second.count) > 0.5) continue;
     place->second.correction = of_band.expected / of_band.density;
@@ -177,7 +186,8 @@ double unlikeliness(const std::vector<VectorWave>& waves, const SpectrumStretch&
   constexpr int kMost = 512;  // bands of 2^85
   std::vector<Sum> bands(kMost);
   const int first =
-      static_cast<int>(std::floor(kBandsOfStretch * std::log2(std::hypot(waves.front().q_x, waves.front().q_y)))) -
+      static_cast<int>(std::floor(kBandsOfStretch *
+                                  std::log2(std::hypot(waves.front().q_x, waves.front().q_y)))) -
       kMost / 2;
   const double cosine = std::cos(stretch.direction);
   const double sine = std::sin(stretch.direction);
@@ -185,7 +195,8 @@ double unlikeliness(const std::vector<VectorWave>& waves, const SpectrumStretch&
     const double along = cosine * wave.q_x + sine * wave.q_y;
     const double across = cosine * wave.q_y - sine * wave.q_x;
     const double square = along * along * stretch.ratio + across * across / stretch.ratio;
-    const int band = static_cast<int>(std::floor(0.5 * kBandsOfStretch * std::log2(square))) - first;
+    const int band =
+        static_cast<int>(std::floor(0.5 * kBandsOfStretch * std::log2(square))) - first;
     Sum& sum = bands[static_cast<std::size_t>(std::clamp(band, 0, kMost - 1))];
     sum.count += wave.weight;
     sum.power += wave.weight * wave.power;
@@ -198,9 +209,11 @@ double unlikeliness(const std::vector<VectorWave>& waves, const SpectrumStretch&
 }
 
 /// The spectrum of groups, with what their windows and levelling have done to the longest waves.
-MergedSpectrum corrected(std::vector<ScanGroup>& groups, const SpectrumStretch& stretch, double largest) {
+MergedSpectrum corrected(std::vector<ScanGroup>& groups, const SpectrumStretch& stretch,
+                         double largest) {
   MergedSpectrum spectrum = pooled(groups, stretch, largest);
-  if (spectrum.bands.empty()) throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
+  if (spectrum.bands.empty())
+    throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
   for (int round = 0; round < kCorrections; ++round) {
     for (ScanGroup& group : groups) correct(spectrum, group);
     spectrum = pooled(groups, stretch, largest);
@@ -208,21 +221,25 @@ MergedSpectrum corrected(std::vector<ScanGroup>& groups, const SpectrumStretch& 
   return spectrum;
 }
 
-SpectrumDifference differenceOf(std::vector<ScanGroup>& scan, std::vector<ScanGroup>& others, double largest) {
+SpectrumDifference differenceOf(std::vector<ScanGroup>& scan, std::vector<ScanGroup>& others,
+                                double largest) {
   SpectrumDifference difference;
   double weights = 0.0;
   double sum = 0.0;
   try {
     const MergedSpectrum one = corrected(scan, {}, largest);
     const MergedSpectrum all = corrected(others, {}, largest);
-    double steepest = 0.0;  // of density times q^5 so far: beyond, what is found has leaked through the window
+    double steepest =
+        0.0;  // of density times q^5 so far: beyond, what is found has leaked through the window
     for (const SpectrumBand& band : one.bands) {
       const double level = band.density * std::pow(band.wave_number, kLeakage);
       if (level < steepest) continue;
       steepest = level;
-      const auto same = std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
-        return bandOf(other.wave_number, kBandsPerOctave) == bandOf(band.wave_number, kBandsPerOctave);
-      });
+      const auto same =
+          std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
+            return bandOf(other.wave_number, kBandsPerOctave) ==
+                   bandOf(band.wave_number, kBandsPerOctave);
+          });
       if (same == all.bands.end()) continue;
       const double weight = 0.5 / (1.0 / band.freedom + 1.0 / same->freedom);
       weights += weight;
@@ -241,7 +258,8 @@ SpectrumDifference differenceOf(std::vector<ScanGroup>& scan, std::vector<ScanGr
 }
 
 /// Sums of all scans but those of one.
-std::vector<ScanGroup> without(const std::vector<ScanGroup>& all, const ScanWaves& scan, const ScanGroup& its_own) {
+std::vector<ScanGroup> without(const std::vector<ScanGroup>& all, const ScanWaves& scan,
+                               const ScanGroup& its_own) {
   std::vector<ScanGroup> rest;
   for (const ScanGroup& group : all) {
     rest.push_back(group);
@@ -263,12 +281,13 @@ std::vector<ScanGroup> without(const std::vector<ScanGroup>& all, const ScanWave
 double MergedSpectrum::densityAt(double wave_number) const {
   if (bands.empty() || !(wave_number <= largest_wave_number)) return 0.0;
   if (wave_number <= bands.front().wave_number) return bands.front().density;
-  const auto above =
-      std::upper_bound(bands.begin(), bands.end(), wave_number,
-                       [](double wanted, const SpectrumBand& band) { return wanted < band.wave_number; });
+  const auto above = std::upper_bound(
+      bands.begin(), bands.end(), wave_number,
+      [](double wanted, const SpectrumBand& band) { return wanted < band.wave_number; });
   if (above == bands.end()) return bands.back().density;
   const SpectrumBand& below = *(above - 1);
-  const double share = std::log(wave_number / below.wave_number) / std::log(above->wave_number / below.wave_number);
+  const double share =
+      std::log(wave_number / below.wave_number) / std::log(above->wave_number / below.wave_number);
   return below.density * std::pow(above->density / below.density, share);
 }
 
@@ -297,14 +316,15 @@ std::vector<ScanTrust> trustOf(const std::vector<ScanWaves>& scans) {
   for (const ScanWaves& scan : scans) {
     const bool is_wide = scan.longerSide() == longest && longest > shortest;
     const bool is_finest = scan.longerPitch() < 1.5 * finest;
-    trust.push_back(
-        {is_wide ? kFirstWaveOfLargest : kFirstWave,
-         is_finest ? std::numeric_limits<double>::infinity() : 2.0 * kPi / (kPixelsOfShortest * scan.longerPitch())});
+    trust.push_back({is_wide ? kFirstWaveOfLargest : kFirstWave,
+                     is_finest ? std::numeric_limits<double>::infinity()
+                               : 2.0 * kPi / (kPixelsOfShortest * scan.longerPitch())});
   }
   return trust;
 }
 
-SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust) {
+SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans,
+                          const std::vector<ScanTrust>& trust) {
   std::vector<VectorWave> waves;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const ScanWaves& scan = scans[i];
@@ -346,8 +366,8 @@ SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans, const std::vector
   return round - least < kLeastGain ? SpectrumStretch() : best;
 }
 
-MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
-                              const SpectrumStretch& stretch) {
+MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans,
+                              const std::vector<ScanTrust>& trust, const SpectrumStretch& stretch) {
   const double largest = kPi * std::sqrt(2.0) / finestPitch(scans) * std::sqrt(stretch.ratio);
   std::vector<ScanGroup> groups = groupsOf(scans, trust, stretch);
   return corrected(groups, stretch, largest);

@@ -75,15 +75,17 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
   const int rows = surface.rows();
   const int cols = surface.cols();
   if (rows < 2 || cols < 2) {
-    throw SurfaceError("a spectrum needs at least 2 x 2 pixels, got " + std::to_string(cols) + " x " +
-                       std::to_string(rows));
+    throw SurfaceError("a spectrum needs at least 2 x 2 pixels, got " + std::to_string(cols) +
+                       " x " + std::to_string(rows));
   }
   const Weighted weighted = weightedHeights(filled, window);
   const cv::Mat transform = halfSpectrum(weighted.heights, weighted.heights.size());
 
   // C = |F dx dy|^2/(dx dy sum of w^2); integral d^2q/(2 pi)^2 = sum over wave vectors/(N dx dy)
-  const double density = weighted.unit * weighted.unit * surface.cellArea() / weighted.squared_weights;
-  const double per_mode = 1.0 / (static_cast<double>(surface.heights().total()) * surface.cellArea());
+  const double density =
+      weighted.unit * weighted.unit * surface.cellArea() / weighted.squared_weights;
+  const double per_mode =
+      1.0 / (static_cast<double>(surface.heights().total()) * surface.cellArea());
   const double width = 2.0 * kPi / std::max(cols * surface.pitchX(), rows * surface.pitchY());
   const double nyquist = kPi / std::max(surface.pitchX(), surface.pitchY());
   std::vector<SpectrumRing> rings(static_cast<std::size_t>(nyquist / width + 1.5));
@@ -103,7 +105,9 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
       const double square = q_x * q_x + q_y * q_y;
       const double q = std::sqrt(square);
       double power = twins * density * line[row].dot(line[row]);
-      if (!knows_all) power /= weighted.known.of(std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0)));
+      if (!knows_all)
+        power /=
+            weighted.known.of(std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0)));
       zeroth += power;
       second += power * square;
       fourth += power * square * square;
@@ -130,10 +134,13 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
   return spectrum;
 }
 
-HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelength, double longest_wavelength) {
-  if (!Range::positive().contains(shortest_wavelength) || !Range::positive().contains(longest_wavelength) ||
+HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelength,
+                          double longest_wavelength) {
+  if (!Range::positive().contains(shortest_wavelength) ||
+      !Range::positive().contains(longest_wavelength) ||
       shortest_wavelength >= longest_wavelength) {
-    throw OptionsError({"wavelengths: " + numberText(shortest_wavelength) + " to " + numberText(longest_wavelength) +
+    throw OptionsError({"wavelengths: " + numberText(shortest_wavelength) + " to " +
+                        numberText(longest_wavelength) +
                         " m is not allowed, must be 0 < shortest < longest"});
   }
   double weight_sum = 0.0;
@@ -142,7 +149,9 @@ HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelen
   std::vector<const SpectrumRing*> inside;
   for (const SpectrumRing& ring : spectrum.rings) {
     const double wavelength = 2.0 * kPi / ring.wave_number;
-    if (wavelength < shortest_wavelength || wavelength > longest_wavelength || !(ring.density > 0.0)) continue;
+    if (wavelength < shortest_wavelength || wavelength > longest_wavelength ||
+        !(ring.density > 0.0))
+      continue;
     inside.push_back(&ring);
     weight_sum += ring.count;
     mean_x += ring.count * std::log(ring.wave_number);
@@ -151,11 +160,13 @@ HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelen
   if (inside.size() < 3) {
     std::string range = "the spectrum is empty";
     if (!spectrum.rings.empty()) {
-      range = "the spectrum has wavelengths of " + numberText(2.0 * kPi / spectrum.rings.back().wave_number) + " to " +
+      range = "the spectrum has wavelengths of " +
+              numberText(2.0 * kPi / spectrum.rings.back().wave_number) + " to " +
               numberText(2.0 * kPi / spectrum.rings.front().wave_number) + " m";
     }
-    throw SurfaceError("a Hurst exponent needs at least 3 rings between " + numberText(shortest_wavelength) + " and " +
-                       numberText(longest_wavelength) + " m, found " + std::to_string(inside.size()) + "; " + range);
+    throw SurfaceError("a Hurst exponent needs at least 3 rings between " +
+                       numberText(shortest_wavelength) + " and " + numberText(longest_wavelength) +
+                       " m, found " + std::to_string(inside.size()) + "; " + range);
   }
   mean_x /= weight_sum;
   mean_y /= weight_sum;
@@ -169,7 +180,8 @@ HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelen
   const double slope = covariance / variance;
   double residuals = 0.0;
   for (const SpectrumRing* ring : inside) {
-    const double residual = std::log(ring->density) - mean_y - slope * (std::log(ring->wave_number) - mean_x);
+    const double residual =
+        std::log(ring->density) - mean_y - slope * (std::log(ring->wave_number) - mean_x);
     residuals += ring->count * residual * residual;
   }
   HurstFit fit;

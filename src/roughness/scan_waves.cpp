@@ -13,12 +13,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Of the table of waveTransfer(): pixels along a side, how far beyond a wave the window reaches, and in which steps.
+/// Of the table of waveTransfer(): pixels along a side, how far beyond a wave the window reaches,
+/// and in which steps.
 constexpr int kPixels = 64;
 constexpr int kReach = 6;
 constexpr double kSourceStep = 0.25;
 
-/// Sums over the pixels of a side, of exp(2 pi i u x), for a number of waves u, each also with a factor by pixel.
+/// Sums over the pixels of a side, of exp(2 pi i u x), for a number of waves u, each also with a
+/// factor by pixel.
 Complex waveSum(double waves, const std::vector<double>& factors) {
   Complex sum = 0.0;
   for (int pixel = 0; pixel < kPixels; ++pixel) {
@@ -42,8 +44,10 @@ void addLengths(WaveTransfer& transfer) {
   std::vector<int> found = squares;
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  for (const int square : found) transfer.lengths.push_back(kSourceStep * std::sqrt(static_cast<double>(square)));
-  transfer.round_shares = cv::Mat::zeros(transfer.shares.rows, static_cast<int>(found.size()), CV_64FC1);
+  for (const int square : found)
+    transfer.lengths.push_back(kSourceStep * std::sqrt(static_cast<double>(square)));
+  transfer.round_shares =
+      cv::Mat::zeros(transfer.shares.rows, static_cast<int>(found.size()), CV_64FC1);
   std::vector<std::ptrdiff_t> places;
   places.reserve(squares.size());
   for (const int square : squares) {
@@ -79,7 +83,8 @@ WaveTransfer makeTransfer() {
   }
 
   WaveTransfer transfer;
-  for (double u = -(kLongWaves + kReach); u <= kLongWaves + kReach + 0.5 * kSourceStep; u += kSourceStep) {
+  for (double u = -(kLongWaves + kReach); u <= kLongWaves + kReach + 0.5 * kSourceStep;
+       u += kSourceStep) {
     transfer.sources.push_back(u);
   }
   const std::size_t sources = transfer.sources.size();
@@ -98,7 +103,8 @@ WaveTransfer makeTransfer() {
     const double m = static_cast<double>(place) - kLongWaves;
     from_constant[place] = waveSum(-m, windowed_constant);
     from_slope[place] = waveSum(-m, windowed_slope);
-    for (std::size_t u = 0; u < sources; ++u) passed[place][u] = waveSum(transfer.sources[u] - m, window);
+    for (std::size_t u = 0; u < sources; ++u)
+      passed[place][u] = waveSum(transfer.sources[u] - m, window);
   }
   for (int y = -kLongWaves; y <= kLongWaves; ++y) {
     for (int x = 0; x <= kLongWaves; ++x) {
@@ -109,7 +115,8 @@ WaveTransfer makeTransfer() {
     }
   }
   const double norm = kSourceStep * kSourceStep / (window_square * window_square);
-  transfer.shares.create(static_cast<int>(transfer.waves.size()), static_cast<int>(sources * sources), CV_64FC1);
+  transfer.shares.create(static_cast<int>(transfer.waves.size()),
+                         static_cast<int>(sources * sources), CV_64FC1);
   for (int row = 0; row < transfer.shares.rows; ++row) {
     const FrameWave& wave = transfer.waves[static_cast<std::size_t>(row)];
     const auto at_x = static_cast<std::size_t>(wave.x + kLongWaves);
@@ -117,10 +124,11 @@ WaveTransfer makeTransfer() {
     double* line = transfer.shares.ptr<double>(row);
     for (std::size_t uy = 0; uy < sources; ++uy) {
       for (std::size_t ux = 0; ux < sources; ++ux) {
-        const Complex arrives = passed[at_y][uy] * passed[at_x][ux] -
-                                constant_of[uy] * constant_of[ux] * from_constant[at_y] * from_constant[at_x] -
-                                slope_of[uy] * constant_of[ux] * from_slope[at_y] * from_constant[at_x] -
-                                constant_of[uy] * slope_of[ux] * from_constant[at_y] * from_slope[at_x];
+        const Complex arrives =
+            passed[at_y][uy] * passed[at_x][ux] -
+            constant_of[uy] * constant_of[ux] * from_constant[at_y] * from_constant[at_x] -
+            slope_of[uy] * constant_of[ux] * from_slope[at_y] * from_constant[at_x] -
+            constant_of[uy] * slope_of[ux] * from_constant[at_y] * from_slope[at_x];
         *line++ = norm * std::norm(arrives);
       }
     }
@@ -152,7 +160,8 @@ ScanWaves::ScanWaves(const FilledSurface& filled)
   for (int row = 0; row < rows_; ++row) {
     double* line = heights.ptr<double>(row);
     for (int col = 0; col < cols_; ++col) {
-      const double weight = weights_y[static_cast<std::size_t>(row)] * weights_x[static_cast<std::size_t>(col)];
+      const double weight =
+          weights_y[static_cast<std::size_t>(row)] * weights_x[static_cast<std::size_t>(col)];
       squares += weight * weight;
       line[col] *= weight;
       largest = std::max(largest, std::abs(line[col]));
@@ -171,7 +180,8 @@ ScanWaves::ScanWaves(const FilledSurface& filled)
     float* powers = powers_.ptr<float>(x);
     for (int y = 0; y < transform.cols; ++y) {
       double power = per_count * line[y].dot(line[y]);
-      if (!knows_all) power /= known.of(std::hypot(waveNumber(x, cols_, 1.0), waveNumber(y, rows_, 1.0)));
+      if (!knows_all)
+        power /= known.of(std::hypot(waveNumber(x, cols_, 1.0), waveNumber(y, rows_, 1.0)));
       powers[y] = static_cast<float>(power);
     }
   }

@@ -11,9 +11,11 @@
 namespace mems_stiction {
 namespace {
 
-/// Which pixels of a row are above their neighbours: 1, else 0; -1 where one of the nine is invalid. The borders stay.
-MEMS_STICTION_VECTORIZED void findSummits(const double* above, const double* line, const double* below,
-                                          std::size_t size, std::int64_t* found) {
+/// Which pixels of a row are above their neighbours: 1, else 0; -1 where one of the nine is
+/// invalid. The borders stay.
+MEMS_STICTION_VECTORIZED void findSummits(const double* above, const double* line,
+                                          const double* below, std::size_t size,
+                                          std::int64_t* found) {
   for (std::size_t col = 1; col + 1 < size; ++col) {
     const double z = line[col];
     const double highest_before =
@@ -49,8 +51,8 @@ SummitParameters summitParameters(const HeightMap& surface) {
       examined += is_summit[col] >= 0;
       if (is_summit[col] <= 0) continue;
       const double z = line[col];
-      curvatures +=
-          0.5 * ((2.0 * z - line[col - 1] - line[col + 1]) * per_x + (2.0 * z - above[col] - below[col]) * per_y);
+      curvatures += 0.5 * ((2.0 * z - line[col - 1] - line[col + 1]) * per_x +
+                           (2.0 * z - above[col] - below[col]) * per_y);
       summits.push_back(z - mean_height);
     }
   }

@@ -22,11 +22,13 @@ constexpr std::size_t kFewestSquares = 16;
 /// Of a wave.
 constexpr int kFewestPixels = 2;
 
-/// Mean square of the fourth differences along an axis, of the heights less those of the upper surface.
+/// Mean square of the fourth differences along an axis, of the heights less those of the upper
+/// surface.
 /// - @p upper empty for a plane
 /// - @p along_x along rows
 /// - @p lag of neighbouring places [pixels]
-double meanSquare(const HeightMap& lower, const HeightMap& upper, bool along_x, int lag, std::vector<double>& squares) {
+double meanSquare(const HeightMap& lower, const HeightMap& upper, bool along_x, int lag,
+                  std::vector<double>& squares) {
   const int length = along_x ? lower.cols() : lower.rows();
   const int lines = along_x ? lower.rows() : lower.cols();
   const int first = 2 * lag;
@@ -39,16 +41,18 @@ double meanSquare(const HeightMap& lower, const HeightMap& upper, bool along_x, 
     const auto at = [&](int place) {
       const int row = along_x ? line : place;
       const int col = along_x ? place : line;
-      return upper.empty() ? lower.height(row, col) : lower.height(row, col) - upper.height(row, col);
+      return upper.empty() ? lower.height(row, col)
+                           : lower.height(row, col) - upper.height(row, col);
     };
     for (int place = first; place < first + count; place += step) {
-      const double difference =
-          at(place - 2 * lag) + at(place + 2 * lag) - 4.0 * (at(place - lag) + at(place + lag)) + 6.0 * at(place);
+      const double difference = at(place - 2 * lag) + at(place + 2 * lag) -
+                                4.0 * (at(place - lag) + at(place + lag)) + 6.0 * at(place);
       if (std::isfinite(difference)) squares.push_back(difference * difference);
     }
   }
   if (squares.size() < kFewestSquares) return std::numeric_limits<double>::quiet_NaN();
-  const auto end = squares.begin() + static_cast<std::ptrdiff_t>(kCounted * static_cast<double>(squares.size()));
+  const auto end =
+      squares.begin() + static_cast<std::ptrdiff_t>(kCounted * static_cast<double>(squares.size()));
   std::nth_element(squares.begin(), end, squares.end());
   double sum = 0.0;
   for (auto square = squares.begin(); square != end; ++square) sum += *square;
@@ -57,8 +61,10 @@ double meanSquare(const HeightMap& lower, const HeightMap& upper, bool along_x, 
 
 /// D(t) over A t^(2H).
 double structureFactor(double hurst) {
-  const double sum = 2.0 * (56.0 - 28.0 * std::pow(4.0, hurst) + 8.0 * std::pow(9.0, hurst) - std::pow(16.0, hurst));
-  const double integral = std::tgamma(1.0 - hurst) / (std::exp2(2.0 * hurst + 1.0) * hurst * std::tgamma(1.0 + hurst));
+  const double sum = 2.0 * (56.0 - 28.0 * std::pow(4.0, hurst) + 8.0 * std::pow(9.0, hurst) -
+                            std::pow(16.0, hurst));
+  const double integral =
+      std::tgamma(1.0 - hurst) / (std::exp2(2.0 * hurst + 1.0) * hurst * std::tgamma(1.0 + hurst));
   return integral * sum / (2.0 * kPi);
 }
 
@@ -88,7 +94,8 @@ UnresolvedWaves unresolvedWaves(const HeightMap& lower, const HeightMap& upper, 
     }
     const double hurst = std::clamp(0.5 * std::log2(far / near), kLeastHurst, kMostHurst);
     const double between = std::sqrt(2.0) * lag * step;
-    const double amplitude = std::sqrt(near * far) / (structureFactor(hurst) * std::pow(between, 2.0 * hurst));
+    const double amplitude =
+        std::sqrt(near * far) / (structureFactor(hurst) * std::pow(between, 2.0 * hurst));
     const double least_wave_number = 2.0 * kPi / waves.shortest_shown;
     variance += 0.5 * amplitude * std::pow(least_wave_number, -2.0 * hurst) / (4.0 * kPi * hurst);
     exponent += 0.5 * hurst;

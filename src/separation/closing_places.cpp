@@ -17,8 +17,11 @@ int firstOf(int index, int parts, int cells) {
   return static_cast<int>(static_cast<std::int64_t>(index) * cells / parts);
 }
 
-/// Into how many a side is divided that is to be divided into `divisions`: blocks have kPlaceCells cells or more.
-int partsOf(int cells, int divisions) { return std::clamp(cells / chosen::kPlaceCells, 1, divisions); }
+/// Into how many a side is divided that is to be divided into `divisions`: blocks have kPlaceCells
+/// cells or more.
+int partsOf(int cells, int divisions) {
+  return std::clamp(cells / chosen::kPlaceCells, 1, divisions);
+}
 
 /// Lines that tell the flattening energy: the same as of the whole frame.
 void chooseLines(int count, std::vector<int>& lines) {
@@ -29,8 +32,8 @@ void chooseLines(int count, std::vector<int>& lines) {
 
 }  // namespace
 
-double ClosingPlaces::force(const GapField& field, const ContactTraction& law, double contact_modulus,
-                            const SeparationCurve& curve, double least) {
+double ClosingPlaces::force(const GapField& field, const ContactTraction& law,
+                            double contact_modulus, const SeparationCurve& curve, double least) {
   if (!law.attracts()) return 0.0;
   start(field, contact_modulus);
   law_ = &law;
@@ -71,7 +74,8 @@ void ClosingPlaces::readRows() {
   const auto cols = static_cast<std::size_t>(field_->cols());
   chooseLines(field_->rows(), row_of_line_);
   rows_.resize(row_of_line_.size() * cols);
-  for (std::size_t i = 0; i < row_of_line_.size(); ++i) field_->gapsOfRow(row_of_line_[i], rows_.data() + i * cols);
+  for (std::size_t i = 0; i < row_of_line_.size(); ++i)
+    field_->gapsOfRow(row_of_line_[i], rows_.data() + i * cols);
 }
 
 void ClosingPlaces::readColumns() {
@@ -83,7 +87,8 @@ void ClosingPlaces::readColumns() {
     for (int row = 0; row < rows; ++row) {
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols;
       for (std::size_t i = 0; i < col_of_line_.size(); ++i) {
-        columns_[i * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] = gaps[first + col_of_line_[i]];
+        columns_[i * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] =
+            gaps[first + col_of_line_[i]];
       }
     }
   });
@@ -122,7 +127,8 @@ void ClosingPlaces::takePlaces(int divisions) {
 
 void ClosingPlaces::onlyNear(double nearest) {
   const auto isFar = [&](const Place& place) {
-    return !(drawingEnergy(place, std::max(0.0, place.mean_gap - nearest)) < law_->workOfAdhesion());
+    return !(drawingEnergy(place, std::max(0.0, place.mean_gap - nearest)) <
+             law_->workOfAdhesion());
   };
   places_.erase(std::remove_if(places_.begin(), places_.end(), isFar), places_.end());
 }
@@ -138,14 +144,17 @@ void ClosingPlaces::measureEnergy(Place& place) {
   along_columns_.start(place.rows.length());
   for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
     if (row_of_line_[line] < place.rows.from || row_of_line_[line] >= place.rows.to) continue;
-    along_rows_.add(rows_.data() + line * static_cast<std::size_t>(field_->cols()) + place.cols.from);
+    along_rows_.add(rows_.data() + line * static_cast<std::size_t>(field_->cols()) +
+                    place.cols.from);
   }
   for (std::size_t line = 0; line < col_of_line_.size(); ++line) {
     if (col_of_line_[line] < place.cols.from || col_of_line_[line] >= place.cols.to) continue;
-    along_columns_.add(columns_.data() + line * static_cast<std::size_t>(field_->rows()) + place.rows.from);
+    along_columns_.add(columns_.data() + line * static_cast<std::size_t>(field_->rows()) +
+                       place.rows.from);
   }
   const int directions = (place.cols.length() > 1 ? 1 : 0) + (place.rows.length() > 1 ? 1 : 0);
-  const double both = along_rows_.integral(field_->pitchX()) + along_columns_.integral(field_->pitchY());
+  const double both =
+      along_rows_.integral(field_->pitchX()) + along_columns_.integral(field_->pitchY());
   place.energy = directions > 0 ? 0.25 * contact_modulus_ * both / directions : 0.0;
 }
 

@@ -1,20 +1,24 @@
 #pragma once
 
 /// @file
-/// Do places of a frame close by themselves, though the frame as a whole does not, and what would they hold?
+/// Do places of a frame close by themselves, though the frame as a whole does not, and what would
+/// they hold?
 ///
-/// A place is a block of the frame, of half of its sides down to a sixteenth. It closes where flattening its own relief, and
-/// drawing its mean plane up to the other body, cost less than adhesion gives:
+/// A place is a block of the frame, of half of its sides down to a sixteenth. It closes where
+/// flattening its own relief, and drawing its mean plane up to the other body, cost less than
+/// adhesion gives:
 ///
-///     U/A + E d^2/(pi a) < Gamma,   pi a^2 = A                                                        (S9a)
+///     U/A + E d^2/(pi a) < Gamma,   pi a^2 = A (S9a)
 ///
-/// U/A is (S9) of the block. d is the distance of its mean plane from contact, and 2 E a d the force of a round flat punch that
-/// is drawn by d (Sneddon), whose work is the second term. So it pulls with
+/// U/A is (S9) of the block. d is the distance of its mean plane from contact, and 2 E a d the
+/// force of a round flat punch that is drawn by d (Sneddon), whose work is the second term. So it
+/// pulls with
 ///
-///     f(D) = min(2 E a d, s A),   s the strength of the law                                            (S9b)
+///     f(D) = min(2 E a d, s A),   s the strength of the law (S9b)
 ///
-/// and all places of one size together, less what pushes the surfaces apart at this displacement, hold the part. What is
-/// in contact (d = 0) pulls nothing: the curve has it. Derivation and figures: doc/separation_curve.md.
+/// and all places of one size together, less what pushes the surfaces apart at this displacement,
+/// hold the part. What is in contact (d = 0) pulls nothing: the curve has it. Derivation and
+/// figures: doc/separation_curve.md.
 
 #include <vector>
 
@@ -28,13 +32,13 @@ namespace mems_stiction {
 /// Keeps its memory between frames.
 class ClosingPlaces {
  public:
-  /// What the places of the size that holds most would hold [N]: the largest, over the way from the rest without a load to the rest;
-  /// 0 where no more than `least` can come of it.
+  /// What the places of the size that holds most would hold [N]: the largest, over the way from the
+  /// rest without a load to the rest; 0 where no more than `least` can come of it.
   /// - @p contact_modulus E [Pa], > 0
   /// - @p curve of the unloading branch
   /// - @p least what the force is compared with [N]; below, nothing is measured that takes longer
-  double force(const GapField& field, const ContactTraction& law, double contact_modulus, const SeparationCurve& curve,
-               double least);
+  double force(const GapField& field, const ContactTraction& law, double contact_modulus,
+               const SeparationCurve& curve, double least);
   /// U/A of the quarter of the frame, half of each side, that has most of it [J/m^2].
   double largestEnergy(const GapField& field, double contact_modulus);
 

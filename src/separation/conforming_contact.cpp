@@ -15,11 +15,13 @@ constexpr Exponents kLawExponents{1.5, 0.0, -0.5};
 
 /// k = 2 U/(A sigma^2); bodies without relief have nothing to give way.
 double stiffnessOf(double flattening_energy, double rms_height) {
-  return flattening_energy > 0.0 && rms_height > 0.0 ? 2.0 * flattening_energy / (rms_height * rms_height)
-                                                     : std::numeric_limits<double>::infinity();
+  return flattening_energy > 0.0 && rms_height > 0.0
+             ? 2.0 * flattening_energy / (rms_height * rms_height)
+             : std::numeric_limits<double>::infinity();
 }
 
-/// Of a work that is nearly what flattening, which goes with the modulus, leaves of the work of adhesion.
+/// Of a work that is nearly what flattening, which goes with the modulus, leaves of the work of
+/// adhesion.
 Exponents flatteningExponents(double flattening_energy, double work) {
   const double share = flattening_energy / work;
   return {1.0 + share, -share, 0.0};
@@ -27,8 +29,8 @@ Exponents flatteningExponents(double flattening_energy, double work) {
 
 }  // namespace
 
-void ConformingContact::start(const GapField& field, const ContactTraction& law, double contact_modulus,
-                              double flattening_energy) {
+void ConformingContact::start(const GapField& field, const ContactTraction& law,
+                              double contact_modulus, double flattening_energy) {
   field_ = &field;
   law_ = &law;
   contact_modulus_ = contact_modulus;
@@ -63,7 +65,8 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
   unloading.contact_area = rest->contact_fraction * area();
   unloading.force = area() * strengthFrom(rest, branch_);
   unloading.force_exponents = kLawExponents;
-  if (mayTear()) unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
+  if (mayTear())
+    unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
     unloading.curve.push_back({law_->range() - state->height, area() * state->traction, true});
   }
@@ -75,8 +78,10 @@ bool ConformingContact::mayTear() const {
   const double rms_height = field_->rmsGap();
   if (!(flattening_energy_ > 0.0 && rms_height > 0.0)) return false;
   const double strength = law_->strength();
-  const double wave_number = 4.0 * flattening_energy_ / (contact_modulus_ * rms_height * rms_height);
-  const double crack_radius = 0.5 * kPi * contact_modulus_ * law_->workOfAdhesion() / (strength * strength);
+  const double wave_number =
+      4.0 * flattening_energy_ / (contact_modulus_ * rms_height * rms_height);
+  const double crack_radius =
+      0.5 * kPi * contact_modulus_ * law_->workOfAdhesion() / (strength * strength);
   const double tension = 2.0 * flattening_energy_ / rms_height;
   return kPi / wave_number > crack_radius && tension > chosen::kHardlyTense * strength;
 }
@@ -85,7 +90,8 @@ bool ConformingContact::mayTear() const {
 void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
   const double flattening = waves_.of(*field_, contact_modulus_);
   // the surfaces rest in the state of the least energy, and contacts jump in either
-  const double work = std::min(energyGained(springsOf(flattening)) + by_contacts.lost, law_->workOfAdhesion());
+  const double work =
+      std::min(energyGained(springsOf(flattening)) + by_contacts.lost, law_->workOfAdhesion());
   if (by_contacts.work > work) {
     unloading.work = by_contacts.work;
     unloading.work_exponents = by_contacts.work_exponents;

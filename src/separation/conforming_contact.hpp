@@ -3,17 +3,20 @@
 /// @file
 /// Surfaces that lie against each other everywhere: what it takes to draw them apart.
 ///
-/// Where flattening costs less than adhesion gives, contacts grow together until nothing is left between
-/// them, and a sum over patches says little. Each cell then hangs on a spring (spring_contact.hpp), which
-/// gives curve, force and contact area. All springs are equal, and none hears of its neighbours. Long waves
-/// of the flattened relief pull at the interface, and it tears at one place before all springs pull at
-/// their best. Where that may be, the force is doubted, and the half-space has it:
+/// Where flattening costs less than adhesion gives, contacts grow together until nothing is left
+/// between them, and a sum over patches says little. Each cell then hangs on a spring
+/// (spring_contact.hpp), which gives curve, force and contact area. All springs are equal, and none
+/// hears of its neighbours. Long waves of the flattened relief pull at the interface, and it tears
+/// at one place before all springs pull at their best. Where that may be, the force is doubted, and
+/// the half-space has it:
 ///
-///     pi/q > a0 = pi E Gamma/(2 s^2),   q = 4 U/(A E sigma^2)       a crack has room in half a wave
-///     2 U/(A sigma) > 0.05 s                                        the tension of the waves, rms         (S10b)
+///     pi/q > a0 = pi E Gamma/(2 s^2),   q = 4 U/(A E sigma^2)       a crack has room in half a
+///     wave 2 U/(A sigma) > 0.05 s                                        the tension of the waves,
+///     rms         (S10b)
 ///
-/// s is the strength of the law, sigma the rms height, a0 the radius from which a crack needs less than s.
-/// The work is that of the springs with the flattening energy of all waves, and of what jumps lose, (S10a).
+/// s is the strength of the law, sigma the rms height, a0 the radius from which a crack needs less
+/// than s. The work is that of the springs with the flattening energy of all waves, and of what
+/// jumps lose, (S10a).
 
 #include <vector>
 
@@ -31,7 +34,8 @@ class ConformingContact {
   /// What the next calls are about. Everything must outlive them; nothing is computed yet.
   /// - @p flattening_energy U/A [J/m^2], >= 0
   /// - @p contact_modulus E [Pa], > 0
-  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy);
+  void start(const GapField& field, const ContactTraction& law, double contact_modulus,
+             double flattening_energy);
 
   /// Whether springs hold the bonded surfaces together without a load.
   bool holds() { return energyGained(branch()) > 0.0; }

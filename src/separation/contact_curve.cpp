@@ -13,26 +13,30 @@ namespace {
 
 Regime regimeOf(const PatchLoad& load, double area, double hardness) {
   if (load.elasticShare() >= chosen::kRegimeShare) return Regime::kElastic;
-  return load.carried >= chosen::kRegimeShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
+  return load.carried >= chosen::kRegimeShare * hardness * area ? Regime::kPlastic
+                                                                : Regime::kElastoPlastic;
 }
 
 /// What ModelStatement::doubt is about.
 constexpr double kDoubtedFactor = 1.3;
 
-/// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges, and a force that is the
-/// difference of larger ones, so that what is out in these weighs more in it. Or where the surfaces may have come to another rest,
-/// or what is out in the load of the contacts decides how near to it they part.
+/// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges,
+/// and a force that is the difference of larger ones, so that what is out in these weighs more in
+/// it. Or where the surfaces may have come to another rest, or what is out in the load of the
+/// contacts decides how near to it they part.
 /// - @p exponent of the force with the work of adhesion: 1 where nothing is subtracted
 const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
-    return "hardly anything keeps the surfaces from a nearer rest, from which they part with a larger force";
+    return "hardly anything keeps the surfaces from a nearer rest, from which they part with a "
+           "larger force";
   }
   const SeparationState& strongest = curve.states[curve.strongest];
   if (!(strongest.adhesion > 0.0)) return nullptr;
   const double excess = std::max(0.0, exponent - 1.0);
   if (strongest.width + excess > chosen::kDoubtedContacts) {
-    return strongest.width > excess ? "contacts that hold are so wide that they part by cracks from their edges"
-                                    : "where the force is largest it is a difference of larger forces";
+    return strongest.width > excess
+               ? "contacts that hold are so wide that they part by cracks from their edges"
+               : "where the force is largest it is a difference of larger forces";
   }
   return hangsOnWhatIsCarried(curve)
              ? "a little less carried by the contacts would leave a larger force near their rest"
@@ -41,11 +45,13 @@ const char* doubtOf(const SeparationCurve& curve, double exponent, double force_
 
 }  // namespace
 
-void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
+void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
+                              const FarGaps* far) {
   start(field, settings, far, nullptr);
 }
 
-void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FlowingPlaces& flow) {
+void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
+                              const FlowingPlaces& flow) {
   start(field, settings, nullptr, &flow);
 }
 
@@ -60,7 +66,8 @@ void ContactCurve::start(const GapField& field, const ContactSettings& settings,
   const double gaps = takeContacts();
   regime_of_dale_.clear();
   if (flow != nullptr) takeFlow(*flow);
-  if (loading_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load, gaps);
+  if (loading_.status == Status::kBonded && far == nullptr)
+    growTo(settings.load.mechanical_load, gaps);
 }
 
 void ContactCurve::takeFlow(const FlowingPlaces& flow) {
@@ -118,7 +125,8 @@ void ContactCurve::growTo(double load, double gaps) {
     volume += 0.5 * (cells_before + cells) * step;
     carried = unit * volume / std::sqrt(cells);
     if (carried > load) {
-      cells = cells_before + (cells - cells_before) * (load - carried_before) / (carried - carried_before);
+      cells = cells_before +
+              (cells - cells_before) * (load - carried_before) / (carried - carried_before);
     }
   }
   by_contacts_.contact_area *= cells / cells_at_rest;
@@ -141,26 +149,31 @@ double ContactCurve::takeContacts() {
     contact.load = loads_[i];
     const double radius = patch.radius(rest.approach, cell_area_);
     contact.composite_radius = radius;
-    const double rim_force = 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
-    contact.area = cell_area_ * realCells({contact.load, static_cast<double>(patch.cells), rim_force,
-                                           forces.pullOffPrefactor(radius / patch.summits), forces.hardness() * area});
+    const double rim_force =
+        2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
+    contact.area =
+        cell_area_ *
+        realCells({contact.load, static_cast<double>(patch.cells), rim_force,
+                   forces.pullOffPrefactor(radius / patch.summits), forces.hardness() * area});
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
     const double fullness = contact.load.elastic / (forces.hardness() * area);
     largest_fullness_ = std::max(largest_fullness_, fullness);
-    contact.remaining =
-        RemainingOverlap(fullness, area_share, patch.depth(rest.approach), rest.approach - patch.first_gap);
+    contact.remaining = RemainingOverlap(fullness, area_share, patch.depth(rest.approach),
+                                         rest.approach - patch.first_gap);
     has_flowed_ = has_flowed_ || contact.remaining.isChanged();
     touching += patch.gap_sum;
   }
   const std::int64_t apart = frame_.validCount() - rest.contact_count;
-  mean_gap_ = apart > 0 ? (frame_.gapSum() - touching) / static_cast<double>(apart) - rest.approach : 0.0;
+  mean_gap_ =
+      apart > 0 ? (frame_.gapSum() - touching) / static_cast<double>(apart) - rest.approach : 0.0;
   return touching;
 }
 
 double ContactCurve::stiffness() const {
-  // a secant to the nearest state that is half a step or more before rest, where the force is known to kAccuracy
+  // a secant to the nearest state that is half a step or more before rest, where the force is known
+  // to kAccuracy
   const std::vector<SeparationState>& states = loading_.states;
   const SeparationState& rest = states.back();
   const double least = 0.5 * chosen::kStep * (frame_.law().range() + rest.approach);
@@ -172,7 +185,8 @@ double ContactCurve::stiffness() const {
 }
 
 void ContactCurve::appendLoading(std::vector<SeparationCurvePoint>& points) const {
-  for (const SeparationState& state : loading_.states) points.push_back({state.approach, state.force(), false});
+  for (const SeparationState& state : loading_.states)
+    points.push_back({state.approach, state.force(), false});
 }
 
 void ContactCurve::part(double force_from_next_rest) {
@@ -185,8 +199,9 @@ void ContactCurve::part(double force_from_next_rest) {
   by_contacts_.force_exponents = exponents.pull_off;
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
-  by_contacts_.lost =
-      has_flowed_ || flow_ != nullptr ? 0.0 : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
+  by_contacts_.lost = has_flowed_ || flow_ != nullptr
+                          ? 0.0
+                          : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
   by_contacts_.doubt = doubtOf(curve, exponents.pull_off.adhesion, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
@@ -203,7 +218,8 @@ void ContactCurve::followChanged(const Way& way) {
     first_touch = way.rest;
     const OverlapSweep& sweep = frame_.contactsAt(way.rest);
     frame_.change(way.rest, [&](const OrderedCell& ordered) {
-      const Contact& contact = contacts_[static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)))];
+      const Contact& contact =
+          contacts_[static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)))];
       const auto dale = static_cast<std::size_t>(ordered.tag.dale());
       if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
       regime_of_dale_[dale] = contact.regime;

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// Two surfaces that come to rest on each other along the separation curve, their contacts there, and how they part when these
-/// contacts let go one by one: of a frame, or of an area by its highest cells (frame_sums.hpp).
+/// Two surfaces that come to rest on each other along the separation curve, their contacts there,
+/// and how they part when these contacts let go one by one: of a frame, or of an area by its
+/// highest cells (frame_sums.hpp).
 ///
 ///     ContactCurve curve;
 ///     curve.comeToRest(field, settings);
@@ -34,13 +35,16 @@ class ContactCurve {
 
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far as in FrameSums
-  void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
+  void comeToRest(const GapField& field, const ContactSettings& settings,
+                  const FarGaps* far = nullptr);
   /// The same of surfaces that have flowed place by place under these settings, and bear what made
   /// them flow without flowing any more.
   /// - @p flow of the places of `field`; both must outlive the object's use
-  void comeToRest(const GapField& field, const ContactSettings& settings, const FlowingPlaces& flow);
+  void comeToRest(const GapField& field, const ContactSettings& settings,
+                  const FlowingPlaces& flow);
   /// From then on frame() is that of the surfaces as flow has changed them.
-  /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not asked for another rest [N]
+  /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not
+  /// asked for another rest [N]
   void part(double force_from_next_rest = 0.0);
 
   FrameSums& frame() { return frame_; }
@@ -75,17 +79,19 @@ class ContactCurve {
   const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
 
  private:
-  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far, const FlowingPlaces* flow);
+  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
+             const FlowingPlaces* flow);
   /// @return sum of the gaps of the cells in contact [m]
   double takeContacts();
   /// Regimes of contacts by the share of their load that places bear which have flowed, and their
   /// areas, which contain all that is pressed.
   void takeFlow(const FlowingPlaces& flow);
-  /// Lets the contact area grow where a load is more than the contacts carry at the end of the search: all of them as one
-  /// patch, whose overlap is that of the heights.
+  /// Lets the contact area grow where a load is more than the contacts carry at the end of the
+  /// search: all of them as one patch, whose overlap is that of the heights.
   /// - @p gaps that takeContacts() has summed
   void growTo(double load, double gaps);
-  /// Where the unloading branch is another than the loading branch: of surfaces that have flowed, or with soft summits, which hold on.
+  /// Where the unloading branch is another than the loading branch: of surfaces that have flowed,
+  /// or with soft summits, which hold on.
   void followChanged(const Way& way);
 
   FrameSums frame_;
@@ -98,7 +104,7 @@ class ContactCurve {
   double largest_fullness_ = 0.0;
   const FlowingPlaces* flow_ = nullptr;  ///< place by place, before the loading branch
   bool has_flowed_ = false;              ///< as patches, at rest
-  SeparationCurve unloading_;              ///< where it is another than the loading branch
+  SeparationCurve unloading_;            ///< where it is another than the loading branch
   bool has_unloading_ = false;
   Unloading by_contacts_;
   std::vector<Regime> regime_of_dale_;

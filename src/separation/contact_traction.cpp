@@ -5,7 +5,8 @@
 namespace mems_stiction {
 
 ContactTraction::ContactTraction(const InterfaceOptions& interface)
-    : work_of_adhesion_(interface.work_of_adhesion), law_(work_of_adhesion_, forceRange(interface)) {}
+    : work_of_adhesion_(interface.work_of_adhesion),
+      law_(work_of_adhesion_, forceRange(interface)) {}
 
 double ContactTraction::closingUnder(double pressure) const {
   if (!attracts()) return 0.0;
@@ -15,7 +16,8 @@ double ContactTraction::closingUnder(double pressure) const {
   double x = std::pow(1.0 + 1.5 * share, 1.0 / 9.0);
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const double cube = x * x * x;
-    const double next = x - (cube * (cube * cube - 1.0) - share) / (3.0 * cube / x * (3.0 * cube * cube - 1.0));
+    const double next =
+        x - (cube * (cube * cube - 1.0) - share) / (3.0 * cube / x * (3.0 * cube * cube - 1.0));
     if (!(next < x)) break;
     x = next;
   }

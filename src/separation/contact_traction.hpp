@@ -3,12 +3,14 @@
 /// @file
 /// The law of adhesion as the separation curve counts it: from the plane of contact, d = 0.
 ///
-///     t(d) and its integral w(d) from d on: the 9-3 law (mechanics/traction_law.hpp) at x = z0/(d + z0);  w(0) = Gamma
+///     t(d) and its integral w(d) from d on: the 9-3 law (mechanics/traction_law.hpp) at x = z0/(d
+///     + z0);  w(0) = Gamma
 ///
-/// Attraction is positive. Far away t is Hamaker's H/(6 pi (d + z0)^3); t is largest, 1.026 Gamma/z0, at d = 0.2 z0, and
-/// 0 in contact. Surfaces that are pressed together by p come closer than the plane of contact by s with
-/// p = (8 Gamma/(3 z0)) [ (z0/(z0 - s))^9 - (z0/(z0 - s))^3 ]: a layer in series with the bodies, stiffer than they are
-/// but for contacts smaller than some E z0^2/Gamma.
+/// Attraction is positive. Far away t is Hamaker's H/(6 pi (d + z0)^3); t is largest, 1.026
+/// Gamma/z0, at d = 0.2 z0, and 0 in contact. Surfaces that are pressed together by p come closer
+/// than the plane of contact by s with p = (8 Gamma/(3 z0)) [ (z0/(z0 - s))^9 - (z0/(z0 - s))^3 ]:
+/// a layer in series with the bodies, stiffer than they are but for contacts smaller than some E
+/// z0^2/Gamma.
 ///
 /// half_space/traction_law.hpp is the same law, counted from the centres of the outermost atoms.
 ///
@@ -19,16 +21,16 @@
 
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "numeric/packet_functions.hpp"
 #include "numeric/packet.hpp"
+#include "numeric/packet_functions.hpp"
 
 namespace mems_stiction {
 
 /// t(d), its integral and what it carries in compression.
 class ContactTraction {
  public:
-  /// Without work of adhesion nothing attracts, and the layer is rigid. Without a Hamaker constant z0 is
-  /// interface/equilibrium_distance.
+  /// Without work of adhesion nothing attracts, and the layer is rigid. Without a Hamaker constant
+  /// z0 is interface/equilibrium_distance.
   explicit ContactTraction(const InterfaceOptions& interface);
 
   double workOfAdhesion() const { return work_of_adhesion_; }  ///< Gamma [J/m^2]
@@ -59,9 +61,9 @@ class ContactTraction {
   /// attraction.
   /// - @p pressure [Pa], >= 0
   double closingUnder(double pressure) const;
-  /// What the bodies and the layer carry together, when the bodies alone would carry `elastic_pressure` [Pa] at this
-  /// depth of overlap [m], > 0: the layer takes a part s of the depth, and both carry the same. Nothing where the bodies
-  /// pull. Of one patch or of several.
+  /// What the bodies and the layer carry together, when the bodies alone would carry
+  /// `elastic_pressure` [Pa] at this depth of overlap [m], > 0: the layer takes a part s of the
+  /// depth, and both carry the same. Nothing where the bodies pull. Of one patch or of several.
   template <typename Real>
   Real pressureInSeries(const Real& elastic_pressure, const Real& depth) const;
 
@@ -81,12 +83,14 @@ class ContactTraction {
 };
 
 template <typename Real>
-MEMS_STICTION_INLINE Real ContactTraction::pressureInSeries(const Real& elastic_pressure, const Real& depth) const {
+MEMS_STICTION_INLINE Real ContactTraction::pressureInSeries(const Real& elastic_pressure,
+                                                            const Real& depth) const {
   const Real pressure = greater(elastic_pressure, Real(0.0));
   if (!attracts()) return pressure;
-  // f(s) = layer(s) - pressure (1 - s/depth) rises from s = 0, where it is negative, ever more steeply: Newton's steps
-  // from the right come down to its zero without passing it. The layer alone would give way by more: with y = x^9 and
-  // y^(1/3) <= 1 + (y - 1)/3 by less than what y = 1 + 1.5 pressure/stress gives.
+  // f(s) = layer(s) - pressure (1 - s/depth) rises from s = 0, where it is negative, ever more
+  // steeply: Newton's steps from the right come down to its zero without passing it. The layer
+  // alone would give way by more: with y = x^9 and y^(1/3) <= 1 + (y - 1)/3 by less than what y = 1
+  // + 1.5 pressure/stress gives.
   const double range = law_.range();
   const Real tolerance = kBalance * select(depth < range, depth, Real(range));
   const Real stiffness = pressure / depth;

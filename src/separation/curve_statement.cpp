@@ -11,18 +11,20 @@ std::vector<UnusedSetting> CurveStatement::unusedSettings(const ContactSettings&
   std::vector<UnusedSetting> unused = {
       {"output/energy_curve"}, {"uncertainty/hardness"}, {"uncertainty/cutoff_distance"}};
   if (settings.interface.work_of_adhesion > 0.0 && settings.interface.hamaker_constant > 0.0) {
-    unused.push_back(
-        {"interface/equilibrium_distance", "work of adhesion and Hamaker constant tell the range of forces"});
+    unused.push_back({"interface/equilibrium_distance",
+                      "work of adhesion and Hamaker constant tell the range of forces"});
   }
   return unused;
 }
 
-ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion, bool are_thin) {
+ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion,
+                                  bool are_thin) {
   ModelStatement statement;
   statement.is_bound_where_bonded = false;
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
-  if (are_thin) {  // how far plates bend from contact to contact does not go by the flattening ratio
+  if (are_thin) {  // how far plates bend from contact to contact does not go by the flattening
+                   // ratio
     statement.doubt = "the bodies are thin, and the curve takes them as thick";
     statement.error = chosen::kDoubtError;
     return statement;
@@ -30,7 +32,8 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.doubt = solution.model.doubt;
   const double flattening_ratio = solution.flattening_energy / work_of_adhesion;
   if (statement.doubt == nullptr && !solution.is_conforming && flattening_ratio < 1.0) {
-    statement.doubt = "bonded surfaces have less energy than the contacts that were found on the way to them";
+    statement.doubt =
+        "bonded surfaces have less energy than the contacts that were found on the way to them";
   }
   const ModelError& of_doubt = solution.is_conforming ? chosen::kBondedError : chosen::kDoubtError;
   statement.error = statement.doubt == nullptr ? chosen::kSureError : of_doubt;

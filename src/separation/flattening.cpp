@@ -13,7 +13,8 @@ void StructureFunction::start(int length) {
   length_ = length;
   lags_.clear();
   const int longest = std::min(std::max(1, length / chosen::kLagsPerLine), length - 1);
-  for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * chosen::kNextLength))) {
+  for (int lag = 1; lag <= longest;
+       lag = std::max(lag + 1, static_cast<int>(lag * chosen::kNextLength))) {
     lags_.push_back({lag, 0.0, 0.0});
   }
 }
@@ -34,7 +35,8 @@ MEMS_STICTION_VECTORIZED void StructureFunction::add(const double* line) {
       count += oneWhere(is_known);
     };
     const std::size_t in_packets = pairs / Packet::kCount * Packet::kCount;
-    for (std::size_t i = 0; i < in_packets; i += Packet::kCount) take(Packet::load(far + i) - Packet::load(near + i));
+    for (std::size_t i = 0; i < in_packets; i += Packet::kCount)
+      take(Packet::load(far + i) - Packet::load(near + i));
     if (in_packets < pairs) {
       constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
       take(Packet::loadFirst(far + in_packets, pairs - in_packets, kUnknown) -
@@ -54,8 +56,8 @@ double StructureFunction::integral(double pitch) const {
     const double distance = lag.cells * pitch;
     const double value = lag.sum / lag.count;
     // S is a line over 1/r between two distances
-    sum +=
-        last_distance == 0.0 ? 0.5 * value / distance : 0.25 * (last + value) * (1.0 / last_distance - 1.0 / distance);
+    sum += last_distance == 0.0 ? 0.5 * value / distance
+                                : 0.25 * (last + value) * (1.0 / last_distance - 1.0 / distance);
     last_distance = distance;
     last = value;
   }
@@ -68,15 +70,18 @@ double FlatteningEnergy::of(const GapField& field, double contact_modulus) {
   });
 }
 
-double FlatteningEnergy::of(const GapField& field, const cv::Mat1d& raised, double contact_modulus) {
+double FlatteningEnergy::of(const GapField& field, const cv::Mat1d& raised,
+                            double contact_modulus) {
   const double* heights = raised.ptr<double>();
   return field.readGaps([&](const auto& gaps) {
-    return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell] + heights[cell]; });
+    return measure(field, contact_modulus,
+                   [&](std::ptrdiff_t cell) { return gaps[cell] + heights[cell]; });
   });
 }
 
 template <typename ReadCell>
-double FlatteningEnergy::measure(const GapField& field, double contact_modulus, const ReadCell& read) {
+double FlatteningEnergy::measure(const GapField& field, double contact_modulus,
+                                 const ReadCell& read) {
   const int rows = field.rows();
   const int cols = field.cols();
   const int row_step = std::max(1, rows / chosen::kLines);
@@ -84,24 +89,28 @@ double FlatteningEnergy::measure(const GapField& field, double contact_modulus, 
   along_rows_.start(cols);
   along_columns_.start(rows);
   row_.resize(static_cast<std::size_t>(cols));
-  // the columns are read row by row: a look at each row, which is a pass over memory, but in its order
+  // the columns are read row by row: a look at each row, which is a pass over memory, but in its
+  // order
   const int first_col = col_step / 2;
   const int columns = (cols - first_col + col_step - 1) / col_step;
   columns_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int row = 0; row < rows; ++row) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols + first_col;
     for (int i = 0; i < columns; ++i) {
-      columns_[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] =
+      columns_[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) +
+               static_cast<std::size_t>(row)] =
           read(first + static_cast<std::ptrdiff_t>(i) * col_step);
     }
   }
-  for (int i = 0; i < columns; ++i) along_columns_.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
+  for (int i = 0; i < columns; ++i)
+    along_columns_.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
   for (int row = row_step / 2; row < rows; row += row_step) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols;
     for (int col = 0; col < cols; ++col) row_[static_cast<std::size_t>(col)] = read(first + col);
     along_rows_.add(row_.data());
   }
-  const double both = along_rows_.integral(field.pitchX()) + along_columns_.integral(field.pitchY());
+  const double both =
+      along_rows_.integral(field.pitchX()) + along_columns_.integral(field.pitchY());
   const int directions = (cols > 1 ? 1 : 0) + (rows > 1 ? 1 : 0);
   return directions > 0 ? 0.25 * contact_modulus * both / directions : 0.0;
 }

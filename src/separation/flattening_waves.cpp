@@ -48,12 +48,15 @@ void FlatteningWaves::takeBlocks(const GapField& field) {
   line_.resize(static_cast<std::size_t>(field.cols()));
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, line_.data());
-    // of equal size but for rounding, so that the blocks are the cells of an image that cv::resize makes as large again
-    const auto block_row = static_cast<int>(static_cast<std::int64_t>(row) * blocks_.height / field.rows());
+    // of equal size but for rounding, so that the blocks are the cells of an image that cv::resize
+    // makes as large again
+    const auto block_row =
+        static_cast<int>(static_cast<std::int64_t>(row) * blocks_.height / field.rows());
     for (int col = 0; col < field.cols(); ++col) {
       const double gap = line_[static_cast<std::size_t>(col)];
       if (!(gap <= field.largestGap())) continue;
-      const auto block_col = static_cast<int>(static_cast<std::int64_t>(col) * blocks_.width / field.cols());
+      const auto block_col =
+          static_cast<int>(static_cast<std::int64_t>(col) * blocks_.width / field.cols());
       heights_(block_row, block_col) += field.meanGap() - gap;
       ++counts_(block_row, block_col);
     }
@@ -77,7 +80,8 @@ bool FlatteningWaves::repeatsItself() const {
 
 void FlatteningWaves::takeSpectrum() {
   frame_ = heights_;
-  if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
+  if (!repeatsItself())
+    cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
   cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
 }
 
@@ -91,13 +95,15 @@ double FlatteningWaves::takeLongWaves(cv::Size cells, double contact_modulus) {
       const double long_part = 1.0 / (1.0 + length * q * length * q);
       const double left = 1.0 - long_part;
       cv::Vec2d& wave = spectrum_(row, col);
-      sum += (wave[0] * wave[0] + wave[1] * wave[1]) * (0.25 * contact_modulus * q * (1.0 - left * left));
+      sum += (wave[0] * wave[0] + wave[1] * wave[1]) *
+             (0.25 * contact_modulus * q * (1.0 - left * left));
       wave *= long_part;
     }
   }
   const auto waves = static_cast<double>(spectrum_.total());
   cv::dft(spectrum_, long_frame_, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-  cv::resize(long_frame_(cv::Rect({0, 0}, blocks_)), long_heights_, cells, 0.0, 0.0, cv::INTER_LINEAR);
+  cv::resize(long_frame_(cv::Rect({0, 0}, blocks_)), long_heights_, cells, 0.0, 0.0,
+             cv::INTER_LINEAR);
   return sum / (waves * waves);
 }
 

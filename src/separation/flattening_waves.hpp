@@ -5,11 +5,11 @@
 ///
 ///     U/A = (E/4) sum |q| |h_q|^2
 ///
-/// Each wave has its direction here. Lines along rows and columns see 0.79 of grooves along one of them
-/// and 1.11 of diagonal ones, and no waves that are long against the frame. Heights are means over
-/// blocks, 512 along a side at most; what is short against a block has no direction and is told by
-/// lines. Cells without a height lie at the mean. The frame repeats itself where its opposite edges
-/// differ by no more than its rms height, and is mirrored where they differ by more.
+/// Each wave has its direction here. Lines along rows and columns see 0.79 of grooves along one of
+/// them and 1.11 of diagonal ones, and no waves that are long against the frame. Heights are means
+/// over blocks, 512 along a side at most; what is short against a block has no direction and is
+/// told by lines. Cells without a height lie at the mean. The frame repeats itself where its
+/// opposite edges differ by no more than its rms height, and is mirrored where they differ by more.
 
 #include <vector>
 

@@ -56,8 +56,9 @@ struct Borne {
   double rising = 0.0;
 };
 
-MEMS_STICTION_VECTORIZED Borne borneAt(double displacement, double stiffness, double hardness, const double* rises,
-                                       const double* pressures, std::size_t count) {
+MEMS_STICTION_VECTORIZED Borne borneAt(double displacement, double stiffness, double hardness,
+                                       const double* rises, const double* pressures,
+                                       std::size_t count) {
   Borne borne;
   for (std::size_t i = 0; i < count; ++i) {
     const double pressure = pressures[i] + stiffness * (displacement - rises[i]);
@@ -92,22 +93,27 @@ std::vector<FlowingPlaces::Between> FlowingPlaces::betweenBlocks(int cells, int 
     const double place = (cell + 0.5) * blocks / cells - 0.5;
     const double before = std::floor(place);
     const int block = static_cast<int>(before);
-    between[static_cast<std::size_t>(cell)] = {(block + blocks) % blocks, (block + 1) % blocks, place - before};
+    between[static_cast<std::size_t>(cell)] = {(block + blocks) % blocks, (block + 1) % blocks,
+                                               place - before};
   }
   return between;
 }
 
 void FlowingPlaces::takeBlocks(const GapField& field, double contact_modulus, int cells_per_side) {
-  const cv::Size blocks(blocksOf(field.cols(), cells_per_side), blocksOf(field.rows(), cells_per_side));
+  const cv::Size blocks(blocksOf(field.cols(), cells_per_side),
+                        blocksOf(field.rows(), cells_per_side));
   rows_ = betweenBlocks(field.rows(), blocks.height);
   cols_ = betweenBlocks(field.cols(), blocks.width);
   is_by_cell_ = blocks.width == field.cols() && blocks.height == field.rows();
   cells_per_block_ = static_cast<double>(field.cellCount()) / blocks.area();
-  packedCompliance(blocks, field.cols() * field.pitchX(), field.rows() * field.pitchY(), contact_modulus, compliance_);
+  packedCompliance(blocks, field.cols() * field.pitchX(), field.rows() * field.pitchY(),
+                   contact_modulus, compliance_);
   // the mean of 2/(E q) over the waves from those of blocks to those of cells
   const double pitch = std::sqrt(field.cellArea());
   short_compliance_ =
-      is_by_cell_ ? 0.0 : 4.0 * pitch / (kPi * contact_modulus * (1.0 + 1.0 / std::sqrt(cells_per_block_)));
+      is_by_cell_
+          ? 0.0
+          : 4.0 * pitch / (kPi * contact_modulus * (1.0 + 1.0 / std::sqrt(cells_per_block_)));
 }
 
 void FlowingPlaces::spread(const std::vector<double>& pressures) {
@@ -165,7 +171,8 @@ double FlowingPlaces::displacement(double stiffness) const {
   }
   double displacement = 0.5 * (low + high);
   for (int search = 0; search < kMostHalvings; ++search) {
-    const Borne borne = borneAt(displacement, stiffness, hardness_, rises_.data(), pressures_.data(), rises_.size());
+    const Borne borne = borneAt(displacement, stiffness, hardness_, rises_.data(),
+                                pressures_.data(), rises_.size());
     const double lack = total_ - borne.sum;
     if (std::abs(lack) <= kLoadBalance * total_) break;
     (lack > 0.0 ? low : high) = displacement;
@@ -250,7 +257,8 @@ bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, con
   if (!(total_ > 0.0) || !(total_ < hardness_ * static_cast<double>(gaps_.size()))) return false;
   compliance_of_law_ = law.closingUnder(hardness_) / hardness_;
   takeBlocks(field, press.contact_modulus, chosen::kFlowBlock);
-  const double stiffness = solve(press.contact_modulus / (kSinkOfCell * std::sqrt(field.cellArea())));
+  const double stiffness =
+      solve(press.contact_modulus / (kSinkOfCell * std::sqrt(field.cellArea())));
   takeBlocks(field, press.contact_modulus, 1);
   yield(pressures_, yields_);
   for (std::size_t i = 0; i < gaps_.size(); ++i) rises_[i] = gaps_[i] + yields_[i];

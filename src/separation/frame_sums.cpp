@@ -31,9 +31,12 @@ PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range()}; }
 }  // namespace
 
 CellsMissing::CellsMissing(double gap)
-    : Error("cells with gaps up to " + numberText(gap) + " m come in reach and are not in the frame"), gap_(gap) {}
+    : Error("cells with gaps up to " + numberText(gap) +
+            " m come in reach and are not in the frame"),
+      gap_(gap) {}
 
-void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far, bool flows) {
+void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
+                      bool flows) {
   field_ = &field;
   far_ = far;
   settings_ = &settings;
@@ -48,8 +51,9 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings, co
   pyramid_.prepare(order_);
   // if the limit lies beyond the frame, cells will be missing before it is reached
   const std::int64_t limit = contactLimit();
-  approach_before_limit_ = limit <= field.validCount() ? order_.lowerEndAt(static_cast<int>(limit - 1))
-                                                       : std::numeric_limits<double>::infinity();
+  approach_before_limit_ = limit <= field.validCount()
+                               ? order_.lowerEndAt(static_cast<int>(limit - 1))
+                               : std::numeric_limits<double>::infinity();
   const double farthest = approach_before_limit_ + order_.bucketWidth() + law().range();
   most_fraction_ = std::min(1.0, order_.cellsBelow(farthest) / field.validCount());
   startSweeps();
@@ -75,7 +79,8 @@ void FrameSums::mark() {
   has_mark_ = true;
 }
 
-void FrameSums::sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked, const OverlapSweep* ahead) {
+void FrameSums::sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked,
+                        const OverlapSweep* ahead) {
   const double wanted = std::max(approach, 0.0);  // no gap is below 0
   if (sweep.approach() > wanted) {
     if (has_mark_ && marked.approach() <= wanted) {
@@ -109,15 +114,18 @@ void FrameSums::extend(double fraction) {
 void FrameSums::orderUpTo(double approach, double expected) {
   if (far_ != nullptr && approach > far_->first()) throw CellsMissing(approach);
   while (!isOrderedUpTo(approach)) {
-    const double more = std::max(kMoreCells * ordered_fraction_, order_.cellsBelow(expected) / field_->validCount());
+    const double more = std::max(kMoreCells * ordered_fraction_,
+                                 order_.cellsBelow(expected) / field_->validCount());
     // the curve ends at the limit of contact, but for the step that passes it
-    extend(ordered_fraction_ < most_fraction_ ? std::min(more, most_fraction_) : std::min(more, 1.0));
+    extend(ordered_fraction_ < most_fraction_ ? std::min(more, most_fraction_)
+                                              : std::min(more, 1.0));
   }
 }
 
 std::int64_t FrameSums::contactLimit() const {
   const std::int64_t valid_count = validCount();
-  const double wanted = std::ceil(settings_->approach.max_contact_fraction * static_cast<double>(valid_count));
+  const double wanted =
+      std::ceil(settings_->approach.max_contact_fraction * static_cast<double>(valid_count));
   return std::clamp(static_cast<std::int64_t>(wanted), std::int64_t{1}, valid_count);
 }
 
@@ -127,7 +135,8 @@ double FrameSums::limitApproach() {
   if (static_cast<int>(order_.cells().size()) < count) extend(most_fraction_);
   order_.sortBetween(count - 1, count);
   // the next number: cells with just this gap are in
-  return std::nextafter(order_.cells()[static_cast<std::size_t>(count - 1)].gap, GapField::kInvalidGap);
+  return std::nextafter(order_.cells()[static_cast<std::size_t>(count - 1)].gap,
+                        GapField::kInvalidGap);
 }
 
 PlaceSums FrameSums::reach(double approach, double hold, double expected_end) {
@@ -146,14 +155,17 @@ void FrameSums::add(double approach, double hold, PlaceSums& sums) {
   const Attraction attraction = attractionAt(law(), approach, hold);
   sums.adhesion += attraction.adhesion;
   sums.electrostatic += attraction.electrostatic;
-  sums.capillary += capillaryForce(order_, approach, contacts.cellCount(), water_, field_->cellArea());
+  sums.capillary +=
+      capillaryForce(order_, approach, contacts.cellCount(), water_, field_->cellArea());
   if (far_ != nullptr && water_.isOn()) {
-    sums.capillary += far_->cellsBelow(approach + water_.gapLimit()) * (water_.pressure() * field_->cellArea());
+    sums.capillary +=
+        far_->cellsBelow(approach + water_.gapLimit()) * (water_.pressure() * field_->cellArea());
   }
 }
 
-MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law, const OrderedCell* cells,
-                                                  std::size_t count, double approach, Attraction& sum) const {
+MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law,
+                                                  const OrderedCell* cells, std::size_t count,
+                                                  double approach, Attraction& sum) const {
   const FieldLaw& voltage = *voltage_;
   Packet adhesion = 0.0;
   Packet field = 0.0;
@@ -170,7 +182,8 @@ MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law, co
   }
 }
 
-MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const ContactTraction& law, double approach,
+MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const ContactTraction& law,
+                                                                         double approach,
                                                                          int contact_count) const {
   const FieldLaw& voltage = *voltage_;
   Attraction sum;
@@ -183,7 +196,10 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
   };
   pyramid_.visit(
       approach, contact_count, ruleOf(law),
-      [&](const OrderedCell* cells, std::size_t count) { addCells(law, cells, count, approach, sum); }, add_moments);
+      [&](const OrderedCell* cells, std::size_t count) {
+        addCells(law, cells, count, approach, sum);
+      },
+      add_moments);
   if (far_ != nullptr) std::for_each(far_->moments().begin(), far_->moments().end(), add_moments);
   const double cell_area = field_->cellArea();
   sum.adhesion *= cell_area;
@@ -192,11 +208,13 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
   return sum;
 }
 
-FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double approach, double hold) {
+FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double approach,
+                                              double hold) {
   Attraction attraction = attractionOver(law, approach, overlappingAt(approach));
   if (hold > 0.0) {
     const double longest = approach + hold;
-    attraction.adhesion = std::max(attraction.adhesion, attractionOver(law, longest, overlappingAt(longest)).adhesion);
+    attraction.adhesion = std::max(attraction.adhesion,
+                                   attractionOver(law, longest, overlappingAt(longest)).adhesion);
   }
   return attraction;
 }
@@ -219,7 +237,8 @@ double FrameSums::energyAt(const ContactTraction& law, double approach) {
 }
 
 double FrameSums::hamakerExponentOfForce(double approach, double hold) {
-  return exponentOf(attractionAt(*wider_law_, approach, hold).adhesion, attractionAt(law(), approach, hold).adhesion);
+  return exponentOf(attractionAt(*wider_law_, approach, hold).adhesion,
+                    attractionAt(law(), approach, hold).adhesion);
 }
 
 double FrameSums::hamakerExponentOfEnergy(double approach) {

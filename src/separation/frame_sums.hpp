@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// The sums over the places of one frame (place_sums.hpp), at any displacement and in any order; or of an area, whose frame holds
-/// the highest cells alone (approach/cell_islands.hpp), and what lies below them is known by its gaps (approach/far_gaps.hpp).
+/// The sums over the places of one frame (place_sums.hpp), at any displacement and in any order; or
+/// of an area, whose frame holds the highest cells alone (approach/cell_islands.hpp), and what lies
+/// below them is known by its gaps (approach/far_gaps.hpp).
 ///
-/// Cells come in by sweeps that move forward; a call that goes back starts them anew, or from mark().
+/// Cells come in by sweeps that move forward; a call that goes back starts them anew, or from
+/// mark().
 
 #include <cstdint>
 #include <optional>
@@ -23,7 +25,8 @@
 
 namespace mems_stiction {
 
-/// Cells come in reach that are not in the frame. Whoever follows an area's curve goes on with more of its cells.
+/// Cells come in reach that are not in the frame. Whoever follows an area's curve goes on with more
+/// of its cells.
 class CellsMissing : public Error {
  public:
   explicit CellsMissing(double gap);
@@ -38,22 +41,26 @@ class CellsMissing : public Error {
 class FrameSums {
  public:
   /// Field, settings and gaps must outlive the object's use.
-  /// - @p far gaps of the cells that are not in the frame, if there are any. Every call then throws CellsMissing where they would
+  /// - @p far gaps of the cells that are not in the frame, if there are any. Every call then throws
+  /// CellsMissing where they would
   ///   come in reach.
   /// - @p flows whether the hardness limits what patches carry
-  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr, bool flows = true);
+  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr,
+             bool flows = true);
 
   /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
-  /// - @p expected_end where the displacements will probably end [m]: so many cells are put in order at once when there are
+  /// - @p expected_end where the displacements will probably end [m]: so many cells are put in
+  /// order at once when there are
   ///   not enough
   PlaceSums reach(double approach, double hold, double expected_end = 0.0);
-  /// Adds the sums over cells and patches that overlap. Attraction counts as if the surfaces were `hold` [m] closer where that
-  /// is more.
+  /// Adds the sums over cells and patches that overlap. Attraction counts as if the surfaces were
+  /// `hold` [m] closer where that is more.
   void add(double approach, double hold, PlaceSums& sums);
-  /// What taking the surfaces apart would cost if they only attracted each other, w summed over the cells [J].
+  /// What taking the surfaces apart would cost if they only attracted each other, w summed over the
+  /// cells [J].
   double energy(double approach) { return energyAt(law(), approach); }
-  /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger one widens the law's range, which
-  /// pulls more over wide gaps and less near contacts.
+  /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger
+  /// one widens the law's range, which pulls more over wide gaps and less near contacts.
   double hamakerExponentOfForce(double approach, double hold);
   double hamakerExponentOfEnergy(double approach);
 
@@ -63,8 +70,10 @@ class FrameSums {
   /// Cells of the order that overlap come first.
   const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
 
-  /// From here on these are the sums of surfaces that have been changed where they overlap, which do not flow any more.
-  /// - @p changed called with (ordered cell): its gap from now on, below the approach [m]; within a patch the order of the
+  /// From here on these are the sums of surfaces that have been changed where they overlap, which
+  /// do not flow any more.
+  /// - @p changed called with (ordered cell): its gap from now on, below the approach [m]; within a
+  /// patch the order of the
   ///   gaps has not changed
   template <typename Changed>
   void change(double approach, const Changed& changed);
@@ -75,11 +84,15 @@ class FrameSums {
   const PatchForces& patchForces() const { return *patch_forces_; }
   const ContactTraction& law() const { return patch_forces_->law(); }
   /// Number of valid cells.
-  std::int64_t validCount() const { return field_->validCount() + (far_ != nullptr ? far_->count() : 0); }
+  std::int64_t validCount() const {
+    return field_->validCount() + (far_ != nullptr ? far_->count() : 0);
+  }
   /// Of the valid cells [m^2].
   double area() const { return static_cast<double>(validCount()) * field_->cellArea(); }
   /// Sum of the gaps of the valid cells at first touch [m].
-  double gapSum() const { return field_->meanGap() * field_->validCount() + (far_ != nullptr ? far_->gapSum() : 0.0); }
+  double gapSum() const {
+    return field_->meanGap() * field_->validCount() + (far_ != nullptr ? far_->gapSum() : 0.0);
+  }
   /// Number of cells with a smaller gap, in order or not, of the field alone.
   double cellsBelow(double approach) const { return order_.cellsBelow(approach); }
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
@@ -88,8 +101,8 @@ class FrameSums {
   double approachBeforeLimit() const { return approach_before_limit_; }
   /// Where it is reached [m].
   double limitApproach();
-  /// Whether the sums at an approach, without a hold, take no more cells in order than there are. Which there are shows in the last
-  /// digits of all sums.
+  /// Whether the sums at an approach, without a hold, take no more cells in order than there are.
+  /// Which there are shows in the last digits of all sums.
   bool hasInOrder(double approach) const { return isOrderedUpTo(approach + law().range()); }
 
  private:
@@ -100,7 +113,8 @@ class FrameSums {
 
   void startSweeps();
   /// Forward, or back and forward.
-  void sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked, const OverlapSweep* ahead);
+  void sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked,
+               const OverlapSweep* ahead);
   bool isOrderedUpTo(double gap) const {
     return gap < order_.groupLowerEnd(order_.groupCount()) || ordered_fraction_ >= 1.0;
   }
@@ -110,8 +124,8 @@ class FrameSums {
   void takeChangedGaps(double approach);
   /// Brings the cells that overlap to the front of the order.
   int overlappingAt(double approach) { return approach > 0.0 ? order_.sortBelow(approach) : 0; }
-  void addCells(const ContactTraction& law, const OrderedCell* cells, std::size_t count, double approach,
-                Attraction& sum) const;
+  void addCells(const ContactTraction& law, const OrderedCell* cells, std::size_t count,
+                double approach, Attraction& sum) const;
   /// Over the cells, the first `contact_count` ordered ones of which overlap.
   Attraction attractionOver(const ContactTraction& law, double approach, int contact_count) const;
   Attraction attractionAt(const ContactTraction& law, double approach, double hold);
@@ -121,7 +135,8 @@ class FrameSums {
   const FarGaps* far_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   std::optional<PatchForces> patch_forces_;
-  std::optional<ContactTraction> wider_law_;  ///< with a Hamaker constant that is larger by kMoreHamaker
+  std::optional<ContactTraction>
+      wider_law_;  ///< with a Hamaker constant that is larger by kMoreHamaker
   std::optional<FieldLaw> voltage_;
   WaterLaw water_;
   double approach_before_limit_ = 0.0;
@@ -142,7 +157,8 @@ template <typename Changed>
 void FrameSums::change(double approach, const Changed& changed) {
   const int count = contactsAt(approach).cellCount();
   changed_gaps_.resize(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < changed_gaps_.size(); ++i) changed_gaps_[i] = changed(order_.cells()[i]);
+  for (std::size_t i = 0; i < changed_gaps_.size(); ++i)
+    changed_gaps_[i] = changed(order_.cells()[i]);
   takeChangedGaps(approach);
 }
 

@@ -41,13 +41,14 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep
       for (int place = inserted_; place < end; ++place) {
         const OrderedCell& later = cells[std::min(place + kCellsAhead, count - 1)];
         const std::int32_t its_place = livePlace(patchOf(later));
-        if (its_place != kNone) __builtin_prefetch(&patches_[static_cast<std::size_t>(its_place)], 1);
+        if (its_place != kNone)
+          __builtin_prefetch(&patches_[static_cast<std::size_t>(its_place)], 1);
       }
     }
     // the same cells in the same order meet in the same places
     const bool is_known = ahead != nullptr && ahead->inserted_ >= end;
-    const bool has_meeting =
-        is_known ? ahead->has_meeting_[static_cast<std::size_t>(group)] != 0 : patchesMeetBefore(end, order);
+    const bool has_meeting = is_known ? ahead->has_meeting_[static_cast<std::size_t>(group)] != 0
+                                      : patchesMeetBefore(end, order);
     if (has_meeting) {
       has_meeting_[static_cast<std::size_t>(group)] = 1;
       order.sortBetween(inserted_, end);
@@ -73,7 +74,8 @@ bool OverlapSweep::patchesMeetBefore(int end, const GapOrder& order) const {
     if (!ordered.tag.isBorder()) continue;
     const std::int32_t id = patchOf(ordered);
     for (const Side side : kSides) {
-      if (ordered.tag.isBorderAt(side) && joined_.patchOf(dales[ordered.cell + steps[side]]) != id) return true;
+      if (ordered.tag.isBorderAt(side) && joined_.patchOf(dales[ordered.cell + steps[side]]) != id)
+        return true;
     }
   }
   return false;
@@ -117,7 +119,8 @@ std::int32_t OverlapSweep::join(std::int32_t id, const OrderedCell& ordered) {
       for (const Side horizontal : {kLeft, kRight}) {
         const GridCell corner = beside.neighbour(horizontal, cols);
         if (!field_->contains(corner)) continue;
-        if (comesBefore(field_->gap(corner.index), corner.index, ordered.gap, ordered.cell)) meet(corner);
+        if (comesBefore(field_->gap(corner.index), corner.index, ordered.gap, ordered.cell))
+          meet(corner);
       }
     }
   }
@@ -134,7 +137,8 @@ std::int32_t OverlapSweep::unite(std::int32_t a, std::int32_t b, double gap) {
     live_place_[static_cast<std::size_t>(a)] = place;
     return a;
   }
-  patches_[static_cast<std::size_t>(surviving_place)].merge(patches_[static_cast<std::size_t>(place)], gap);
+  patches_[static_cast<std::size_t>(surviving_place)].merge(
+      patches_[static_cast<std::size_t>(place)], gap);
   live_[static_cast<std::size_t>(place)] = live_.back();
   patches_[static_cast<std::size_t>(place)] = patches_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;

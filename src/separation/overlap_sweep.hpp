@@ -1,9 +1,10 @@
 #pragma once
 
 /// @file
-/// Which cells overlap at an approach, and to which patches do they belong? Cells come in in order of gap; each joins the
-/// patch of its dale, and where dales meet, so do patches. A step costs only the cells that it adds. A cell asks nothing
-/// of its neighbours unless it lies where dales meet, and cells are put in order one by one only where patches meet.
+/// Which cells overlap at an approach, and to which patches do they belong? Cells come in in order
+/// of gap; each joins the patch of its dale, and where dales meet, so do patches. A step costs only
+/// the cells that it adds. A cell asks nothing of its neighbours unless it lies where dales meet,
+/// and cells are put in order one by one only where patches meet.
 
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,8 @@ class OverlapSweep {
 
   /// Brings the ordered cells with a gap below `approach` [m] in.
   /// - @p order built with the dales
-  /// - @p ahead a sweep of the same order that may have taken these cells already: it knows where patches meet
+  /// - @p ahead a sweep of the same order that may have taken these cells already: it knows where
+  /// patches meet
   /// @return how many are in
   int advanceTo(double approach, GapOrder& order, const OverlapSweep* ahead = nullptr);
 
@@ -38,13 +40,19 @@ class OverlapSweep {
   /// The patches of livePatches(), in their order.
   const std::vector<OverlapPatch>& patches() const { return patches_; }
   /// - @p id of a live patch
-  const OverlapPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(livePlace(id))]; }
+  const OverlapPatch& patch(std::int32_t id) const {
+    return patches_[static_cast<std::size_t>(livePlace(id))];
+  }
   /// Place of a live patch in livePatches().
-  std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
+  std::int32_t livePlace(std::int32_t id) const {
+    return live_place_[static_cast<std::size_t>(id)];
+  }
   /// Patch that holds a cell, or -1.
   std::int32_t patchOf(int cell);
   /// Patch that holds a cell of the order that is in.
-  std::int32_t patchOf(const OrderedCell& ordered) const { return joined_.patchOf(ordered.tag.dale()); }
+  std::int32_t patchOf(const OrderedCell& ordered) const {
+    return joined_.patchOf(ordered.tag.dale());
+  }
 
  private:
   static constexpr std::int32_t kNone = -1;

@@ -6,18 +6,21 @@
 
 #include "mechanics/transition.hpp"
 #include "numeric/constants.hpp"
-#include "numeric/packet_functions.hpp"
 #include "numeric/packet.hpp"
+#include "numeric/packet_functions.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the overlapped area.
+/// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the
+/// overlapped area.
 constexpr double kFlowOnset = 1.0 / 3.0;
 /// Growth of the area of a cone with its depth, A ~ delta^m: no summit is sharper.
 constexpr double kGrowthOfCone = 2.0;
-/// lambda over Tabor's parameter, (S8): Maugis' stress is the law's mean one, by the work that it does, 0.548 Gamma/z0.
-const double kMaugisPerTabor = std::cbrt(9.0 / (2.0 * kPi)) * 64.0 / 9.0 * (1.0 / 5.0 - 2.0 / 11.0 + 1.0 / 17.0);
+/// lambda over Tabor's parameter, (S8): Maugis' stress is the law's mean one, by the work that it
+/// does, 0.548 Gamma/z0.
+const double kMaugisPerTabor =
+    std::cbrt(9.0 / (2.0 * kPi)) * 64.0 / 9.0 * (1.0 / 5.0 - 2.0 / 11.0 + 1.0 / 17.0);
 /// Overlap of a patch that round-off has left none [m].
 constexpr double kLeastDepth = std::numeric_limits<double>::min();
 /// Pressure of patches that round-off has left none [Pa].
@@ -25,7 +28,8 @@ constexpr double kLeastPressure = std::numeric_limits<double>::min();
 /// lambda^1.4 of lambda^3
 constexpr double kPowerOfCube = 1.4 / 3.0;
 
-/// Some patches of a sweep by figure, for passes in packets; behind the last one there are patches of one cell and weight 0.
+/// Some patches of a sweep by figure, for passes in packets; behind the last one there are patches
+/// of one cell and weight 0.
 struct PatchBlock {
   static constexpr std::size_t kMost = 64;
   static_assert(kMost % Packet::kCount == 0, "packet end where a block does");
@@ -60,18 +64,20 @@ struct PatchBlock {
 
 /// P/(Ha A) with flow, of x = P/(Ha A) without, x beyond the onset [-].
 MEMS_STICTION_INLINE Packet flowedFullness(const Packet& fullness) {
-  // Under a pressure Ha everywhere the edge of the contact sinks in by (4/pi) Ha a/E, and what touches is that much
-  // less than the overlap: y + b sqrt(y) = 1 for y = P/(Ha A), b = 8 sqrt(2)/(3 pi^2)/fullness = 0.382/fullness; with
-  // 0.385 the curve has no step at the onset.
+  // Under a pressure Ha everywhere the edge of the contact sinks in by (4/pi) Ha a/E, and what
+  // touches is that much less than the overlap: y + b sqrt(y) = 1 for y = P/(Ha A), b = 8
+  // sqrt(2)/(3 pi^2)/fullness = 0.382/fullness; with 0.385 the curve has no step at the onset.
   const Packet b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
   const Packet root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
   return root * root;
 }
 
-/// 1 - m of a top whose area grows as A ~ delta^m with the depth: 0 of a paraboloid and of all that is sharper, 1 of a punch.
+/// 1 - m of a top whose area grows as A ~ delta^m with the depth: 0 of a paraboloid and of all that
+/// is sharper, 1 of a punch.
 /// - @p depth of its deepest cell [m]
 /// - @p mean_depth V/A [m], depth/(m + 1)
-MEMS_STICTION_INLINE Packet flatnessOf(const Packet& cells, const Packet& depth, const Packet& mean_depth) {
+MEMS_STICTION_INLINE Packet flatnessOf(const Packet& cells, const Packet& depth,
+                                       const Packet& mean_depth) {
   // the summit lies half a cell's share of the depth above the deepest cell
   const Packet growth = depth / mean_depth * cells / (cells - 0.5) - 1.0;
   // n cells tell m within 1/sqrt(n), one cell nothing: what may be a paraboloid is one
@@ -90,15 +96,19 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   hardness_ = can_flow ? pair.hardness : std::numeric_limits<double>::infinity();
   load_factor_ = 0.6 * contact_modulus_ * std::sqrt(kPi * cell_area);
   const double strain = law_.workOfAdhesion() / (contact_modulus_ * law_.range());
-  // a flat punch of this radius, sqrt(8 pi E Gamma a^3), holds what the strength s of the law does, pi a^2 s
-  flaw_length_ = law_.attracts()
-                     ? 8.0 / kPi * contact_modulus_ * law_.workOfAdhesion() / (law_.strength() * law_.strength())
-                     : std::numeric_limits<double>::infinity();
-  maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
+  // a flat punch of this radius, sqrt(8 pi E Gamma a^3), holds what the strength s of the law does,
+  // pi a^2 s
+  flaw_length_ = law_.attracts() ? 8.0 / kPi * contact_modulus_ * law_.workOfAdhesion() /
+                                       (law_.strength() * law_.strength())
+                                 : std::numeric_limits<double>::infinity();
+  maugis_factor_ =
+      kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
 }
 
-MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Packet& cells, const Packet& gap_sum,
-                                                             const Packet& merged_term, double approach) const {
+MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Packet& cells,
+                                                             const Packet& gap_sum,
+                                                             const Packet& merged_term,
+                                                             double approach) const {
   const Packet area = cells * cell_area_;
   const Packet load_term = merged_term + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
@@ -113,7 +123,8 @@ MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Packet& cells
   const Packet fullness = loads.elastic / capacity;
   const PacketMask flows = fullness > kFlowOnset;
   if (isAnywhere(flows)) {
-    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Packet(kFlowOnset))), loads.elastic);
+    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Packet(kFlowOnset))),
+                           loads.elastic);
   }
   return loads;
 }
@@ -130,16 +141,19 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
       const Packet gap_sum = Packet::load(block.gap_sum + i);
       const Loads found = loadsOf(cells, gap_sum, Packet::load(block.merged_term + i), approach);
       const Packet depth = greater(approach - gap_sum / cells, Packet(kLeastDepth));
-      const Packet flatness = flatnessOf(cells, approach - Packet::load(block.first_gap + i), depth);
-      for (std::size_t element = 0; element < Packet::kCount && place + i + element < count; ++element) {
-        loads[place + i + element] = {found.elastic[element], found.carried[element], found.layer_share[element], flatness[element]};
+      const Packet flatness =
+          flatnessOf(cells, approach - Packet::load(block.first_gap + i), depth);
+      for (std::size_t element = 0; element < Packet::kCount && place + i + element < count;
+           ++element) {
+        loads[place + i + element] = {found.elastic[element], found.carried[element],
+                                      found.layer_share[element], flatness[element]};
       }
     }
   }
 }
 
-MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& contacts, double approach,
-                                                       PlaceSums& sums) const {
+MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& contacts,
+                                                       double approach, PlaceSums& sums) const {
   Packet carried = 0.0;
   Packet opened = 0.0;
   PatchBlock block;
@@ -153,8 +167,8 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
       carried += weight * loads.carried;
       if (!law_.attracts()) continue;
       // A grows as delta^m, and V/A is delta/(m + 1)
-      const Packet depth =
-          greater(approach - gap_sum / cells, Packet(std::numeric_limits<double>::epsilon() * law_.range()));
+      const Packet depth = greater(approach - gap_sum / cells,
+                                   Packet(std::numeric_limits<double>::epsilon() * law_.range()));
       const Packet delta = greater(approach - Packet::load(block.first_gap + i), depth);
       Packet growth = greater(delta / depth - 1.0, Packet(1.0));
       growth = select(growth < kGrowthOfCone, growth, Packet(kGrowthOfCone));
@@ -168,7 +182,8 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
 }
 
 double PatchForces::pullOffPrefactor(double radius) const {
-  return maugis::fittedPullOffPrefactorOfPower(power(Packet(maugis_factor_ * radius), kPowerOfCube)[0]);
+  return maugis::fittedPullOffPrefactorOfPower(
+      power(Packet(maugis_factor_ * radius), kPowerOfCube)[0]);
 }
 
 MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach, double approach,
@@ -187,7 +202,8 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
     for (std::size_t i = 0; i < block.count; i += Packet::kCount) {
       const Packet cells = Packet::load(block.cells + i);
       const Packet first_gap = Packet::load(block.first_gap + i);
-      const Packet overlap = greater(reach - Packet::load(block.gap_sum + i) / cells, Packet(kLeastDepth));
+      const Packet overlap =
+          greater(reach - Packet::load(block.gap_sum + i) / cells, Packet(kLeastDepth));
       const Packet depth = overlap + law_.strongestGap();
       const Packet radius = cells * cell_area_ / (4.0 * kPi * depth);
       const Packet distance = greater(first_gap - approach, Packet(0.0));

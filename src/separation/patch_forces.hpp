@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// What patches carry, one and all, and what the bending of their summits and their edges take from the attraction:
-/// equations (S4) to (S8c) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
+/// What patches carry, one and all, and what the bending of their summits and their edges take from
+/// the attraction: equations (S4) to (S8c) of doc/separation_curve.md. Sums over the patches of a
+/// sweep take four at a time.
 
 #include <vector>
 
@@ -40,7 +41,8 @@ class PatchForces {
   void loadsOf(const OverlapSweep& contacts, double approach, std::vector<PatchLoad>& loads) const;
   /// Adds what all patches of a sweep carry and open.
   void addContacts(const OverlapSweep& contacts, double approach, PlaceSums& sums) const;
-  /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
+  /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR
+  /// (1.5).
   double pullOffPrefactor(double radius) const;
   /// Adds the sums of (S7) and (S8c).
   /// - @p in_reach the patches of the surfaces brought z0 closer, or more
@@ -54,7 +56,8 @@ class PatchForces {
     Packet layer_share;
   };
   /// By number of cells, sum of their gaps [m] and P0 [m].
-  Loads loadsOf(const Packet& cells, const Packet& gap_sum, const Packet& merged_term, double approach) const;
+  Loads loadsOf(const Packet& cells, const Packet& gap_sum, const Packet& merged_term,
+                double approach) const;
 
   ContactTraction law_;
   double cell_area_;

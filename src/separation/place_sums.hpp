@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// All that the separation curve takes from a frame: sums over places at one displacement of the upper surface.
+/// All that the separation curve takes from a frame: sums over places at one displacement of the
+/// upper surface.
 ///
-/// Sums of two surfaces, or of two tiles of one at the same height, are added by `+=`; what follows from them is that of both
-/// together. FrameSums (frame_sums.hpp) makes them of one frame; separation_curve.cpp makes forces of them.
+/// Sums of two surfaces, or of two tiles of one at the same height, are added by `+=`; what follows
+/// from them is that of both together. FrameSums (frame_sums.hpp) makes them of one frame;
+/// separation_curve.cpp makes forces of them.
 
 namespace mems_stiction {
 

@@ -18,13 +18,15 @@ constexpr double kLeastTrust = 1e-6;
 
 /// Heights at the frame's ends that a change of slopes makes [m].
 double heightOf(const PlaneSlopes& change, const GapField& field) {
-  return 0.5 *
-         (std::abs(change.x) * field.cols() * field.pitchX() + std::abs(change.y) * field.rows() * field.pitchY());
+  return 0.5 * (std::abs(change.x) * field.cols() * field.pitchX() +
+                std::abs(change.y) * field.rows() * field.pitchY());
 }
 
 }  // namespace
 
-double PlateTilt::Balance::share() const { return largest > 0.0 ? std::hypot(x, y) / largest : 0.0; }
+double PlateTilt::Balance::share() const {
+  return largest > 0.0 ? std::hypot(x, y) / largest : 0.0;
+}
 
 void PlateTilt::tiltTo(const GapField& level, const PlaneSlopes& slopes) {
   plane_.create(level.rows(), level.cols());
@@ -125,7 +127,8 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
   const std::optional<PlaneSlopes> support = supportPlane(level);
   if (!support) {
     throw SurfaceError(
-        "device/guidance: free: no three places surround the middle of the frame, on which a plate could rest");
+        "device/guidance: free: no three places surround the middle of the frame, on which a plate "
+        "could rest");
   }
   line_.resize(static_cast<std::size_t>(level.cols()));
   slopes_ = *support;
@@ -145,7 +148,8 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
     const double shorter = std::min(1.0, trust / length);
     const PlaneSlopes next{slopes_.x + shorter * step.x, slopes_.y + shorter * step.y};
     const Balance there = balanceAt(level, next, settings);
-    // energy falls along the step as long as the moments go with it: a plate on two contacts tips until a third one carries
+    // energy falls along the step as long as the moments go with it: a plate on two contacts tips
+    // until a third one carries
     is_here = there.share() < balance.share() || there.x * step.x + there.y * step.y > 0.0;
     if (is_here) {
       slopes_ = next;

@@ -1,13 +1,16 @@
 #pragma once
 
 /// @file
-/// A plate that may tilt comes to rest where the moments of all that pushes and pulls vanish about its middle, where the load acts.
+/// A plate that may tilt comes to rest where the moments of all that pushes and pulls vanish about
+/// its middle, where the load acts.
 ///
-///     sum over patches P_i r_i = sum over cells p r dA,   p: attraction of the cells apart, field, water             (S14)
+///     sum over patches P_i r_i = sum over cells p r dA,   p: attraction of the cells apart, field,
+///     water             (S14)
 ///
-/// From the rigid plate on its three places (support_plane.hpp), where the contacts need only share the load otherwise, by
-/// Newton's steps with the stiffness of the patches, (3/4) P/(V/A) each (Hertz), within a trusted range of heights
-/// (Levenberg's damping where fewer than three carry). The moments are those of the curve at its own rest.
+/// From the rigid plate on its three places (support_plane.hpp), where the contacts need only share
+/// the load otherwise, by Newton's steps with the stiffness of the patches, (3/4) P/(V/A) each
+/// (Hertz), within a trusted range of heights (Levenberg's damping where fewer than three carry).
+/// The moments are those of the curve at its own rest.
 
 #include <vector>
 
@@ -30,7 +33,8 @@ class PlateTilt {
   const PlaneSlopes& slopes() const { return slopes_; }
 
  private:
-  /// On the plate at one tilt: push minus pull [N m], what turns it about y and about x, and how it answers to slopes.
+  /// On the plate at one tilt: push minus pull [N m], what turns it about y and about x, and how it
+  /// answers to slopes.
   struct Balance {
     double x = 0.0;
     double y = 0.0;
@@ -44,7 +48,8 @@ class PlateTilt {
   };
 
   void tiltTo(const GapField& level, const PlaneSlopes& slopes);
-  Balance balanceAt(const GapField& level, const PlaneSlopes& slopes, const ContactSettings& settings);
+  Balance balanceAt(const GapField& level, const PlaneSlopes& slopes,
+                    const ContactSettings& settings);
   void addPatches(Balance& balance);
   void addAttraction(const ContactSettings& settings, Balance& balance);
 

@@ -8,11 +8,12 @@
 namespace mems_stiction {
 namespace {
 
-/// std::tgamma has no values beyond 171. From here on Gamma(x + 1)/Gamma(x + 1/2) is sqrt(x + 1/4) within 1e-6.
+/// std::tgamma has no values beyond 171. From here on Gamma(x + 1)/Gamma(x + 1/2) is sqrt(x + 1/4)
+/// within 1e-6.
 constexpr double kManyTimes = 128.0;
 
-/// By how much adhesion widens that part of a paraboloid's contact which repels [-]: from DMT (1) to JKR, as far as Tabor's
-/// parameter has come from one to the other.
+/// By how much adhesion widens that part of a paraboloid's contact which repels [-]: from DMT (1)
+/// to JKR, as far as Tabor's parameter has come from one to the other.
 double wideningOf(const PatchAtRest& patch) {
   const double carried = patch.load.carried;
   const double rim = patch.rim_force;
@@ -21,7 +22,8 @@ double wideningOf(const PatchAtRest& patch) {
   const double jkr_load = outer + 1.5 * rim + std::sqrt(3.0 * rim * outer + 2.25 * rim * rim);
   const double jkr_share = 2.0 * (2.0 - patch.prefactor);
   const double root = std::cbrt(1.0 + jkr_share * std::max(jkr_load / carried - 1.0, 0.0));
-  // within JKR's contact Hertz' pressure of P1 outweighs the punch's tension where 1 - (r/a)^2 is more than this
+  // within JKR's contact Hertz' pressure of P1 outweighs the punch's tension where 1 - (r/a)^2 is
+  // more than this
   const double pulling = std::sqrt(rim / (3.0 * jkr_load));
   return root * root * (1.0 - jkr_share * pulling);
 }
@@ -33,7 +35,8 @@ double touchingShare(double flatness) {
   // h ~ r^n, n = 2/m: delta = h(a) sqrt(pi) Gamma(n/2 + 1)/Gamma(n/2 + 1/2) (Sneddon 1965)
   const double growth = 1.0 - flatness;
   const double half = 1.0 / growth;
-  const double ratio = half < kManyTimes ? std::tgamma(half + 1.0) / std::tgamma(half + 0.5) : std::sqrt(half + 0.25);
+  const double ratio = half < kManyTimes ? std::tgamma(half + 1.0) / std::tgamma(half + 0.5)
+                                         : std::sqrt(half + 0.25);
   return std::pow(std::sqrt(kPi) * ratio, -growth);
 }
 

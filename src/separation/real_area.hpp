@@ -18,7 +18,8 @@ struct PatchAtRest {
   double capacity = 0.0;   ///< what flow lets it carry at most, Ha A; infinite if nothing flows [N]
 };
 
-/// Share of its overlap on which an elastic top touches without adhesion [-]: Sneddon's, a half of a paraboloid, all of a punch.
+/// Share of its overlap on which an elastic top touches without adhesion [-]: Sneddon's, a half of
+/// a paraboloid, all of a punch.
 /// - @p flatness 1 - m, A ~ delta^m, from 0 to 1
 double touchingShare(double flatness);
 

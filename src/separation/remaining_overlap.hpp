@@ -11,10 +11,11 @@
 
 namespace mems_stiction {
 
-/// What is left of the overlaps of a patch when the contact has been taken apart: pressed together again as far, the core
-/// must carry the hardness. Hertz's pressure exceeds it over the share `core` = 1 - 1/(3 x)^2 of the contact, x = P/(Ha A)
-/// without flow; the surface that carries an even pressure Ha on a radius a has the curvature Ha/(E a), and what lies
-/// outside the core is as it was.
+/// What is left of the overlaps of a patch when the contact has been taken apart: pressed together
+/// again as far, the core must carry the hardness. Hertz's pressure exceeds it over the share
+/// `core` = 1 - 1/(3 x)^2 of the contact, x = P/(Ha A) without flow; the surface that carries an
+/// even pressure Ha on a radius a has the curvature Ha/(E a), and what lies outside the core is as
+/// it was.
 class RemainingOverlap {
  public:
   RemainingOverlap() = default;  ///< all of it

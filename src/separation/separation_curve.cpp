@@ -25,8 +25,8 @@ double holdOf(double tabor_parameter, double range) {
 /// s, (S7) [-].
 double bendingFactor(const PlaceSums& sums) {
   if (!(sums.weight > 0.0)) return 1.0;
-  const double loss =
-      chosen::kLossInCompany * sums.loss + (1.0 - chosen::kLossInCompany) * sums.loss_alone / sums.weight;
+  const double loss = chosen::kLossInCompany * sums.loss +
+                      (1.0 - chosen::kLossInCompany) * sums.loss_alone / sums.weight;
   return 1.0 - loss / sums.weight;
 }
 
@@ -40,7 +40,8 @@ void spreadEdges(std::vector<SeparationState>& states) {
   }
 }
 
-/// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
+/// The vertex of the parabola through three points of the curve, if it lies between them; else the
+/// middle one.
 void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -53,12 +54,15 @@ void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& cu
   const SeparationState& before = states[best - 1];
   const SeparationState& after = states[best + 1];
   const double middle = states[best].approach;
-  const double rise = (states[best].partingForce() - before.partingForce()) / (middle - before.approach);
-  const double fall = (after.partingForce() - states[best].partingForce()) / (after.approach - middle);
+  const double rise =
+      (states[best].partingForce() - before.partingForce()) / (middle - before.approach);
+  const double fall =
+      (after.partingForce() - states[best].partingForce()) / (after.approach - middle);
   const double bend = (fall - rise) / (after.approach - before.approach);
   if (!(bend < 0.0)) return;
   const double slope = rise + bend * (middle - before.approach);
-  const double move = std::clamp(-0.5 * slope / bend, before.approach - middle, after.approach - middle);
+  const double move =
+      std::clamp(-0.5 * slope / bend, before.approach - middle, after.approach - middle);
   curve.pull_off_approach = middle + move;
   curve.pull_off_force = states[best].partingForce() + move * (slope + bend * move);
 }
@@ -71,7 +75,8 @@ double positivePart(double from, double to, double length) {
   return 0.5 * positive * length * positive / std::abs(from - to);
 }
 
-/// What adhesion gives at most: summits that hold on while rubber is drawn out do not give more [J].
+/// What adhesion gives at most: summits that hold on while rubber is drawn out do not give more
+/// [J].
 double mostAdhesion(const FrameSums& frame) { return frame.law().workOfAdhesion() * frame.area(); }
 
 /// Integrals along the states; the part before the first one by its energies.
@@ -98,23 +103,26 @@ void takeFigures(const FrameSums& frame, double work_apart, SeparationCurve& cur
   takeWork(frame, work_apart, curve);
 }
 
-/// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of the patches. The law's
-/// range goes with sqrt(H/Gamma), so that at a given H Gamma moves the attraction by the rest.
+/// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of
+/// the patches. The law's range goes with sqrt(H/Gamma), so that at a given H Gamma moves the
+/// attraction by the rest.
 Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, double carried) {
   if (!(figure > 0.0)) return {};
   const double by_hamaker = adhesion * hamaker_exponent;
   return {(adhesion - by_hamaker) / figure, -carried / figure, by_hamaker / figure};
 }
 
-/// Steps before first touch. What is left of the work where they begin is that of bodies which do not bend: bending takes a
-/// quarter at most of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces have left there.
+/// Steps before first touch. What is left of the work where they begin is that of bodies which do
+/// not bend: bending takes a quarter at most of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces
+/// have left there.
 int stepsApart() {
-  static const int steps =
-      static_cast<int>(std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + chosen::kStep))));
+  static const int steps = static_cast<int>(
+      std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + chosen::kStep))));
   return steps;
 }
 
-/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share each time.
+/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share
+/// each time.
 double approachAfter(int steps, double range) {
   if (steps < 0) return range * (1.0 - std::pow(1.0 + chosen::kStep, -steps));
   return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
@@ -123,11 +131,12 @@ double approachAfter(int steps, double range) {
 /// The approach of a step of the loading branch, which ends at the contact limit.
 double loadingAfter(FrameSums& frame, int step) {
   const double approach = approachAfter(step, frame.law().range());
-  return approach < frame.approachBeforeLimit() ? approach : std::min(approach, frame.limitApproach());
+  return approach < frame.approachBeforeLimit() ? approach
+                                                : std::min(approach, frame.limitApproach());
 }
 
-/// Where the force of the last two states comes down to -load if it goes on as it does: it falls ever more steeply. 0 while it
-/// does not fall.
+/// Where the force of the last two states comes down to -load if it goes on as it does: it falls
+/// ever more steeply. 0 while it does not fall.
 double expectedRest(const std::vector<SeparationState>& states, double load) {
   const SeparationState& last = states.back();
   const SeparationState& before = states[states.size() - 2];
@@ -157,7 +166,8 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   const double narrow = chosen::kAccuracy * (below.approach - above.approach);
   for (int search = 0; below.approach - above.approach > narrow; ++search) {
     // every third time the middle: where one side is a wall, the line hardly moves the other
-    const double place = search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
+    const double place =
+        search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
     found = stateAt(frame, place, curve.way);
     const double excess = found.force() + load;
     if (std::abs(excess) <= chosen::kAccuracy * std::max(found.carried, load)) break;
@@ -175,7 +185,8 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.approach = approach;
   state.tabor_parameter = sums.taborParameter();
   // what has not been nearer than at rest holds nothing
-  const double hold = std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
+  const double hold =
+      std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
   state.hold = std::clamp(way.rest - approach, 0.0, hold);
   frame.add(approach, state.hold, sums);
   state.contact_count = sums.contact_count;
@@ -193,7 +204,8 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
 }
 
 std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() const {
-  return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.givenForce() < 0.0; });
+  return std::find_if(states.begin(), states.end(),
+                      [](const auto& state) { return state.givenForce() < 0.0; });
 }
 
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve) {
@@ -223,16 +235,22 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, work_apart, curve);
 }
 
-double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& loading) {
-  const auto excess = [&](const SeparationState& state) { return state.force() + settings.load.mechanical_load; };
-  const auto isPushedBack = [&](const SeparationState& state) { return -excess(state) > kError * state.carried; };
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
+                         const SeparationCurve& loading) {
+  const auto excess = [&](const SeparationState& state) {
+    return state.force() + settings.load.mechanical_load;
+  };
+  const auto isPushedBack = [&](const SeparationState& state) {
+    return -excess(state) > kError * state.carried;
+  };
   if (loading.status != Status::kEquilibrium || isPushedBack(loading.beyond_rest)) return 0.0;
   FrameSums farther;  // for more cells than the frame has in order
   FrameSums* sums = &frame;
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
   double before = loading.beyond_rest.approach;
-  for (int step = static_cast<int>(loading.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
+  for (int step = static_cast<int>(loading.states.size()) - stepsApart();
+       step < settings.approach.max_steps; ++step) {
     if (sums == &frame && !frame.hasInOrder(approachAfter(step, frame.law().range()))) {
       farther.start(frame.field(), settings);
       sums = &farther;
@@ -256,7 +274,8 @@ bool hangsOnWhatIsCarried(const SeparationCurve& curve) {
 
 Way unloadingOf(const SeparationCurve& loading, double range) {
   double softest = 0.0;
-  for (const SeparationState& state : loading.states) softest = std::max(softest, state.tabor_parameter);
+  for (const SeparationState& state : loading.states)
+    softest = std::max(softest, state.tabor_parameter);
   return {loading.rest().approach, holdOf(softest, range)};
 }
 
@@ -274,7 +293,8 @@ void followUnloading(FrameSums& frame, double first_touch, const Way& way, Separ
 }
 
 CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
-  // force and work are stationary in the displacements where they are taken: their parts there tell how they change
+  // force and work are stationary in the displacements where they are taken: their parts there tell
+  // how they change
   const SeparationState& strongest = curve.states[curve.strongest];
   double adhesion = curve.work_apart;
   double carried = 0.0;
@@ -282,7 +302,8 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
-    if (!(from.givenForce() + to.givenForce() > 0.0)) continue;  // a step that pushes more than it pulls
+    if (!(from.givenForce() + to.givenForce() > 0.0))
+      continue;  // a step that pushes more than it pulls
     const double length = to.approach - from.approach;
     adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
     carried += 0.5 * (from.carried + to.carried) * length;
@@ -291,14 +312,16 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   adhesion = std::min(adhesion, mostAdhesion(frame));
   const double attraction = strongest.edge_share * strongest.adhesion;
   Exponents pull_off = exponentsOf(curve.pull_off_force, attraction,
-                                   frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried);
+                                   frame.hamakerExponentOfForce(strongest.approach, strongest.hold),
+                                   strongest.carried);
   if (curve.pull_off_force > 0.0) {  // a0 goes with E z0^2/Gamma, E H/Gamma^2
     const double by_edges = strongest.edge_slope * attraction / curve.pull_off_force;
     pull_off.adhesion -= 2.0 * by_edges;
     pull_off.modulus += by_edges;
     pull_off.hamaker += by_edges;
   }
-  return {pull_off, exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach), carried)};
+  return {pull_off, exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach),
+                                carried)};
 }
 
 }  // namespace mems_stiction

@@ -1,14 +1,17 @@
 #pragma once
 
 /// @file
-/// The force between two surfaces at each approach, from the gap alone, and the whole curve of it (doc/separation_curve.md):
+/// The force between two surfaces at each approach, from the gap alone, and the whole curve of it
+/// (doc/separation_curve.md):
 ///
-///     F(D) = B(D) (sum over cells apart t(d) dA - O(D)) + F_e(D) + F_c(D) - sum over patches P_i(D),   d = g - D - b
+///     F(D) = B(D) (sum over cells apart t(d) dA - O(D)) + F_e(D) + F_c(D) - sum over patches
+///     P_i(D),   d = g - D - b
 ///
-/// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts. P_i is what a patch
-/// carries, O what contacts have opened of the gap around them (S8b), B what the bodies' bending leaves of the attraction
-/// (S7). On the unloading branch soft summits hold until they are drawn out by b (S8a), and flat tops let go from their edges (S8c);
-/// on the loading branch neither counts.
+/// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts.
+/// P_i is what a patch carries, O what contacts have opened of the gap around them (S8b), B what
+/// the bodies' bending leaves of the attraction (S7). On the unloading branch soft summits hold
+/// until they are drawn out by b (S8a), and flat tops let go from their edges (S8c); on the loading
+/// branch neither counts.
 
 #include <vector>
 
@@ -27,14 +30,16 @@ struct SeparationState {
   double carried = 0.0;          ///< by all patches
   double tabor_parameter = 0.0;  ///< of the summits in reach [-]
   double hold = 0.0;             ///< b, how far beyond its place apart a summit still holds [m]
-  double edge_share = 1.0;       ///< what the edges of flat tops leave of the attraction's force, (S8c) [-]
-  double edge_slope = 0.0;       ///< d ln(edge_share)/d ln E [-]
-  double width = 0.0;            ///< a/a0 of the patches in reach, (S8c), their mean by weight [-]
-  bool is_in_reach = false;      ///< whether any patch is: further apart edges are those of the first state that is
+  double edge_share =
+      1.0;  ///< what the edges of flat tops leave of the attraction's force, (S8c) [-]
+  double edge_slope = 0.0;  ///< d ln(edge_share)/d ln E [-]
+  double width = 0.0;       ///< a/a0 of the patches in reach, (S8c), their mean by weight [-]
+  bool is_in_reach =
+      false;  ///< whether any patch is: further apart edges are those of the first state that is
 
   double force() const { return adhesion + electrostatic + capillary - carried; }
-  /// The same when the loads that brought the surfaces together, voltage too, have been taken away: what bodies give that
-  /// are drawn apart, whatever the way takes. Its integral is the work.
+  /// The same when the loads that brought the surfaces together, voltage too, have been taken away:
+  /// what bodies give that are drawn apart, whatever the way takes. Its integral is the work.
   double givenForce() const { return adhesion + capillary - carried; }
   /// What it takes to draw them apart: edges let go at less, and over a longer way.
   double partingForce() const { return edge_share * adhesion + capillary - carried; }
@@ -56,34 +61,41 @@ struct SeparationCurve {
   double pull_off_force = 0.0;     ///< largest parting force on the way [N]
   double pull_off_approach = 0.0;  ///< where [m]
   std::size_t strongest = 0;       ///< the state next to it
-  double elastic_energy = 0.0;     ///< integral of what the patches carry, from first touch to rest [J]
-  double work = 0.0;               ///< integral of the attracting part of the curve, from rest to apart [J]
-  double work_apart = 0.0;         ///< what of it lies before the first state [J]
+  double elastic_energy =
+      0.0;            ///< integral of what the patches carry, from first touch to rest [J]
+  double work = 0.0;  ///< integral of the attracting part of the curve, from rest to apart [J]
+  double work_apart = 0.0;  ///< what of it lies before the first state [J]
 
   const SeparationState& rest() const { return states.back(); }
-  /// The first state that pushes the surfaces apart when no load presses them: on the near side of their rest then. The end
-  /// of the states where none does.
+  /// The first state that pushes the surfaces apart when no load presses them: on the near side of
+  /// their rest then. The end of the states where none does.
   std::vector<SeparationState>::const_iterator firstPushing() const;
   /// Bonded, but without the loads the surfaces would have come to rest before.
-  bool isBondedByLoad() const { return status == Status::kBonded && firstPushing() != states.end(); }
+  bool isBondedByLoad() const {
+    return status == Status::kBonded && firstPushing() != states.end();
+  }
 };
 
 /// The state at one approach.
 /// - @p expected_end as in FrameSums::reach()
-SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end = 0.0);
+SeparationState stateAt(FrameSums& frame, double approach, const Way& way,
+                        double expected_end = 0.0);
 
-/// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the largest approach at which
-/// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
-/// approach/max_steps end first.
+/// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the
+/// largest approach at which F + F_m >= 0. Bonded, when they have not until the contact fraction
+/// reaches its limit; without equilibrium, when approach/max_steps end first.
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
 
-/// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where what keeps the surfaces from it
-/// is more than the error with which the curve knows what the contacts carry.
+/// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where
+/// what keeps the surfaces from it is more than the error with which the curve knows what the
+/// contacts carry.
 /// - @p frame whose curve it is, all of whose cells are in its field; its sums stay as they are
-double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& loading);
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
+                         const SeparationCurve& loading);
 
-/// Whether the pull-off force would be larger by more than the error with which the curve knows what the contacts carry if they
-/// carried less by that error: on the unloading branch, up to the rest without a load.
+/// Whether the pull-off force would be larger by more than the error with which the curve knows
+/// what the contacts carry if they carried less by that error: on the unloading branch, up to the
+/// rest without a load.
 bool hangsOnWhatIsCarried(const SeparationCurve& curve);
 
 /// The unloading branch from the rest of a loading branch: summits that were soft there hold on.

@@ -21,7 +21,8 @@ double carriedAtRest(const ContactCurve& curve, const LoadOptions& load) {
   return curve.rest().force() + curve.rest().carried + load.mechanical_load;
 }
 
-/// Whether the longest wave of a frame reaches through the bodies, so that it meets another stiffness than a half-space's.
+/// Whether the longest wave of a frame reaches through the bodies, so that it meets another
+/// stiffness than a half-space's.
 bool areThin(const GapField& field, const WaveStiffness& bodies) {
   if (bodies.isThick()) return false;
   const double longest = std::max(field.cols() * field.pitchX(), field.rows() * field.pitchY());
@@ -34,9 +35,12 @@ bool areThin(const GapField& field, const WaveStiffness& bodies) {
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
-  const GapField& settled = settings.guidance == Guidance::kGuided ? problem.gap : tilt_.settle(problem.gap, settings);
-  const GapField& at_rest = comeToRest({problem.surfaces, settled, problem.composite_rms_height, settings}, solution);
-  const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
+  const GapField& settled =
+      settings.guidance == Guidance::kGuided ? problem.gap : tilt_.settle(problem.gap, settings);
+  const GapField& at_rest =
+      comeToRest({problem.surfaces, settled, problem.composite_rms_height, settings}, solution);
+  const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height,
+                                   settings};
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
   solution.flattening_energy = flattening_.of(at_rest, contact_modulus);
@@ -48,38 +52,46 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listPullOffContacts(standing, solution);
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
-  solution.model = CurveStatement::of(solution, settings.interface.work_of_adhesion,
-                                      areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
+  solution.model =
+      CurveStatement::of(solution, settings.interface.work_of_adhesion,
+                         areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
 }
 
-const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
+const GapField& SeparationSolver::comeToRest(const ContactProblem& problem,
+                                             ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
   curve_.appendLoading(solution.curve);
   solution.steps = static_cast<int>(curve_.loading().states.size());
   has_flowed_ = mayFlow(problem.settings.load) && flow(problem);
   const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
-  const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height, problem.settings};
+  const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height,
+                                   problem.settings};
   takeRest(standing, solution);
   listContacts(standing, solution);
   fillMaps(standing, solution);
   return gap;
 }
 
-std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem& problem, double joined_share,
-                                                     const ContactSolution& solution) {
+std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem& problem,
+                                                           double joined_share,
+                                                           const ContactSolution& solution) {
   const ContactTraction& law = curve_.frame().law();
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
-  if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio)) return std::nullopt;
-  conforming_.start(problem.gap, law, curve_.frame().patchForces().contactModulus(), solution.flattening_energy);
+  if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio))
+    return std::nullopt;
+  conforming_.start(problem.gap, law, curve_.frame().patchForces().contactModulus(),
+                    solution.flattening_energy);
   if (!conforming_.holds()) return std::nullopt;
-  return conforming_.unloading(curve_.byContacts(), problem.settings.load.mechanical_load / curve_.frame().area());
+  return conforming_.unloading(curve_.byContacts(),
+                               problem.settings.load.mechanical_load / curve_.frame().area());
 }
 
 bool SeparationSolver::mayFlow(const LoadOptions& load) const {
   const bool is_pressed = load.mechanical_load > 0.0 || load.voltage != 0.0;
-  return is_pressed && curve_.loading().status != Status::kNoEquilibrium && curve_.largestFullness() > chosen::kMayFlow;
+  return is_pressed && curve_.loading().status != Status::kNoEquilibrium &&
+         curve_.largestFullness() > chosen::kMayFlow;
 }
 
 bool SeparationSolver::attractsMoreByFlow(const ContactProblem& problem) const {
@@ -108,8 +120,9 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
     if (carried < chosen::kMoreCarried * press.load) break;
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
-    press.approach =
-        curve_.loading().status == Status::kEquilibrium ? std::max(press.approach, approach) : GapField::kInvalidGap;
+    press.approach = curve_.loading().status == Status::kEquilibrium
+                         ? std::max(press.approach, approach)
+                         : GapField::kInvalidGap;
   }
   attracts_more_ = has_flowed && attractsMoreByFlow(problem);
   return has_flowed;
@@ -136,7 +149,8 @@ void SeparationSolver::takeUnloading(const Unloading& unloading, ContactSolution
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
   if (solution.model.doubt != nullptr || !has_flowed_ || !attracts_more_) return;
   solution.model.doubt =
-      "contacts have flowed until the surfaces attract each other much more, and how far is not sure";
+      "contacts have flowed until the surfaces attract each other much more, and how far is not "
+      "sure";
 }
 
 void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {
@@ -144,12 +158,15 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
   const FrameSums& frame = curve_.frame();
   const double modulus = frame.patchForces().contactModulus();
   if (solution.is_conforming) {
-    if (places_.largestEnergy(field, modulus) > chosen::kChangingTexture * solution.flattening_energy) {
-      solution.model.doubt = "the surfaces are bonded, and their texture changes from place to place";
+    if (places_.largestEnergy(field, modulus) >
+        chosen::kChangingTexture * solution.flattening_energy) {
+      solution.model.doubt =
+          "the surfaces are bonded, and their texture changes from place to place";
     }
   } else if (places_.force(field, frame.law(), modulus, curve_.unloading(),
                            chosen::kPullOfPlaces * solution.pull_off_force) > 0.0) {
-    solution.model.doubt = "places smoother than the rest close by themselves, and hold more than the contacts";
+    solution.model.doubt =
+        "places smoother than the rest close by themselves, and hold more than the contacts";
   }
 }
 
@@ -192,12 +209,14 @@ void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
   columns_.resize(static_cast<std::size_t>(field.cols()));
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, row_gaps_.data());
-    const int count = columnsBetween(0.0, approach, row_gaps_.data(), field.cols(), columns_.data());
+    const int count =
+        columnsBetween(0.0, approach, row_gaps_.data(), field.cols(), columns_.data());
     for (int i = 0; i < count; ++i) {
       const std::int32_t col = columns_[static_cast<std::size_t>(i)];
       const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
       const auto place = static_cast<std::size_t>(sweep.livePlace(id));
-      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id), curve_.contacts()[place]);
+      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id),
+           curve_.contacts()[place]);
     }
   }
 }
@@ -225,18 +244,21 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
     asperity.load = contact.load.carried;
     asperity.contact_radius = std::sqrt(contact.area / kPi);
     asperity.tilt = ContactSolution::kUnknown;
-    asperity.plasticity_index = plasticityIndex(pair.contact_modulus, pair.hardness, sigma, asperity.composite_radius);
-    asperity.tabor_parameter =
-        taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, curve_.frame().law().range());
+    asperity.plasticity_index =
+        plasticityIndex(pair.contact_modulus, pair.hardness, sigma, asperity.composite_radius);
+    asperity.tabor_parameter = taborParameter(asperity.composite_radius, gamma,
+                                              pair.contact_modulus, curve_.frame().law().range());
     asperity.area = contact.area;
     asperity.is_at_border = is_at_border_[i] != 0;
     asperity.regime = contact.regime;
-    parameters += pair.contact_modulus / gamma * std::sqrt(sigma * sigma * sigma / asperity.composite_radius);
+    parameters +=
+        pair.contact_modulus / gamma * std::sqrt(sigma * sigma * sigma / asperity.composite_radius);
     solution.asperities.push_back(asperity);
   }
   solution.has_asperities = true;
-  solution.adhesion_parameter = gamma > 0.0 ? parameters / static_cast<double>(solution.asperities.size())
-                                            : std::numeric_limits<double>::infinity();
+  solution.adhesion_parameter = gamma > 0.0
+                                    ? parameters / static_cast<double>(solution.asperities.size())
+                                    : std::numeric_limits<double>::infinity();
 }
 
 void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& solution) {
@@ -247,34 +269,40 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   prepareMaps(problem, solution);
   if (!wants_map && !wants_surfaces) return;
 
-  const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit);
+  const DeformationShare share(settings.lower, settings.upper,
+                               settings.interface.hardness_ratio_limit);
   const double approach = curve_.rest().approach;
-  visitOverlaps(
-      field, [&](int row, int col, double overlap, const OverlapPatch& patch, const ContactCurve::Contact& contact) {
-        if (wants_map) {
-          // the deepest cells, as many as the real area has: those of a paraboloid whose overlap exceeds this
-          const double area = patch.cells * field.cellArea();
-          const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
-          const bool touches = contact.is_of_places ? places_that_flow_.pressure()(row, col) > 0.0 : overlap >= least;
-          if (touches || field.cellAt(row, col).index == patch.first_cell) {
-            const bool flows = has_flowed_ && places_that_flow_.flowed()(row, col) > 0.0;
-            const Regime regime = !has_flowed_ ? contact.regime : flows ? Regime::kPlastic : Regime::kElastic;
-            solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regime);
-          }
-        }
-        if (wants_surfaces) {
-          const double flowed = overlap - contact.remaining.of(overlap);
-          solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
-          solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
-        }
-      });
+  visitOverlaps(field, [&](int row, int col, double overlap, const OverlapPatch& patch,
+                           const ContactCurve::Contact& contact) {
+    if (wants_map) {
+      // the deepest cells, as many as the real area has: those of a paraboloid whose overlap
+      // exceeds this
+      const double area = patch.cells * field.cellArea();
+      const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
+      const bool touches =
+          contact.is_of_places ? places_that_flow_.pressure()(row, col) > 0.0 : overlap >= least;
+      if (touches || field.cellAt(row, col).index == patch.first_cell) {
+        const bool flows = has_flowed_ && places_that_flow_.flowed()(row, col) > 0.0;
+        const Regime regime = !has_flowed_ ? contact.regime
+                              : flows      ? Regime::kPlastic
+                                           : Regime::kElastic;
+        solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regime);
+      }
+    }
+    if (wants_surfaces) {
+      const double flowed = overlap - contact.remaining.of(overlap);
+      solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
+      solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
+    }
+  });
   if (!has_flowed_ || !wants_surfaces) return;
   const cv::Mat1d& flowed = places_that_flow_.flowed();
   solution.displaced_lower -= share.lower(kPlasticLimit) * flowed;
   solution.displaced_upper += share.upper(kPlasticLimit) * flowed;
 }
 
-void SeparationSolver::listPullOffContacts(const ContactProblem& problem, ContactSolution& solution) {
+void SeparationSolver::listPullOffContacts(const ContactProblem& problem,
+                                           ContactSolution& solution) {
   if (!(solution.pull_off_force > 0.0)) return;
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
@@ -291,14 +319,15 @@ void SeparationSolver::listPullOffContacts(const ContactProblem& problem, Contac
     contact.area = patch.cells * field.cellArea();
     contact.composite_radius = patch.radius(reached.approach(), field.cellArea());
     contact.tabor_parameter =
-        taborParameter(contact.composite_radius, settings.interface.work_of_adhesion, modulus, frame.law().range());
+        taborParameter(contact.composite_radius, settings.interface.work_of_adhesion, modulus,
+                       frame.law().range());
     contacts.push_back(contact);
   }
   for (int place = 0; place < reached.cellCount(); ++place) {
     const OrderedCell& ordered = frame.orderedCells()[static_cast<std::size_t>(place)];
     const GridCell cell = field.cellAt(ordered.cell);
-    const bool is_at_border =
-        cell.row == 0 || cell.col == 0 || cell.row == field.rows() - 1 || cell.col == field.cols() - 1;
+    const bool is_at_border = cell.row == 0 || cell.col == 0 || cell.row == field.rows() - 1 ||
+                              cell.col == field.cols() - 1;
     const auto dale = static_cast<std::size_t>(ordered.tag.dale());
     if (!is_at_border && dale >= regime_of_dale.size()) continue;
     const auto of_patch = static_cast<std::size_t>(reached.livePlace(reached.patchOf(ordered)));

@@ -1,16 +1,18 @@
 #pragma once
 
 /// @file
-/// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
+/// The solver of the separation curve: the force between the surfaces at each displacement,
+/// adhesion counted once.
 ///
-/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the unloading branch, the
-/// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Soft
-/// summits hold on longer than they would reach on the loading branch; surfaces that have flowed come apart along the curve of the
-/// changed surfaces, and bonded ones, whose flattening costs less than adhesion gives, along that of springs
-/// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
+/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on
+/// the unloading branch, the apparent work of adhesion its area, both when the loads that made the
+/// contact, voltage too, have been taken away. Soft summits hold on longer than they would reach on
+/// the loading branch; surfaces that have flowed come apart along the curve of the changed
+/// surfaces, and bonded ones, whose flattening costs less than adhesion gives, along that of
+/// springs (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///
-/// Forces (1.5 pi Gamma R) and areas of asperities by JKR are NaN; contacts have what the patches have: real
-/// area, radius, load, regime by flow, Tabor's parameter, but no tilt.
+/// Forces (1.5 pi Gamma R) and areas of asperities by JKR are NaN; contacts have what the patches
+/// have: real area, radius, load, regime by flow, Tabor's parameter, but no tilt.
 ///
 ///     SeparationSolver solver;
 ///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
@@ -50,14 +52,15 @@ class SeparationSolver : public ContactSolver {
   bool flow(const ContactProblem& problem);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
-  /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
+  /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row
+  /// by row.
   template <typename Taker>
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
   /// The unloading branch of surfaces that are bonded at rest; none if they part by contacts.
   std::optional<Unloading> bondedUnloading(const ContactProblem& problem, double joined_share,
-                                     const ContactSolution& solution);
+                                           const ContactSolution& solution);
   /// Which way the surfaces part, of two that have come to rest.
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
   void takeUnloading(const Unloading& unloading, ContactSolution& solution) const;

@@ -8,10 +8,11 @@
 namespace mems_stiction {
 namespace {
 
-/// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for round-off.
+/// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for
+/// round-off.
 constexpr double kTouching = 1.0 + 1e-9;
-/// What one spring does: traction and energy over the distance x = Z + r that it starts from, on the branch that comes
-/// from contact, and on the one that comes from apart.
+/// What one spring does: traction and energy over the distance x = Z + r that it starts from, on
+/// the branch that comes from contact, and on the one that comes from apart.
 class Spring {
  public:
   struct Point {
@@ -22,7 +23,8 @@ class Spring {
   };
 
   /// - @p nearest distance that is asked for [m]
-  /// - @p span from the nearest cell to the farthest one [m]: where the nearest has let go, the farthest is that much beyond
+  /// - @p span from the nearest cell to the farthest one [m]: where the nearest has let go, the
+  /// farthest is that much beyond
   Spring(const ContactTraction& law, double stiffness, double nearest, double span) {
     constexpr double kGrowth = 1.0 + chosen::kAccuracy;
     // counted from the atoms' centres: the plane of contact is at z0
@@ -35,11 +37,14 @@ class Spring {
     while (pointAt(gap).start > nearest && gap > chosen::kAccuracy * law.range()) gap /= kGrowth;
     do {
       points_.push_back(pointAt(gap));
-      // the law falls ever more steeply up to where it bends back: beyond, no spring pulls harder, and none lets go
+      // the law falls ever more steeply up to where it bends back: beyond, no spring pulls harder,
+      // and none lets go
       if (law.curvature(gap - law.range()) < 0.0) end_ = std::max(end_, points_.back().start);
       gap *= kGrowth;
-    } while (law.curvature(points_.back().gap - law.range()) < 0.0 || points_.back().start < end_ + span);
-    while (last_inner_ + 1 < points_.size() && points_[last_inner_ + 1].start > points_[last_inner_].start) {
+    } while (law.curvature(points_.back().gap - law.range()) < 0.0 ||
+             points_.back().start < end_ + span);
+    while (last_inner_ + 1 < points_.size() &&
+           points_[last_inner_ + 1].start > points_[last_inner_].start) {
       ++last_inner_;
     }
     first_outer_ = last_inner_;
@@ -64,7 +69,8 @@ class Spring {
     const Point& to = points_[place + 1];
     const double share = (start - from.start) / (to.start - from.start);
     return {start, from.traction + share * (to.traction - from.traction),
-            from.energy + share * (to.energy - from.energy), from.gap + share * (to.gap - from.gap)};
+            from.energy + share * (to.energy - from.energy),
+            from.gap + share * (to.gap - from.gap)};
   }
 
  private:
@@ -74,7 +80,8 @@ class Spring {
   double end_ = 0.0;
 };
 
-SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring, double range) {
+SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring,
+                   double range) {
   SpringState mean;
   mean.height = height;
   std::size_t place = 0;
@@ -97,7 +104,8 @@ ReliefClasses::ReliefClasses(double lowest, double highest)
 
 void ReliefClasses::add(double depth) {
   const double above = depth - lowest_;
-  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, chosen::kParts - 1.0));
+  const auto place =
+      static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, chosen::kParts - 1.0));
   sums_[place] += above;
   ++counts_[place];
 }
@@ -112,8 +120,8 @@ std::vector<ReliefClass> ReliefClasses::classes() const {
   return classes;
 }
 
-std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,
-                                      double stiffness) {
+std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
+                                      const ContactTraction& law, double stiffness) {
   const double range = law.range();
   const double deepest = range - relief.back().depth;
   const double span = relief.back().depth - relief.front().depth;
@@ -121,19 +129,25 @@ std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, co
   const double highest = spring.end() - relief.front().depth;
   std::vector<SpringState> branch;
   for (int i = 0; i <= chosen::kParts; ++i) {
-    branch.push_back(meanAt(deepest + (highest - deepest) * i / chosen::kParts, relief, spring, range));
+    branch.push_back(
+        meanAt(deepest + (highest - deepest) * i / chosen::kParts, relief, spring, range));
   }
   return branch;
 }
 
-std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch, double pressure) {
-  return std::min_element(branch.begin(), branch.end(), [&](const SpringState& a, const SpringState& b) {
-    return a.energy + pressure * a.height < b.energy + pressure * b.height;
-  });
+std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch,
+                                                double pressure) {
+  return std::min_element(branch.begin(), branch.end(),
+                          [&](const SpringState& a, const SpringState& b) {
+                            return a.energy + pressure * a.height < b.energy + pressure * b.height;
+                          });
 }
 
-double strengthFrom(std::vector<SpringState>::const_iterator rest, const std::vector<SpringState>& branch) {
-  const auto is_weaker = [](const SpringState& a, const SpringState& b) { return a.traction < b.traction; };
+double strengthFrom(std::vector<SpringState>::const_iterator rest,
+                    const std::vector<SpringState>& branch) {
+  const auto is_weaker = [](const SpringState& a, const SpringState& b) {
+    return a.traction < b.traction;
+  };
   return std::max_element(rest, branch.end(), is_weaker)->traction;
 }
 

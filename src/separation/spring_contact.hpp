@@ -1,13 +1,14 @@
 #pragma once
 
 /// @file
-/// A relief whose cells hang on equal springs and attract a plane: what it takes to draw the plane away.
+/// A relief whose cells hang on equal springs and attract a plane: what it takes to draw the plane
+/// away.
 ///
 ///     g = Z + r - u,   k u = t(g)
 ///
-/// Z is the height of the plane, r the relief below its highest point, u what the spring gives. A cell stays on its
-/// branch while the plane goes up, and lets go where -t'(g) = k. With k = 2 U/(A sigma^2) all springs together store the
-/// flattening energy U when all is flat.
+/// Z is the height of the plane, r the relief below its highest point, u what the spring gives. A
+/// cell stays on its branch while the plane goes up, and lets go where -t'(g) = k. With k = 2 U/(A
+/// sigma^2) all springs together store the flattening energy U when all is flat.
 
 #include <vector>
 
@@ -45,14 +46,17 @@ struct SpringState {
   double contact_fraction = 0.0;  ///< cells that repel [-]
 };
 
-/// The branch from the deepest approach, mean of the relief in the plane of contact, to where the last cell has let go.
+/// The branch from the deepest approach, mean of the relief in the plane of contact, to where the
+/// last cell has let go.
 /// - @p stiffness k [Pa/m], > 0, may be infinite
-std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,
-                                      double stiffness);
+std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
+                                      const ContactTraction& law, double stiffness);
 
 /// The state of least energy + pressure Z, from which surfaces are drawn apart.
-std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch, double pressure);
+std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch,
+                                                double pressure);
 /// Largest traction from a state on [Pa].
-double strengthFrom(std::vector<SpringState>::const_iterator rest, const std::vector<SpringState>& branch);
+double strengthFrom(std::vector<SpringState>::const_iterator rest,
+                    const std::vector<SpringState>& branch);
 
 }  // namespace mems_stiction

@@ -9,9 +9,11 @@
 namespace mems_stiction {
 namespace {
 
-/// Exchanges before what has been found counts: each of them is a pass over the frame, and some ten suffice.
+/// Exchanges before what has been found counts: each of them is a pass over the frame, and some ten
+/// suffice.
 constexpr int kMostExchanges = 1000;
-/// The first three corners are none of the relief: so many frames from the middle, and so much deeper than the relief is high.
+/// The first three corners are none of the relief: so many frames from the middle, and so much
+/// deeper than the relief is high.
 constexpr double kFarCorner = 8.0;
 constexpr double kDeepCorner = 1e6;
 /// What sticks out by less than this share of the relief is rounding.
@@ -44,14 +46,16 @@ struct Plane {
 Plane planeOf(const Triangle& corners) {
   const auto at = [&](double x, double y) {
     const std::array<double, 3> shares = sharesOf(corners, x, y);
-    return shares[0] * corners[0].height + shares[1] * corners[1].height + shares[2] * corners[2].height;
+    return shares[0] * corners[0].height + shares[1] * corners[1].height +
+           shares[2] * corners[2].height;
   };
   const double middle = at(0.0, 0.0);
   return {middle, at(1.0, 0.0) - middle, at(0.0, 1.0) - middle};
 }
 
 /// The place that is highest over a plane.
-Corner highestOver(const Plane& plane, const GapField& field, std::vector<double>& line, double& excess) {
+Corner highestOver(const Plane& plane, const GapField& field, std::vector<double>& line,
+                   double& excess) {
   Corner highest;
   excess = -std::numeric_limits<double>::infinity();
   const double half_cols = 0.5 * field.cols();
@@ -92,7 +96,8 @@ std::size_t leavingCorner(const Triangle& corners, const Corner& entering) {
 std::optional<PlaneSlopes> supportPlane(const GapField& field) {
   const double relief = field.largestGap();
   const double deep = -kDeepCorner * (relief > 0.0 ? relief : 1.0);
-  Triangle corners{Corner{-kFarCorner, -kFarCorner, deep, false}, Corner{kFarCorner, -0.97 * kFarCorner, deep, false},
+  Triangle corners{Corner{-kFarCorner, -kFarCorner, deep, false},
+                   Corner{kFarCorner, -0.97 * kFarCorner, deep, false},
                    Corner{0.03 * kFarCorner, kFarCorner, deep, false}};
   std::vector<double> line(static_cast<std::size_t>(field.cols()));
   for (int exchange = 0; exchange < kMostExchanges; ++exchange) {

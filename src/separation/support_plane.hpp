@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// On which three places does a rigid plate come to lie that is free to tilt and loaded in its middle?
+/// On which three places does a rigid plate come to lie that is free to tilt and loaded in its
+/// middle?
 ///
-/// The plate is the plane over the relief that is lowest over the frame's middle: a linear program in three unknowns, whose
-/// solution touches the relief's convex hull at the corners of the triangle over the middle. Solved by exchange: the place that sticks
-/// out of the plane by most takes the part of one corner, so that the middle stays within. Each exchange raises the plane
+/// The plate is the plane over the relief that is lowest over the frame's middle: a linear program
+/// in three unknowns, whose solution touches the relief's convex hull at the corners of the
+/// triangle over the middle. Solved by exchange: the place that sticks out of the plane by most
+/// takes the part of one corner, so that the middle stays within. Each exchange raises the plane
 /// over the middle; none of them leaves a cell out.
 
 #include <optional>

@@ -17,18 +17,26 @@ inline std::string valueText(int value) { return std::to_string(value); }
 inline std::string valueText(bool value) { return value ? "true" : "false"; }
 inline std::string valueText(const std::string& value) { return value; }
 
-/// Calls a function with the key of each setting and its value: a double, an int, a bool or a text. That of a choice is its name.
+/// Calls a function with the key of each setting and its value: a double, an int, a bool or a text.
+/// That of a choice is its name.
 template <typename Function>
 class ValueVisitor : public OptionVisitor {
  public:
   explicit ValueVisitor(Function function) : function_(std::move(function)) {}
 
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
+  void number(const std::string& key, double& value, const std::string&, const Range&,
+              const std::string&) override {
     function_(key, value);
   }
-  void integer(const std::string& key, int& value, const Range&, const std::string&) override { function_(key, value); }
-  void flag(const std::string& key, bool& value, const std::string&) override { function_(key, value); }
-  void text(const std::string& key, std::string& value, const std::string&) override { function_(key, value); }
+  void integer(const std::string& key, int& value, const Range&, const std::string&) override {
+    function_(key, value);
+  }
+  void flag(const std::string& key, bool& value, const std::string&) override {
+    function_(key, value);
+  }
+  void text(const std::string& key, std::string& value, const std::string&) override {
+    function_(key, value);
+  }
   void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
               const std::string&) override {
     function_(key, value);

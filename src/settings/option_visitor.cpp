@@ -9,15 +9,16 @@ namespace mems_stiction {
 
 namespace {
 
-/// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow. Where an end of a range is not
-/// stated, they are its end.
+/// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow.
+/// Where an end of a range is not stated, they are its end.
 constexpr double kLargest = 1e30;
 constexpr double kSmallest = 1e-30;
 
 /// What to say beside a range of a value that only its size excludes.
 std::string sizeText(double value) {
   const double size = std::abs(value);
-  const bool is_sane = value == 0.0 || !std::isfinite(value) || (size >= kSmallest && size <= kLargest);
+  const bool is_sane =
+      value == 0.0 || !std::isfinite(value) || (size >= kSmallest && size <= kLargest);
   return is_sane ? "" : ", " + numberText(kSmallest) + " to " + numberText(kLargest) + " in size";
 }
 
@@ -41,32 +42,37 @@ std::string Range::text() const {
   const bool has_lower = std::isfinite(lower);
   const bool has_upper = std::isfinite(upper);
   if (has_lower && has_upper) {
-    return std::string("in ") + (lower_open ? "(" : "[") + numberText(lower) + ", " + numberText(upper) +
-           (upper_open ? ")" : "]");
+    return std::string("in ") + (lower_open ? "(" : "[") + numberText(lower) + ", " +
+           numberText(upper) + (upper_open ? ")" : "]");
   }
   if (has_lower) return (lower_open ? "> " : ">= ") + numberText(lower);
   if (has_upper) return (upper_open ? "< " : "<= ") + numberText(upper);
   return nan_means_none ? "any finite number, or nan for none" : "any finite number";
 }
 
-void OptionValidator::number(const std::string& key, double& value, const std::string& unit, const Range& range,
-                             const std::string& /*meaning*/) {
+void OptionValidator::number(const std::string& key, double& value, const std::string& unit,
+                             const Range& range, const std::string& /*meaning*/) {
   if (range.contains(value)) return;
   violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) +
-                        " is not allowed, must be " + range.text() + (unit.empty() ? "" : " " + unit) +
-                        sizeText(value));
+                        " is not allowed, must be " + range.text() +
+                        (unit.empty() ? "" : " " + unit) + sizeText(value));
 }
 
-void OptionValidator::integer(const std::string& key, int& value, const Range& range, const std::string& /*meaning*/) {
+void OptionValidator::integer(const std::string& key, int& value, const Range& range,
+                              const std::string& /*meaning*/) {
   if (range.contains(value)) return;
-  violations_.push_back(key + ": " + std::to_string(value) + " is not allowed, must be an integer " + range.text());
+  violations_.push_back(key + ": " + std::to_string(value) +
+                        " is not allowed, must be an integer " + range.text());
 }
 
-void OptionValidator::flag(const std::string& /*key*/, bool& /*value*/, const std::string& /*meaning*/) {}
+void OptionValidator::flag(const std::string& /*key*/, bool& /*value*/,
+                           const std::string& /*meaning*/) {}
 
-void OptionValidator::text(const std::string& /*key*/, std::string& /*value*/, const std::string& /*meaning*/) {}
+void OptionValidator::text(const std::string& /*key*/, std::string& /*value*/,
+                           const std::string& /*meaning*/) {}
 
-void OptionValidator::choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+void OptionValidator::choice(const std::string& key, std::string& value,
+                             const std::vector<std::string>& names,
                              const std::string& /*meaning*/) {
   std::string allowed;
   for (const std::string& name : names) {
@@ -84,7 +90,8 @@ std::string numberText(double value) {
     text = plainFormat("%.*g", digits, value);
     if (plainStrtod(text.c_str()) == value) break;
   }
-  // "2000" rather than "2e+03": seven digits show every value that came out with an exponent below 1e7.
+  // "2000" rather than "2e+03": seven digits show every value that came out with an exponent below
+  // 1e7.
   if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && text.find('e') != std::string::npos) {
     text = plainFormat("%.7g", value);
   }

@@ -17,7 +17,8 @@
 namespace mems_stiction {
 namespace {
 
-/// The whole text as a number, independent of the locale; nan and inf with or without YAML's leading dot.
+/// The whole text as a number, independent of the locale; nan and inf with or without YAML's
+/// leading dot.
 bool parseNumber(const std::string& text, double& value) {
   const std::string word = lowered(text);
   if (word == ".nan" || word == "nan") {
@@ -36,7 +37,8 @@ bool parseNumber(const std::string& text, double& value) {
   }
   // 010 is ten to some readers of YAML and eight to others.
   const std::size_t digit = text.find_first_not_of("+-");
-  if (text.size() > digit + 1 && text[digit] == '0' && std::isdigit(static_cast<unsigned char>(text[digit + 1])) != 0) {
+  if (text.size() > digit + 1 && text[digit] == '0' &&
+      std::isdigit(static_cast<unsigned char>(text[digit + 1])) != 0) {
     return false;
   }
   std::istringstream stream(text);
@@ -60,15 +62,17 @@ std::string placeOf(const YAML::Node& node) {
   return mark.is_null() ? "" : " in line " + std::to_string(mark.line + 1);
 }
 
-/// Of so many keys that nobody knows, or that are given twice, each is named: more are another file.
+/// Of so many keys that nobody knows, or that are given twice, each is named: more are another
+/// file.
 constexpr std::size_t kMostUnknown = 100;
 
-/// More or longer keys, and more maps within one another, are no settings: perhaps a tree that contains itself.
+/// More or longer keys, and more maps within one another, are no settings: perhaps a tree that
+/// contains itself.
 constexpr std::size_t kMostKeys = 100'000;
 constexpr std::size_t kLongestKey = 1000;
 
-/// YAML forbids a key that one map has twice; programs that take the first, or the last, or both, differ in what they then
-/// read. Beyond the limits nothing is added but a line that says so.
+/// YAML forbids a key that one map has twice; programs that take the first, or the last, or both,
+/// differ in what they then read. Beyond the limits nothing is added but a line that says so.
 /// - @p depth maps that the node stands in
 /// @return whether the tree is within the limits
 bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves,
@@ -85,17 +89,20 @@ bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
     return false;
   }
   if (prefix.size() > kLongestKey) {
-    lines.push_back(prefix.substr(0, 100) + "...: a key of " + std::to_string(prefix.size()) + " bytes is given");
+    lines.push_back(prefix.substr(0, 100) + "...: a key of " + std::to_string(prefix.size()) +
+                    " bytes is given");
     return false;
   }
   std::map<std::string, YAML::Node> seen;
   for (const auto& entry : node) {
-    const std::string name = entry.first.IsScalar() ? trimmed(entry.first.Scalar(), "/") : "(a key that is not text)";
+    const std::string name =
+        entry.first.IsScalar() ? trimmed(entry.first.Scalar(), "/") : "(a key that is not text)";
     const std::string key = prefix.empty() ? name : prefix + "/" + name;
     const auto [first, is_new] = seen.emplace(name, entry.first);
     if (!is_new) {
-      lines.push_back(shortened(key, kLongestQuotation) + ": given" + placeOf(entry.first) + " and before" +
-                      placeOf(first->second) + ", must be given once: put what belongs to it together");
+      lines.push_back(shortened(key, kLongestQuotation) + ": given" + placeOf(entry.first) +
+                      " and before" + placeOf(first->second) +
+                      ", must be given once: put what belongs to it together");
       if (lines.size() < kMostUnknown) continue;
       lines.emplace_back("perhaps more keys are given twice");
       return false;
@@ -149,7 +156,8 @@ std::string choiceOf(const std::string& text, const std::vector<std::string>& na
 /// Of a text that is a setting, such as the path of a file [bytes].
 constexpr std::size_t kLongestText = 4096;
 
-/// Takes each described field from the tree, if the tree names it, and checks its range by the common validator.
+/// Takes each described field from the tree, if the tree names it, and checks its range by the
+/// common validator.
 class YamlReader : public OptionVisitor {
  public:
   explicit YamlReader(const YAML::Node& tree) {
@@ -159,7 +167,8 @@ class YamlReader : public OptionVisitor {
       return;
     }
     flatten(tree, "", leaves_, lines_);
-    for (std::size_t place = 0; place < leaves_.size(); ++place) places_[leaves_[place].key].push_back(place);
+    for (std::size_t place = 0; place < leaves_.size(); ++place)
+      places_[leaves_[place].key].push_back(place);
   }
 
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
@@ -175,11 +184,13 @@ class YamlReader : public OptionVisitor {
     append(validator);
   }
 
-  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+  void integer(const std::string& key, int& value, const Range& range,
+               const std::string& meaning) override {
     if (const YAML::Node* node = take(key)) {
       double parsed = 0.0;
       // The limits of int keep the cast defined; the range is checked below.
-      if (!node->IsScalar() || !parseNumber(node->Scalar(), parsed) || parsed != std::floor(parsed) ||
+      if (!node->IsScalar() || !parseNumber(node->Scalar(), parsed) ||
+          parsed != std::floor(parsed) ||
           !(std::abs(parsed) <= static_cast<double>(std::numeric_limits<int>::max()))) {
         wrongType(key, *node, "an integer " + range.text());
         return;
@@ -212,7 +223,8 @@ class YamlReader : public OptionVisitor {
                        " bytes is not allowed, must have at most " + std::to_string(kLongestText));
     } else if (isTyped(*node)) {
       const std::string text = shortened(node->Scalar(), kLongestQuotation);
-      lines_.push_back(key + ": " + text + " came as a number or a flag, must be a text: quote it ('" + text +
+      lines_.push_back(key + ": " + text +
+                       " came as a number or a flag, must be a text: quote it ('" + text +
                        "'), with the zeros that it may have lost");
     } else {
       value = node->Scalar();
@@ -221,13 +233,16 @@ class YamlReader : public OptionVisitor {
 
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
               const std::string& meaning) override {
-    if (const YAML::Node* node = take(key)) value = node->IsScalar() ? choiceOf(node->Scalar(), names) : shown(*node);
+    if (const YAML::Node* node = take(key))
+      value = node->IsScalar() ? choiceOf(node->Scalar(), names) : shown(*node);
     OptionValidator validator;
     validator.choice(key, value, names, meaning);
     append(validator);
   }
 
-  void formerName(const std::string& former, const std::string& key) override { former_names_[former] = key; }
+  void formerName(const std::string& former, const std::string& key) override {
+    former_names_[former] = key;
+  }
 
   /// Call after every field was shown.
   std::vector<std::string> violations() const {
@@ -237,25 +252,30 @@ class YamlReader : public OptionVisitor {
       const std::string section = leaf.key + "/";
       const bool empty_section =
           leaf.node.IsNull() &&
-          std::any_of(known_.begin(), known_.end(), [&](const std::string& key) { return startsWith(key, section); });
+          std::any_of(known_.begin(), known_.end(),
+                      [&](const std::string& key) { return startsWith(key, section); });
       if (leaf.uses == 0 && !empty_section) {
         if (++unknown_count > kMostUnknown) continue;
         const auto former = former_names_.find(leaf.key);
         if (former != former_names_.end()) {
-          lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but its name is " + former->second + " now");
+          lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but its name is " +
+                          former->second + " now");
           continue;
         }
         const std::string name = lastPart(leaf.key);
-        const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
-                                 name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
+        const bool is_fraction =
+            leaf.node.IsNull() && !name.empty() &&
+            name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
         lines.push_back(shortened(leaf.key, kLongestQuotation) + ": " + shown(leaf.node) +
                         " is given, but there is no such setting" +
-                        (is_fraction ? " (is it behind a decimal comma? the decimal sign is a point)"
-                                     : suggestion(leaf.key, known_)));
+                        (is_fraction
+                             ? " (is it behind a decimal comma? the decimal sign is a point)"
+                             : suggestion(leaf.key, known_)));
       }
     }
     if (unknown_count > kMostUnknown) {
-      lines.push_back(std::to_string(unknown_count - kMostUnknown) + " more keys are given that are no settings");
+      lines.push_back(std::to_string(unknown_count - kMostUnknown) +
+                      " more keys are given that are no settings");
     }
     return lines;
   }
@@ -272,8 +292,9 @@ class YamlReader : public OptionVisitor {
       ++leaf.uses;
       if (found != nullptr) {
         const std::string place = placeOf(leaf.node);
-        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) + placeOf(*found) +
-                         (place.empty() ? "" : " and" + place) + ", must be given once");
+        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) +
+                         placeOf(*found) + (place.empty() ? "" : " and" + place) +
+                         ", must be given once");
       } else {
         found = &leaf.node;
       }
@@ -282,7 +303,8 @@ class YamlReader : public OptionVisitor {
   }
 
   void wrongType(const std::string& key, const YAML::Node& node, const std::string& allowed) {
-    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed + commaHint(node));
+    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed +
+                     commaHint(node));
   }
 
   void append(const OptionValidator& validator) {
@@ -301,9 +323,11 @@ class YamlWriter : public OptionVisitor {
  public:
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
               const std::string& meaning) override {
-    line(key, yamlNumber(value), (unit.empty() ? "" : "[" + unit + "] ") + meaning + "; " + range.text());
+    line(key, yamlNumber(value),
+         (unit.empty() ? "" : "[" + unit + "] ") + meaning + "; " + range.text());
   }
-  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+  void integer(const std::string& key, int& value, const Range& range,
+               const std::string& meaning) override {
     line(key, std::to_string(value), meaning + "; an integer " + range.text());
   }
   void flag(const std::string& key, bool& value, const std::string& meaning) override {
@@ -391,7 +415,8 @@ std::string yamlNumber(double value) {
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
   std::string text = numberText(value);
   const std::size_t exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  if (exponent != std::string::npos && text.find('.') == std::string::npos)
+    text.insert(exponent, ".0");
   return text;
 }
 

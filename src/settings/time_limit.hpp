@@ -3,11 +3,12 @@
 /// @file
 /// How does a prediction end that takes longer than whoever waits for it can wait?
 ///
-/// Whoever waits says how long; what takes long asks between its steps whether the time is over. Both do so on the same
-/// thread, and nothing between them needs to know.
+/// Whoever waits says how long; what takes long asks between its steps whether the time is over.
+/// Both do so on the same thread, and nothing between them needs to know.
 ///
 ///     const TimeLimit limit(60.0, "limits/max_time");  // until the end of the block
-///     for (...) TimeLimit::check();                    // anywhere below, once in a millisecond or so
+///     for (...) TimeLimit::check();                    // anywhere below, once in a millisecond or
+///     so
 
 #include <chrono>
 #include <functional>
@@ -22,7 +23,8 @@ class TimeLimitError : public SurfaceError {
   using SurfaceError::SurfaceError;
 };
 
-/// The time that this thread may work, as long as the object lives. An inner limit never lengthens an outer one.
+/// The time that this thread may work, as long as the object lives. An inner limit never lengthens
+/// an outer one.
 class TimeLimit {
  public:
   /// - @p seconds in all; infinity = no limit
@@ -46,10 +48,11 @@ class TimeLimit {
   const char* setting_;
 };
 
-/// What this thread does beside, wherever something long asks for its time: it gives way to others, or throws since it
-/// is to end.
+/// What this thread does beside, wherever something long asks for its time: it gives way to others,
+/// or throws since it is to end.
 ///
-///     const BesideWork beside([&] { if (stopping) throw Stopped(); });  // until the end of the block
+///     const BesideWork beside([&] { if (stopping) throw Stopped(); });  // until the end of the
+///     block
 class BesideWork {
  public:
   explicit BesideWork(std::function<void()> work);

@@ -50,18 +50,22 @@ struct NodeSize {
 class YamlMeter : public YAML::EventHandler {
  public:
   YamlMeter(const std::string& name, std::uint64_t text_size)
-      : name_(name), max_values_(std::max(kMaxValues, text_size)), max_bytes_(std::max(kMaxBytes, text_size)) {}
+      : name_(name),
+        max_values_(std::max(kMaxValues, text_size)),
+        max_bytes_(std::max(kMaxBytes, text_size)) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(mark, anchor, {}); }
-  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& value) override {
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string& value) override {
     add(mark, anchor, {1, value.size(), 0});
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = sizes_.find(anchor);
     if (named == sizes_.end()) {
-      refuse(mark, "an alias stands inside what it names, so that the text contains itself; must not");
+      refuse(mark,
+             "an alias stands inside what it names, so that the text contains itself; must not");
     }
     add(mark, YAML::NullAnchor, named->second);
   }
@@ -108,16 +112,19 @@ class YamlMeter : public YAML::EventHandler {
     whole.bytes += size.bytes;
     whole.levels = std::max(whole.levels, size.levels + 1);
     if (whole.values > max_values_) {
-      refuse(mark, "the text holds more than " + std::to_string(max_values_) + " values, as aliases stand for many");
+      refuse(mark, "the text holds more than " + std::to_string(max_values_) +
+                       " values, as aliases stand for many");
     }
     if (whole.bytes > max_bytes_) {
-      refuse(mark, "the text holds more than " + std::to_string(max_bytes_) + " bytes, as aliases stand for many");
+      refuse(mark, "the text holds more than " + std::to_string(max_bytes_) +
+                       " bytes, as aliases stand for many");
     }
   }
 
   void checkLevels(const YAML::Mark& mark, int levels) const {
     if (levels <= kMaxYamlDepth) return;
-    refuse(mark, "more than " + std::to_string(kMaxYamlDepth) + " levels of maps and lists below one another");
+    refuse(mark, "more than " + std::to_string(kMaxYamlDepth) +
+                     " levels of maps and lists below one another");
   }
 
   const std::string& name_;
@@ -140,8 +147,8 @@ YAML::Node parseYaml(const std::string& text, const std::string& name) {
     if (isBinary(text)) throw FileError(name + ": is not a text, so no file of settings");
     const std::size_t line = lineWithTab(text);
     if (line == 0) throw FileError(name + ": not valid YAML: " + error.what());
-    throw FileError(name + ": not valid YAML: line " + std::to_string(line) + " begins with a tab; must be spaces (" +
-                    error.what() + ")");
+    throw FileError(name + ": not valid YAML: line " + std::to_string(line) +
+                    " begins with a tab; must be spaces (" + error.what() + ")");
   }
 }
 

@@ -51,11 +51,13 @@ std::optional<std::int64_t> timeOf(const std::string& text) {
 }  // namespace
 
 std::uint64_t acquisitionStamp(const std::string& acquisition_time, std::int64_t file_time) {
-  constexpr std::int64_t kLargest = std::int64_t{std::numeric_limits<std::uint32_t>::max()} * kSecond;
+  constexpr std::int64_t kLargest =
+      std::int64_t{std::numeric_limits<std::uint32_t>::max()} * kSecond;
   const std::optional<std::int64_t> stated = timeOf(acquisition_time);
   const std::int64_t tomorrow = std::int64_t{std::time(nullptr)} * kSecond + kDay;
   const bool makes_sense = stated && *stated >= kEarliest && *stated < tomorrow;
-  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(makes_sense ? *stated : file_time, 1, kLargest));
+  return static_cast<std::uint64_t>(
+      std::clamp<std::int64_t>(makes_sense ? *stated : file_time, 1, kLargest));
 }
 
 }  // namespace mems_stiction

@@ -20,7 +20,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// A pitch that is stated and differs by less is the grid's own.
 constexpr double kSamePitch = 0.01;
 
-/// Share of the distances between neighbours that the pitch of an uneven grid exceeds: fewer cells than the rest stay empty.
+/// Share of the distances between neighbours that the pitch of an uneven grid exceeds: fewer cells
+/// than the rest stay empty.
 constexpr double kCoveredShare = 0.95;
 
 /// One coordinate over the index of a row or column: first + step x index.
@@ -67,7 +68,8 @@ struct Grid {
 std::optional<Grid> evenGrid(const cv::Mat& points, double tolerance) {
   if (points.rows < 2 || points.cols < 2) return std::nullopt;
   for (const bool is_transposed : {false, true}) {
-    const Grid grid = {fitAxis(points, 0, is_transposed), fitAxis(points, 1, !is_transposed), is_transposed};
+    const Grid grid = {fitAxis(points, 0, is_transposed), fitAxis(points, 1, !is_transposed),
+                       is_transposed};
     const bool is_even = grid.x.step != 0.0 && grid.y.step != 0.0 &&
                          grid.x.worst <= tolerance * std::abs(grid.x.step) &&
                          grid.y.worst <= tolerance * std::abs(grid.y.step);
@@ -85,7 +87,8 @@ HeightMap mapOnOwnGrid(const cv::Mat& points, const Grid& grid) {
   return {heights, std::abs(grid.x.step), std::abs(grid.y.step)};
 }
 
-/// Distances of measured neighbours along one coordinate, in whichever direction of the order it changes most.
+/// Distances of measured neighbours along one coordinate, in whichever direction of the order it
+/// changes most.
 double coveringPitch(const cv::Mat& points, int coordinate) {
   std::vector<double> along_rows, along_cols;
   for (int row = 0; row < points.rows; ++row) {
@@ -103,7 +106,8 @@ double coveringPitch(const cv::Mat& points, int coordinate) {
   double largest = 0.0;
   for (std::vector<double>* distances : {&along_rows, &along_cols}) {
     if (distances->empty()) continue;
-    const auto place = distances->begin() + static_cast<std::ptrdiff_t>(kCoveredShare * (distances->size() - 1));
+    const auto place =
+        distances->begin() + static_cast<std::ptrdiff_t>(kCoveredShare * (distances->size() - 1));
     std::nth_element(distances->begin(), place, distances->end());
     largest = std::max(largest, *place);
   }
@@ -113,7 +117,9 @@ double coveringPitch(const cv::Mat& points, int coordinate) {
 /// The plane z = a + b x + c y nearest to the points, about their middle.
 struct MeanPlane {
   cv::Vec3d middle, slope;  ///< slope: b, c, and a at the middle
-  double at(double x, double y) const { return slope[2] + slope[0] * (x - middle[0]) + slope[1] * (y - middle[1]); }
+  double at(double x, double y) const {
+    return slope[2] + slope[0] * (x - middle[0]) + slope[1] * (y - middle[1]);
+  }
 };
 
 MeanPlane meanPlane(const std::vector<cv::Vec3d>& points) {
@@ -124,7 +130,8 @@ MeanPlane meanPlane(const std::vector<cv::Vec3d>& points) {
   cv::Vec2d right(0.0, 0.0);
   for (const cv::Vec3d& point : points) {
     const cv::Vec3d from = point - plane.middle;
-    products += cv::Matx22d(from[0] * from[0], from[0] * from[1], from[0] * from[1], from[1] * from[1]);
+    products +=
+        cv::Matx22d(from[0] * from[0], from[0] * from[1], from[0] * from[1], from[1] * from[1]);
     right += cv::Vec2d(from[0] * from[2], from[1] * from[2]);
   }
   cv::Vec2d slopes(0.0, 0.0);
@@ -147,16 +154,19 @@ std::string metres(double value) { return shortNumber(value) + " m"; }
 
 CloudMap mapOnNewGrid(const cv::Mat& points, double pitch_x, double pitch_y) {
   const std::vector<cv::Vec3d> measured = measuredPoints(points);
-  const auto [left, right] = std::minmax_element(measured.begin(), measured.end(),
-                                                 [](const auto& one, const auto& other) { return one[0] < other[0]; });
-  const auto [bottom, top] = std::minmax_element(measured.begin(), measured.end(),
-                                                 [](const auto& one, const auto& other) { return one[1] < other[1]; });
+  const auto [left, right] =
+      std::minmax_element(measured.begin(), measured.end(),
+                          [](const auto& one, const auto& other) { return one[0] < other[0]; });
+  const auto [bottom, top] =
+      std::minmax_element(measured.begin(), measured.end(),
+                          [](const auto& one, const auto& other) { return one[1] < other[1]; });
   const double first_x = (*left)[0], last_y = (*top)[1];
   const double cols = std::floor(((*right)[0] - first_x) / pitch_x + 0.5) + 1.0;
   const double rows = std::floor((last_y - (*bottom)[1]) / pitch_y + 0.5) + 1.0;
   if (!(cols * rows <= static_cast<double>(kMaxPixels)) || cols < 2.0 || rows < 2.0) {
-    throw SurfaceError("points over " + metres((*right)[0] - first_x) + " x " + metres(last_y - (*bottom)[1]) +
-                       " make no map with a pitch of " + metres(pitch_x) + " x " + metres(pitch_y));
+    throw SurfaceError("points over " + metres((*right)[0] - first_x) + " x " +
+                       metres(last_y - (*bottom)[1]) + " make no map with a pitch of " +
+                       metres(pitch_x) + " x " + metres(pitch_y));
   }
   const MeanPlane plane = meanPlane(measured);
   const cv::Size size(static_cast<int>(cols), static_cast<int>(rows));
@@ -172,28 +182,34 @@ CloudMap mapOnNewGrid(const cv::Mat& points, double pitch_x, double pitch_y) {
     auto* height = heights.ptr<double>(row);
     const auto* count = counts.ptr<double>(row);
     for (int col = 0; col < size.width; ++col) {
-      height[col] = count[col] > 0.0 ? height[col] + plane.at(first_x + col * pitch_x, last_y - row * pitch_y) : kNan;
+      height[col] = count[col] > 0.0
+                        ? height[col] + plane.at(first_x + col * pitch_x, last_y - row * pitch_y)
+                        : kNan;
     }
   }
   double most = 0.0;
   cv::minMaxLoc(counts, nullptr, &most);
   const int filled = cv::countNonZero(counts);
-  const std::string note = "put on a grid of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                           " cells of " + metres(pitch_x) + " x " + metres(pitch_y) + ": " + std::to_string(filled) +
-                           " hold " + shortNumber(static_cast<double>(measured.size()) / filled) +
-                           " points in the mean, at most " + shortNumber(most) + "; the others are not measured";
+  const std::string note =
+      "put on a grid of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+      " cells of " + metres(pitch_x) + " x " + metres(pitch_y) + ": " + std::to_string(filled) +
+      " hold " + shortNumber(static_cast<double>(measured.size()) / filled) +
+      " points in the mean, at most " + shortNumber(most) + "; the others are not measured";
   return {HeightMap(heights, pitch_x, pitch_y), {note}};
 }
 
-bool isOther(double stated, double own) { return stated > 0.0 && std::abs(stated - own) > kSamePitch * own; }
+bool isOther(double stated, double own) {
+  return stated > 0.0 && std::abs(stated - own) > kSamePitch * own;
+}
 
 double neededPitch(const char* key, double stated, const cv::Mat& points, int coordinate) {
   if (stated > 0.0) return stated;
   const bool has_order = points.rows > 1 && points.cols > 1;
   const double own = has_order ? coveringPitch(points, coordinate) : 0.0;
   if (own > 0.0) return own;
-  throw SurfaceError(std::string("the cloud has no order of rows and columns from which a pitch follows: state ") +
-                     key);
+  throw SurfaceError(
+      std::string("the cloud has no order of rows and columns from which a pitch follows: state ") +
+      key);
 }
 
 }  // namespace
@@ -203,8 +219,8 @@ void dropUnmeasured(cv::Mat& points, const CloudOptions& options) {
     auto* point = points.ptr<cv::Vec3d>(row);
     for (int col = 0; col < points.cols; ++col) {
       const cv::Vec3d& one = point[col];
-      const bool is_measured = std::isfinite(one[0]) && std::isfinite(one[1]) && one[2] >= options.invalid_below &&
-                               one[2] <= options.invalid_above;
+      const bool is_measured = std::isfinite(one[0]) && std::isfinite(one[1]) &&
+                               one[2] >= options.invalid_below && one[2] <= options.invalid_above;
       if (!is_measured) point[col][2] = kNan;
     }
   }
@@ -212,7 +228,8 @@ void dropUnmeasured(cv::Mat& points, const CloudOptions& options) {
 
 CloudMap mapOfPoints(const cv::Mat& stated, const CloudOptions& options) {
   cv::Mat points = stated.clone();
-  const bool turns_y = options.mirror == Mirror::kY || (options.mirror == Mirror::kAuto && options.is_up_negative);
+  const bool turns_y =
+      options.mirror == Mirror::kY || (options.mirror == Mirror::kAuto && options.is_up_negative);
   const cv::Scalar signs(options.mirror == Mirror::kX ? -1.0 : 1.0, turns_y ? -1.0 : 1.0,
                          options.is_up_negative ? -1.0 : 1.0);
   if (signs != cv::Scalar(1.0, 1.0, 1.0)) cv::multiply(points, signs, points);
@@ -220,7 +237,8 @@ CloudMap mapOfPoints(const cv::Mat& stated, const CloudOptions& options) {
     throw SurfaceError("none of the " + std::to_string(points.total()) + " points is measured");
   }
   const std::optional<Grid> grid = evenGrid(points, options.grid_tolerance);
-  if (grid && !isOther(options.pitch_x, std::abs(grid->x.step)) && !isOther(options.pitch_y, std::abs(grid->y.step))) {
+  if (grid && !isOther(options.pitch_x, std::abs(grid->x.step)) &&
+      !isOther(options.pitch_y, std::abs(grid->y.step))) {
     return {mapOnOwnGrid(points, *grid), {}};
   }
   return mapOnNewGrid(points, neededPitch("pitch_x", options.pitch_x, points, 0),

@@ -40,8 +40,8 @@ Coordinate coordinateOf(const sensor_msgs::PointCloud2& cloud, const std::string
   }
   const Coordinate coordinate = {found->offset, found->datatype == PointField::FLOAT64};
   if (coordinate.offset + (coordinate.is_double ? 8 : 4) > cloud.point_step) {
-    throw SurfaceError("field '" + name + "' at offset " + std::to_string(found->offset) + " lies beyond point_step " +
-                       std::to_string(cloud.point_step));
+    throw SurfaceError("field '" + name + "' at offset " + std::to_string(found->offset) +
+                       " lies beyond point_step " + std::to_string(cloud.point_step));
   }
   return coordinate;
 }
@@ -49,7 +49,8 @@ Coordinate coordinateOf(const sensor_msgs::PointCloud2& cloud, const std::string
 void checkSizes(const sensor_msgs::PointCloud2& cloud) {
   const auto must = [](const std::string& what, std::uint64_t is, std::uint64_t least) {
     if (is >= least) return;
-    throw SurfaceError(what + " is " + std::to_string(is) + ", must be at least " + std::to_string(least));
+    throw SurfaceError(what + " is " + std::to_string(is) + ", must be at least " +
+                       std::to_string(least));
   };
   must("the number of points of the cloud", std::uint64_t{cloud.width} * cloud.height, 1);
   checkPixelCount(cloud.width, cloud.height);
@@ -86,8 +87,8 @@ cv::Mat cloudPoints(const sensor_msgs::PointCloud2& cloud) {
       for (int axis = 0; axis < 3; ++axis) {
         const Coordinate& one = coordinates[static_cast<std::size_t>(axis)];
         const std::uint8_t* bytes = point + one.offset;
-        target[col][axis] =
-            one.is_double ? numberAt<double>(bytes, is_foreign_order) : numberAt<float>(bytes, is_foreign_order);
+        target[col][axis] = one.is_double ? numberAt<double>(bytes, is_foreign_order)
+                                          : numberAt<float>(bytes, is_foreign_order);
       }
     }
   }

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Points of a message as numbers: fields by name, of either precision, in either order of bytes, wherever they lie.
+/// Points of a message as numbers: fields by name, of either precision, in either order of bytes,
+/// wherever they lie.
 
 #include <string>
 
@@ -11,7 +12,8 @@
 namespace mems_stiction {
 
 /// height x width of CV_64FC3: x, y, z [m] as the message states them.
-/// @throw SurfaceError naming a field that is missing or of another type, or sizes that do not agree with each other.
+/// @throw SurfaceError naming a field that is missing or of another type, or sizes that do not
+/// agree with each other.
 cv::Mat cloudPoints(const sensor_msgs::PointCloud2& cloud);
 
 }  // namespace mems_stiction

@@ -41,17 +41,18 @@ void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points)
 
 std::string cloudName(const std_msgs::Header& header) {
   PlainStream text;
-  text << "the cloud of stamp " << header.stamp << " in frame '" << shortened(header.frame_id, kLongestQuotation)
-       << "'";
+  text << "the cloud of stamp " << header.stamp << " in frame '"
+       << shortened(header.frame_id, kLongestQuotation) << "'";
   return oneLine(text.str());
 }
 
-CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle, ScanPublisher& publisher,
-                         SourceAccounting& accounting)
+CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
+                         ScanPublisher& publisher, SourceAccounting& accounting)
     : options_(options),
       publisher_(publisher),
       accounting_(accounting),
-      transforms_(options.points.frame.empty() ? nullptr : std::make_unique<TransformListener>(handle)),
+      transforms_(options.points.frame.empty() ? nullptr
+                                               : std::make_unique<TransformListener>(handle)),
       thread_([this] { loop(); }),
       points_(subscribeChecked<sensor_msgs::PointCloud2>(
           handle, kPointsTopic, kSubscriberQueue,
@@ -92,9 +93,10 @@ void CloudSource::take(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     countWaiting();
   }
   if (dropped) {
-    accounting_.refused(
-        cloudName(dropped->cloud->header),
-        "given up for newer ones, since " + std::to_string(options_.points.queue_size) + " wait already (queue_size)");
+    accounting_.refused(cloudName(dropped->cloud->header),
+                        "given up for newer ones, since " +
+                            std::to_string(options_.points.queue_size) +
+                            " wait already (queue_size)");
   }
   changed_.notify_all();
 }
@@ -108,7 +110,8 @@ void CloudSource::loop() {
     }
     if (work()) continue;
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, std::chrono::duration<double>(kLookPeriod), [this] { return is_stopping_; });
+    changed_.wait_for(lock, std::chrono::duration<double>(kLookPeriod),
+                      [this] { return is_stopping_; });
   }
 }
 
@@ -128,7 +131,8 @@ bool CloudSource::work() {
   try {
     publish(*at_hand_->cloud);
   } catch (const NoTransform& error) {
-    if ((ros::SteadyTime::now() - at_hand_->since).toSec() < options_.points.transform_timeout) return false;
+    if ((ros::SteadyTime::now() - at_hand_->since).toSec() < options_.points.transform_timeout)
+      return false;
     reason = error.what();
   } catch (const std::exception& error) {  // whatever it is, the next cloud may do
     reason = reasonOf(error);
@@ -149,11 +153,14 @@ void CloudSource::publish(const sensor_msgs::PointCloud2& cloud) {
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
   cv::Mat points = cloudPoints(cloud);
   dropUnmeasured(points, options_.points.map);
-  if (transforms_) transformPoints(transforms_->at(options_.points.frame, header.frame_id, stamp), points);
+  if (transforms_)
+    transformPoints(transforms_->at(options_.points.frame, header.frame_id, stamp), points);
   const CloudMap map = mapOfPoints(points, options_.points.map);
-  for (const std::string& note : map.notes) logSoon(ros::console::levels::Info, cloudName(header) + ": " + note);
+  for (const std::string& note : map.notes)
+    logSoon(ros::console::levels::Info, cloudName(header) + ": " + note);
   accounting_.show("last_map", map.notes.empty() ? "on the grid of the points" : map.notes.front());
-  publisher_.publish(map.surface, options_.identity, transforms_ ? options_.points.frame : header.frame_id,
+  publisher_.publish(map.surface, options_.identity,
+                     transforms_ ? options_.points.frame : header.frame_id,
                      publisher_.freeStamp(stamp.toNSec()));
 }
 

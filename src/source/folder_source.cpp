@@ -22,13 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often a file is tried that cannot be read at all: shares are busy, programs lock their files.
+/// How often a file is tried that cannot be read at all: shares are busy, programs lock their
+/// files.
 constexpr int kMostAttempts = 5;
 
 /// While nobody listens [s].
 constexpr double kListenerPeriod = 0.1;
 
-/// Parameters come from anybody in the network: only below these folders is anything read or written.
+/// Parameters come from anybody in the network: only below these folders is anything read or
+/// written.
 std::string allowedPath(const std::string& key, const std::string& path) {
   std::error_code failed;
   std::string absolute = fs::weakly_canonical(fs::absolute(path, failed), failed).string();
@@ -41,7 +43,8 @@ std::string folderOf(const FolderOptions& options) {
   std::string folder = allowedPath("folder", options.folder);
   std::error_code unknown;
   if (fs::is_directory(folder, unknown)) return folder;
-  throw OptionsError({"folder: " + oneLine(options.folder) + " is not allowed, must be a folder that is there"});
+  throw OptionsError(
+      {"folder: " + oneLine(options.folder) + " is not allowed, must be a folder that is there"});
 }
 
 /// ROS's own folder for what programs leave behind.
@@ -56,7 +59,8 @@ std::string stateFileOf(const FolderOptions& options, const std::string& node) {
   std::string name = node;
   std::replace(name.begin(), name.end(), '/', '_');
   const std::string folder = contentHash(folderOf(options)).substr(0, 16);
-  return rosHome() + "/scan_source/" + name.substr(std::min<std::size_t>(1, name.size())) + "-" + folder + ".seen";
+  return rosHome() + "/scan_source/" + name.substr(std::min<std::size_t>(1, name.size())) + "-" +
+         folder + ".seen";
 }
 
 /// By which the state file knows a file: another sidecar makes another scan of it.
@@ -65,22 +69,23 @@ std::string placeOf(const FoundFile& file) { return file.name + "\n" + file.besi
 /// What neither the file nor its name states, the parameters do.
 void fillUnstated(const ScanIdentity& otherwise, ScanIdentity& identity) {
   for (std::string ScanIdentity::*text :
-       {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id,
-        &ScanIdentity::instrument, &ScanIdentity::operator_name}) {
+       {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id,
+        &ScanIdentity::wafer_id, &ScanIdentity::instrument, &ScanIdentity::operator_name}) {
     if (!isStated(identity.*text)) identity.*text = otherwise.*text;
   }
 }
 
 }  // namespace
 
-FolderSource::FolderSource(const SourceOptions& options, const std::string& node, ScanPublisher& publisher,
-                           SourceAccounting& accounting)
+FolderSource::FolderSource(const SourceOptions& options, const std::string& node,
+                           ScanPublisher& publisher, SourceAccounting& accounting)
     : options_(options),
       rules_(options.folder.patterns, options.folder.name_pattern, options.folder.site_scale),
       publisher_(publisher),
       accounting_(accounting),
       seen_(stateFileOf(options.folder, node)),
-      watch_(folderOf(options.folder), options.folder.recursive, options.folder.settle_time, options.folder.poll_period,
+      watch_(folderOf(options.folder), options.folder.recursive, options.folder.settle_time,
+             options.folder.poll_period,
              [this](const std::string& name) { return rules_.isScan(name); }) {
   for (const std::uint64_t stamp : seen_.stamps()) publisher_.reserve(stamp);
   accounting_.show("folder", oneLine(folderOf(options.folder)));
@@ -177,7 +182,8 @@ void FolderSource::read(const FoundFile& file) {
   ScanFileOptions file_options;
   file_options.import.channel = options_.folder.channel;
   ScanFile scan = openScanFile(file.path, options_.scan, file_options);
-  if (!FolderWatch::isUnchanged(file) || (!scan.identity.checksum.empty() && scan.identity.checksum != checksum)) {
+  if (!FolderWatch::isUnchanged(file) ||
+      (!scan.identity.checksum.empty() && scan.identity.checksum != checksum)) {
     watch_.putBack(file);
     return;
   }
@@ -190,7 +196,8 @@ void FolderSource::publish(const FoundFile& file, const std::string& key, ScanFi
   }
   const std::string nameless = rules_.identify(file.name, scan.identity);
   if (!nameless.empty()) {
-    logSoon(ros::console::levels::Warn, oneLine(file.name) + " " + oneLine(nameless) + ": it is published without");
+    logSoon(ros::console::levels::Warn,
+            oneLine(file.name) + " " + oneLine(nameless) + ": it is published without");
   }
   fillUnstated(options_.identity, scan.identity);
   const std::vector<std::string> complaints = identityComplaints(scan.identity, "");
@@ -210,7 +217,8 @@ void FolderSource::publish(const FoundFile& file, const std::string& key, ScanFi
 void FolderSource::refuse(const FoundFile& file, const std::string& reason) {
   watch_.settle(file, true);
   attempts_.erase(file.name);
-  const std::string said = std::to_string(file.stamp.size) + " " + std::to_string(file.stamp.modified) + " " + reason;
+  const std::string said =
+      std::to_string(file.stamp.size) + " " + std::to_string(file.stamp.modified) + " " + reason;
   if (std::exchange(refused_[file.name], said) != said) accounting_.refused(file.name, reason);
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The door `folder`: publishes each content that an instrument's program writes into a folder once, also after a restart.
+/// The door `folder`: publishes each content that an instrument's program writes into a folder
+/// once, also after a restart.
 
 #include <atomic>
 #include <cstdint>
@@ -24,7 +25,8 @@ class FolderSource {
  public:
   /// - @p node the full name, for the default state file
   /// - @p publisher, @p accounting must outlive this
-  /// @throw OptionsError for a folder or state file that is missing or not allowed, or a bad name pattern.
+  /// @throw OptionsError for a folder or state file that is missing or not allowed, or a bad name
+  /// pattern.
   /// @throw FileError for a state file that cannot be used.
   FolderSource(const SourceOptions& options, const std::string& node, ScanPublisher& publisher,
                SourceAccounting& accounting);
@@ -51,9 +53,11 @@ class FolderSource {
   SourceAccounting& accounting_;
   SeenContents seen_;
   FolderWatch watch_;
-  std::map<std::string, std::string> refused_;  ///< why, by name: the same reason again is no other refusal
-  std::map<std::string, std::string> keys_;     ///< of the contents that files of this run had, by name
-  std::map<std::string, int> attempts_;         ///< of files that cannot be read, by name
+  std::map<std::string, std::string>
+      refused_;  ///< why, by name: the same reason again is no other refusal
+  std::map<std::string, std::string>
+      keys_;                             ///< of the contents that files of this run had, by name
+  std::map<std::string, int> attempts_;  ///< of files that cannot be read, by name
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kToldChanges =
-    IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_ONLYDIR;
+constexpr std::uint32_t kToldChanges = IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB |
+                                       IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_ONLYDIR;
 
 /// Who leaves a file open for so long without writing has forgotten it [s].
 constexpr std::chrono::seconds kLongestOpen(30);
@@ -36,10 +36,13 @@ constexpr double kBurst = 0.02;
 constexpr double kLookShare = 4.0;
 
 std::chrono::steady_clock::duration durationOf(double seconds) {
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(seconds));
 }
 
-std::int64_t nanosecondsOf(const timespec& time) { return std::int64_t{time.tv_sec} * 1000000000 + time.tv_nsec; }
+std::int64_t nanosecondsOf(const timespec& time) {
+  return std::int64_t{time.tv_sec} * 1000000000 + time.tv_nsec;
+}
 
 /// @return false where there is no file
 bool readStamp(const std::string& path, FileStamp& stamp) {
@@ -52,14 +55,16 @@ bool readStamp(const std::string& path, FileStamp& stamp) {
 }
 
 std::string stateOf(const FoundFile& file) {
-  return file.name + ":" + std::to_string(file.stamp.size) + ":" + std::to_string(file.stamp.modified) + ";";
+  return file.name + ":" + std::to_string(file.stamp.size) + ":" +
+         std::to_string(file.stamp.modified) + ";";
 }
 
 /// "scan.001", "scan.002": each is a scan, none belongs to another.
 bool isNumbered(const std::string& name) {
   const std::string extension = fs::path(name).extension().string();
-  return extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(),
-                                             [](unsigned char letter) { return std::isdigit(letter) != 0; });
+  return extension.size() > 1 &&
+         std::all_of(extension.begin() + 1, extension.end(),
+                     [](unsigned char letter) { return std::isdigit(letter) != 0; });
 }
 
 std::string withoutExtension(const std::string& name) {
@@ -86,10 +91,12 @@ struct Neighbours {
 
   /// "a.tiff.yaml" and "a.yaml" of "a.tiff".
   std::string beside(const FoundFile& file) const {
-    return statesIn(by_stem, file.name, file) + statesIn(by_stem, withoutExtension(file.name), file);
+    return statesIn(by_stem, file.name, file) +
+           statesIn(by_stem, withoutExtension(file.name), file);
   }
   std::string related(const FoundFile& file) const {
-    return isNumbered(file.name) ? beside(file) : statesIn(by_common_part, commonPartOf(file.name), file);
+    return isNumbered(file.name) ? beside(file)
+                                 : statesIn(by_common_part, commonPartOf(file.name), file);
   }
 
  private:
@@ -107,8 +114,8 @@ struct Neighbours {
 
 }  // namespace
 
-FolderWatch::FolderWatch(std::string folder, bool is_recursive, double settle_time, double poll_period,
-                         std::function<bool(const std::string&)> is_scan)
+FolderWatch::FolderWatch(std::string folder, bool is_recursive, double settle_time,
+                         double poll_period, std::function<bool(const std::string&)> is_scan)
     : folder_(std::move(folder)),
       is_recursive_(is_recursive),
       settle_time_(durationOf(settle_time)),
@@ -124,7 +131,8 @@ FolderWatch::~FolderWatch() {
   close(stop_);
 }
 
-bool FolderWatch::list(const std::string& folder, const std::string& prefix, std::vector<FoundFile>& files) {
+bool FolderWatch::list(const std::string& folder, const std::string& prefix,
+                       std::vector<FoundFile>& files) {
   if (events_ >= 0) {  // before the list: what comes in between is told
     const int number = inotify_add_watch(events_, folder.c_str(), kToldChanges);
     if (number >= 0) watched_[number] = prefix;
@@ -144,7 +152,8 @@ bool FolderWatch::list(const std::string& folder, const std::string& prefix, std
   for (const std::string& own : folders) {
     std::error_code unknown;
     const fs::path below = folder + "/" + own;
-    if (fs::is_directory(fs::symlink_status(below, unknown))) list(below.string(), prefix + own + "/", files);
+    if (fs::is_directory(fs::symlink_status(below, unknown)))
+      list(below.string(), prefix + own + "/", files);
   }
   return true;
 }
@@ -153,8 +162,10 @@ std::string FolderWatch::look() {
   const Clock::time_point begin = Clock::now();
   std::vector<FoundFile> files;
   errno = 0;
-  if (!list(folder_, "", files)) return oneLine(folder_) + ": cannot be read: " + std::strerror(errno);
-  std::sort(files.begin(), files.end(), [](const auto& one, const auto& other) { return one.name < other.name; });
+  if (!list(folder_, "", files))
+    return oneLine(folder_) + ": cannot be read: " + std::strerror(errno);
+  std::sort(files.begin(), files.end(),
+            [](const auto& one, const auto& other) { return one.name < other.name; });
   const Neighbours neighbours(files);
   std::map<std::string, Entry> before;
   std::swap(before, entries_);
@@ -166,8 +177,8 @@ std::string FolderWatch::look() {
     scan.beside = neighbours.beside(file);
     update(scan, neighbours.related(file));
   }
-  gone_ += static_cast<std::size_t>(
-      std::count_if(before.begin(), before.end(), [](const auto& entry) { return !entry.second.is_settled; }));
+  gone_ += static_cast<std::size_t>(std::count_if(
+      before.begin(), before.end(), [](const auto& entry) { return !entry.second.is_settled; }));
   looked_ = Clock::now();
   last_look_ = std::chrono::duration<double>(looked_ - begin).count();
   return "";
@@ -176,7 +187,8 @@ std::string FolderWatch::look() {
 void FolderWatch::update(const FoundFile& file, const std::string& related) {
   const auto [place, is_new] = entries_.try_emplace(file.name);
   Entry& entry = place->second;
-  const bool is_changed = is_new || entry.file.stamp != file.stamp || entry.file.beside != file.beside;
+  const bool is_changed =
+      is_new || entry.file.stamp != file.stamp || entry.file.beside != file.beside;
   const bool may_be_complete = entry.is_settled && entry.is_refused && entry.related != related;
   if (is_changed || may_be_complete) {
     entry.last_change = Clock::now();
@@ -188,7 +200,8 @@ void FolderWatch::update(const FoundFile& file, const std::string& related) {
 }
 
 FolderWatch::Clock::time_point FolderWatch::wholeAt(const Entry& entry) const {
-  return entry.last_change + (entry.is_open ? std::max<Clock::duration>(settle_time_, kLongestOpen) : settle_time_);
+  return entry.last_change +
+         (entry.is_open ? std::max<Clock::duration>(settle_time_, kLongestOpen) : settle_time_);
 }
 
 std::vector<FoundFile> FolderWatch::waiting() const {
@@ -196,17 +209,19 @@ std::vector<FoundFile> FolderWatch::waiting() const {
   for (const auto& [name, entry] : entries_) {
     if (!entry.is_settled) files.push_back(entry.file);
   }
-  std::stable_sort(files.begin(), files.end(),
-                   [](const auto& one, const auto& other) { return one.stamp.modified < other.stamp.modified; });
+  std::stable_sort(files.begin(), files.end(), [](const auto& one, const auto& other) {
+    return one.stamp.modified < other.stamp.modified;
+  });
   return files;
 }
 
 std::vector<FoundFile> FolderWatch::whole() const {
   const Clock::time_point now = Clock::now();
   std::vector<FoundFile> files = waiting();
-  files.erase(std::remove_if(files.begin(), files.end(),
-                             [&](const FoundFile& file) { return wholeAt(entries_.at(file.name)) > now; }),
-              files.end());
+  files.erase(
+      std::remove_if(files.begin(), files.end(),
+                     [&](const FoundFile& file) { return wholeAt(entries_.at(file.name)) > now; }),
+      files.end());
   return files;
 }
 
@@ -216,7 +231,9 @@ void FolderWatch::settle(const FoundFile& file, bool is_refused) {
   entry.is_refused = is_refused;
 }
 
-void FolderWatch::putBack(const FoundFile& file) { entries_.at(file.name).last_change = Clock::now(); }
+void FolderWatch::putBack(const FoundFile& file) {
+  entries_.at(file.name).last_change = Clock::now();
+}
 
 bool FolderWatch::isUnchanged(const FoundFile& file) {
   FileStamp stamp;
@@ -239,7 +256,8 @@ void FolderWatch::readEvents() {
       if (folder == watched_.end() || event.len == 0) continue;
       const std::string name = folder->second + own;
       if ((event.mask & IN_MODIFY) != 0) open_.insert(name);
-      if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE)) != 0) open_.erase(name);
+      if ((event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE)) != 0)
+        open_.erase(name);
     }
   }
 }
@@ -252,7 +270,9 @@ void FolderWatch::wait(double longest) {
   }
   const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
   std::array<pollfd, 2> sources = {{{stop_, POLLIN, 0}, {events_, POLLIN, 0}}};
-  if (poll(sources.data(), sources.size(), static_cast<int>(milliseconds)) <= 0 || sources[0].revents != 0) return;
+  if (poll(sources.data(), sources.size(), static_cast<int>(milliseconds)) <= 0 ||
+      sources[0].revents != 0)
+    return;
   const auto rest = looked_ + durationOf(std::max(kBurst, kLookShare * last_look_)) - Clock::now();
   const auto rest_milliseconds = std::chrono::ceil<std::chrono::milliseconds>(rest).count();
   if (rest_milliseconds > 0) poll(sources.data(), 1, static_cast<int>(rest_milliseconds));

@@ -3,9 +3,9 @@
 /// @file
 /// Which files in a folder are whole and new.
 ///
-/// A file is whole when neither the file nor a sidecar of its name has changed for the settle time, and nobody whom the
-/// system tells of (inotify) still writes to it. Each look lists the folder, so that network shares, of whose changes the
-/// system tells nothing, work alike, only later.
+/// A file is whole when neither the file nor a sidecar of its name has changed for the settle time,
+/// and nobody whom the system tells of (inotify) still writes to it. Each look lists the folder, so
+/// that network shares, of whose changes the system tells nothing, work alike, only later.
 
 #include <chrono>
 #include <cstddef>
@@ -24,7 +24,8 @@ struct FoundFile {
   std::string path;
   std::string name;  ///< relative to the folder
   FileStamp stamp;
-  std::string beside;  ///< names, sizes and times of the files that may belong to it, as its sidecar
+  std::string
+      beside;  ///< names, sizes and times of the files that may belong to it, as its sidecar
 };
 
 /// For one thread, but for stop().
@@ -90,7 +91,7 @@ class FolderWatch {
   int stop_ = -1;
   std::map<int, std::string> watched_;    ///< folders by inotify's numbers, relative, "" or "a/b/"
   std::map<std::string, Entry> entries_;  ///< by relative name
-  std::set<std::string> open_;            ///< files that were written to and not closed since, relative
+  std::set<std::string> open_;  ///< files that were written to and not closed since, relative
   std::size_t gone_ = 0;
   Clock::time_point looked_;
   double last_look_ = 0.0;  ///< what it took [s]

@@ -21,7 +21,8 @@ constexpr double kOnePlace = 0.25;
 /// Neighbours further apart, over the pitch, have a gap between them that is not measured.
 constexpr double kWidestGap = 1.75;
 
-/// A place this near to a sample, over the pitch, is that sample: its neighbour may not be measured.
+/// A place this near to a sample, over the pitch, is that sample: its neighbour may not be
+/// measured.
 constexpr double kSamePlace = 1e-3;
 
 /// Heights over one coordinate, ascending.
@@ -40,7 +41,8 @@ double medianStep(std::vector<double> places) {
   return *middle;
 }
 
-/// Where a place lies between samples: the one below, and the share of the next; a negative share: nowhere.
+/// Where a place lies between samples: the one below, and the share of the next; a negative share:
+/// nowhere.
 struct Between {
   std::size_t below;
   double share;
@@ -64,7 +66,8 @@ std::vector<double> evenPlaces(double first, double last, double pitch) {
                        shortNumber(last - first) + " m");
   }
   std::vector<double> places(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = first + static_cast<double>(i) * pitch;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = first + static_cast<double>(i) * pitch;
   return places;
 }
 
@@ -80,7 +83,8 @@ int coordinateAlong(const std::vector<ScanLine>& lines) {
   for (const ScanLine& line : lines) {
     for (int axis = 0; axis < 2; ++axis) {
       const auto [low, high] = std::minmax_element(
-          line.begin(), line.end(), [axis](const auto& one, const auto& other) { return one[axis] < other[axis]; });
+          line.begin(), line.end(),
+          [axis](const auto& one, const auto& other) { return one[axis] < other[axis]; });
       extent[axis] = std::max(extent[axis], (*high)[axis] - (*low)[axis]);
     }
   }
@@ -90,8 +94,9 @@ int coordinateAlong(const std::vector<ScanLine>& lines) {
 PlacedLine placedLine(const ScanLine& line, int along) {
   PlacedLine placed{0.0, {}};
   ScanLine sorted = line;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [along](const auto& one, const auto& other) { return one[along] < other[along]; });
+  std::stable_sort(sorted.begin(), sorted.end(), [along](const auto& one, const auto& other) {
+    return one[along] < other[along];
+  });
   for (const cv::Vec3d& point : sorted) {
     placed.place += point[1 - along] / static_cast<double>(sorted.size());
     placed.samples.places.push_back(point[along]);
@@ -102,8 +107,9 @@ PlacedLine placedLine(const ScanLine& line, int along) {
 
 /// Whether the points of a line are nearer to its place along the motion than the tolerance.
 bool liesAcross(const ScanLine& line, int along, double place, double most) {
-  return std::all_of(line.begin(), line.end(),
-                     [&](const cv::Vec3d& point) { return std::abs(point[1 - along] - place) <= most; });
+  return std::all_of(line.begin(), line.end(), [&](const cv::Vec3d& point) {
+    return std::abs(point[1 - along] - place) <= most;
+  });
 }
 
 std::vector<double> placesOf(const std::vector<PlacedLine>& lines) {
@@ -115,37 +121,42 @@ std::vector<double> placesOf(const std::vector<PlacedLine>& lines) {
 /// Leaves the first of those at one place.
 std::size_t dropDoubled(std::vector<PlacedLine>& lines, double pitch) {
   const std::size_t before = lines.size();
-  lines.erase(
-      std::unique(lines.begin(), lines.end(),
-                  [&](const auto& one, const auto& other) { return other.place - one.place < kOnePlace * pitch; }),
-      lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end(),
+                          [&](const auto& one, const auto& other) {
+                            return other.place - one.place < kOnePlace * pitch;
+                          }),
+              lines.end());
   return before - lines.size();
 }
 
 std::size_t lostBetween(const std::vector<double>& places, double pitch) {
   std::size_t lost = 0;
   for (std::size_t i = 1; i < places.size(); ++i) {
-    lost += static_cast<std::size_t>(std::max(1.0, std::round((places[i] - places[i - 1]) / pitch)) - 1.0);
+    lost += static_cast<std::size_t>(
+        std::max(1.0, std::round((places[i] - places[i - 1]) / pitch)) - 1.0);
   }
   return lost;
 }
 
-cv::Mat resampled(const std::vector<PlacedLine>& lines, const std::vector<double>& cols, double pitch) {
-  cv::Mat heights(static_cast<int>(lines.size()), static_cast<int>(cols.size()), CV_64FC1, cv::Scalar(kNoHeight));
+cv::Mat resampled(const std::vector<PlacedLine>& lines, const std::vector<double>& cols,
+                  double pitch) {
+  cv::Mat heights(static_cast<int>(lines.size()), static_cast<int>(cols.size()), CV_64FC1,
+                  cv::Scalar(kNoHeight));
   for (int row = 0; row < heights.rows; ++row) {
     const Samples& samples = lines[static_cast<std::size_t>(row)].samples;
     for (int col = 0; col < heights.cols; ++col) {
       const Between at = betweenSamples(samples.places, cols[static_cast<std::size_t>(col)], pitch);
       if (at.share < 0.0) continue;
       const double low = samples.heights[at.below];
-      heights.at<double>(row, col) = at.share == 0.0 ? low : low + at.share * (samples.heights[at.below + 1] - low);
+      heights.at<double>(row, col) =
+          at.share == 0.0 ? low : low + at.share * (samples.heights[at.below + 1] - low);
     }
   }
   return heights;
 }
 
-cv::Mat betweenLines(const cv::Mat& lines, const std::vector<double>& places, const std::vector<double>& rows,
-                     double pitch) {
+cv::Mat betweenLines(const cv::Mat& lines, const std::vector<double>& places,
+                     const std::vector<double>& rows, double pitch) {
   cv::Mat heights(static_cast<int>(rows.size()), lines.cols, CV_64FC1, cv::Scalar(kNoHeight));
   for (int row = 0; row < heights.rows; ++row) {
     const Between at = betweenSamples(places, rows[static_cast<std::size_t>(row)], pitch);
@@ -154,7 +165,8 @@ cv::Mat betweenLines(const cv::Mat& lines, const std::vector<double>& places, co
     if (at.share == 0.0) {
       lines.row(below).copyTo(heights.row(row));
     } else {
-      cv::addWeighted(lines.row(below), 1.0 - at.share, lines.row(below + 1), at.share, 0.0, heights.row(row));
+      cv::addWeighted(lines.row(below), 1.0 - at.share, lines.row(below + 1), at.share, 0.0,
+                      heights.row(row));
     }
   }
   return heights;
@@ -172,17 +184,19 @@ cv::Mat asPoints(const std::vector<ScanLine>& lines) {
 }
 
 double firstStated(std::initializer_list<double> pitches) {
-  return *std::find_if(pitches.begin(), pitches.end() - 1, [](double pitch) { return pitch > 0.0; });
+  return *std::find_if(pitches.begin(), pitches.end() - 1,
+                       [](double pitch) { return pitch > 0.0; });
 }
 
 std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines) {
   std::vector<ScanLine> some;
   for (const ScanLine& line : lines) {
     ScanLine located;  // a point without a place lends none to its line
-    std::copy_if(line.begin(), line.end(), std::back_inserter(located),
-                 [](const cv::Vec3d& point) { return std::isfinite(point[0]) && std::isfinite(point[1]); });
-    const bool is_measured =
-        std::any_of(located.begin(), located.end(), [](const auto& point) { return !std::isnan(point[2]); });
+    std::copy_if(line.begin(), line.end(), std::back_inserter(located), [](const cv::Vec3d& point) {
+      return std::isfinite(point[0]) && std::isfinite(point[1]);
+    });
+    const bool is_measured = std::any_of(located.begin(), located.end(),
+                                         [](const auto& point) { return !std::isnan(point[2]); });
     if (is_measured) some.push_back(std::move(located));
   }
   return some;
@@ -193,8 +207,8 @@ std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines) {
 LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& options) {
   const std::vector<ScanLine> lines = linesWithPoints(stated);
   if (lines.size() < 2) {
-    throw SurfaceError("of " + std::to_string(stated.size()) + " lines " + std::to_string(lines.size()) +
-                       " have a measured point, must be at least 2");
+    throw SurfaceError("of " + std::to_string(stated.size()) + " lines " +
+                       std::to_string(lines.size()) + " have a measured point, must be at least 2");
   }
   const int along = coordinateAlong(lines);
   std::vector<PlacedLine> placed;
@@ -219,8 +233,10 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
     last = std::max(last, line.samples.places.back());
     own = std::max(own, medianStep(line.samples.places));
   }
-  const double pitch_along = firstStated({along == 0 ? options.map.pitch_x : options.map.pitch_y, own});
-  const double pitch_across = firstStated({along == 0 ? options.map.pitch_y : options.map.pitch_x, line_pitch});
+  const double pitch_along =
+      firstStated({along == 0 ? options.map.pitch_x : options.map.pitch_y, own});
+  const double pitch_across =
+      firstStated({along == 0 ? options.map.pitch_y : options.map.pitch_x, line_pitch});
   if (!(pitch_along > 0.0)) throw SurfaceError("the lines have one point each");
   const std::vector<double> cols = evenPlaces(first, last, pitch_along);
   const std::vector<double> rows = evenPlaces(places.front(), places.back(), pitch_across);
@@ -231,7 +247,8 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
     cv::transpose(heights, heights);  // lines run along y: x grows along the columns already
   }
   cv::flip(heights, heights, 0);  // the largest y into row 0
-  const double pitch_x = along == 0 ? pitch_along : pitch_across, pitch_y = along == 0 ? pitch_across : pitch_along;
+  const double pitch_x = along == 0 ? pitch_along : pitch_across,
+               pitch_y = along == 0 ? pitch_across : pitch_along;
   result.map = {HeightMap(heights, pitch_x, pitch_y), {}};
   return result;
 }

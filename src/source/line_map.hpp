@@ -3,10 +3,11 @@
 /// @file
 /// From the lines of a scanner to a height map.
 ///
-/// The lines lie side by side along the motion, at places that need not be even. Each is interpolated to an even pitch along
-/// itself, then the map is interpolated between neighbouring lines. Where neighbours are too far apart the map is not
-/// measured. A line at the place of another one is left out. Lines that do not lie across the motion are put on a grid as
-/// clouds are (cloud_grid.hpp).
+/// The lines lie side by side along the motion, at places that need not be even. Each is
+/// interpolated to an even pitch along itself, then the map is interpolated between neighbouring
+/// lines. Where neighbours are too far apart the map is not measured. A line at the place of
+/// another one is left out. Lines that do not lie across the motion are put on a grid as clouds are
+/// (cloud_grid.hpp).
 
 #include <cstddef>
 #include <string>
@@ -23,7 +24,7 @@ using ScanLine = std::vector<cv::Vec3d>;
 
 /// How lines become a map.
 struct LineMapOptions {
-  CloudOptions map;         ///< pitch_x and pitch_y of the map; 0 = that of the points and of line_pitch
+  CloudOptions map;  ///< pitch_x and pitch_y of the map; 0 = that of the points and of line_pitch
   double line_pitch = 0.0;  ///< of the lines [m]; 0 = their median distance
 };
 

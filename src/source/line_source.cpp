@@ -45,36 +45,44 @@ void JointTrack::add(const ros::Time& stamp, double position) {
 }
 
 double JointTrack::at(const ros::Time& stamp) const {
-  const auto next = std::lower_bound(positions_.begin(), positions_.end(), stamp,
-                                     [](const auto& position, const ros::Time& time) { return position.first < time; });
-  if (next == positions_.end()) throw NoTransform("no position of the joint at or behind the stamp of the line");
+  const auto next = std::lower_bound(
+      positions_.begin(), positions_.end(), stamp,
+      [](const auto& position, const ros::Time& time) { return position.first < time; });
+  if (next == positions_.end())
+    throw NoTransform("no position of the joint at or behind the stamp of the line");
   if (next->first == stamp) return next->second;
-  if (next == positions_.begin()) throw NoTransform("no position of the joint before the stamp of the line");
+  if (next == positions_.begin())
+    throw NoTransform("no position of the joint before the stamp of the line");
   const auto before = std::prev(next);
   const double share = (stamp - before->first).toSec() / (next->first - before->first).toSec();
   return before->second + share * (next->second - before->second);
 }
 
-LineSource::LineSource(const SourceOptions& options, ros::NodeHandle& handle, ros::NodeHandle& private_handle,
-                       ScanPublisher& publisher, SourceAccounting& accounting)
+LineSource::LineSource(const SourceOptions& options, ros::NodeHandle& handle,
+                       ros::NodeHandle& private_handle, ScanPublisher& publisher,
+                       SourceAccounting& accounting)
     : options_(options), publisher_(publisher), accounting_(accounting), is_open_(isContinuous()) {
-  if (options_.lines.motion == Motion::kTf) transforms_ = std::make_unique<TransformListener>(handle);
+  if (options_.lines.motion == Motion::kTf)
+    transforms_ = std::make_unique<TransformListener>(handle);
   if (options_.lines.motion == Motion::kJoint) {
     joints_ = subscribeChecked<sensor_msgs::JointState>(
         handle, "joint_states", kSubscriberQueue,
         {[this](const sensor_msgs::JointStateConstPtr& state) {
-           const auto found = std::find(state->name.begin(), state->name.end(), options_.lines.joint);
+           const auto found =
+               std::find(state->name.begin(), state->name.end(), options_.lines.joint);
            const auto place = static_cast<std::size_t>(found - state->name.begin());
            if (place < state->position.size() && std::isfinite(state->position[place])) {
              joint_.add(state->header.stamp, state->position[place]);
            }
          },
          [](const auto&, const std::string& reason) {
-           logSoon(ros::console::levels::Warn, "a message of joint_states is passed over: " + reason);
+           logSoon(ros::console::levels::Warn,
+                   "a message of joint_states is passed over: " + reason);
          }});
   }
   trigger_ = handle.subscribe<std_msgs::Bool>(
-      "trigger", kPredictionQueue, [this](const std_msgs::BoolConstPtr& trigger) { onTrigger(trigger->data != 0); });
+      "trigger", kPredictionQueue,
+      [this](const std_msgs::BoolConstPtr& trigger) { onTrigger(trigger->data != 0); });
   points_ = subscribeChecked<sensor_msgs::PointCloud2>(
       handle, "points", kSubscriberQueue,
       {[this](const sensor_msgs::PointCloud2ConstPtr& line) { push(Event::kLine, line); },
@@ -85,10 +93,12 @@ LineSource::LineSource(const SourceOptions& options, ros::NodeHandle& handle, ro
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
   begin_service_ = private_handle.advertiseService<Request, Response>(
-      "begin_scan", [this](Request&, Response& response) { return answer(Event::kBegin, response); });
+      "begin_scan",
+      [this](Request&, Response& response) { return answer(Event::kBegin, response); });
   end_service_ = private_handle.advertiseService<Request, Response>(
       "end_scan", [this](Request&, Response& response) { return answer(Event::kEnd, response); });
-  timer_ = handle.createWallTimer(ros::WallDuration(kPollPeriod), [this](const ros::WallTimerEvent&) { poll(); });
+  timer_ = handle.createWallTimer(ros::WallDuration(kPollPeriod),
+                                  [this](const ros::WallTimerEvent&) { poll(); });
 }
 
 bool LineSource::isContinuous() const {
@@ -144,10 +154,12 @@ bool LineSource::takeLine(const Waiting& waiting) {
     countNumber(waiting.line->header);
     add(waiting.line->header, std::move(line));
   } catch (const NoTransform& error) {
-    if ((ros::SteadyTime::now() - waiting.since).toSec() < options_.points.transform_timeout) return false;
+    if ((ros::SteadyTime::now() - waiting.since).toSec() < options_.points.transform_timeout)
+      return false;
     ++counts_.without_place;
     countNumber(waiting.line->header);
-    logSoon(ros::console::levels::Warn, oneLine(std::string("a line has no place: ") + error.what()));
+    logSoon(ros::console::levels::Warn,
+            oneLine(std::string("a line has no place: ") + error.what()));
   } catch (const std::exception& error) {  // whatever it is, the next line may do
     ++counts_.refused;
     logSoon(ros::console::levels::Warn, oneLine("a line is passed over: " + reasonOf(error)));
@@ -164,11 +176,13 @@ LineSource::Placed LineSource::placed(const sensor_msgs::PointCloud2& line) {
   if (lines.motion == Motion::kJoint) {
     place = lines.joint_scale * joint_.at(line.header.stamp);
   } else if (!scan_->lines.empty()) {
-    place = lines.motion == Motion::kSpeed ? lines.speed * (line.header.stamp - scan_->first.stamp).toSec()
-                                           : lines.line_pitch * numberOf(line.header);
+    place = lines.motion == Motion::kSpeed
+                ? lines.speed * (line.header.stamp - scan_->first.stamp).toSec()
+                : lines.line_pitch * numberOf(line.header);
   }
   const double progress = place;
-  if (!scan_->lines.empty() && lines.motion == Motion::kJoint && place < scan_->last) place += lines.backlash;
+  if (!scan_->lines.empty() && lines.motion == Motion::kJoint && place < scan_->last)
+    place += lines.backlash;
   Placed result{{}, progress};
   for (int row = 0; row < points.rows; ++row) {
     for (int col = 0; col < points.cols; ++col) {
@@ -180,20 +194,24 @@ LineSource::Placed LineSource::placed(const sensor_msgs::PointCloud2& line) {
 }
 
 LineSource::Placed LineSource::placedByTransform(const std_msgs::Header& header, cv::Mat points) {
-  const geometry_msgs::Transform transform = transforms_->at(options_.points.frame, header.frame_id, header.stamp);
+  const geometry_msgs::Transform transform =
+      transforms_->at(options_.points.frame, header.frame_id, header.stamp);
   transformPoints(transform, points);
   const auto& shift = transform.translation;
   const cv::Vec3d stage(shift.x, shift.y, shift.z);
   if (!scan_->start) scan_->start = stage;
   const cv::Vec3d way = stage - *scan_->start;
-  if (!scan_->direction && cv::norm(way) > std::max(kSmallestMove, 0.5 * options_.lines.line_pitch)) {
+  if (!scan_->direction &&
+      cv::norm(way) > std::max(kSmallestMove, 0.5 * options_.lines.line_pitch)) {
     scan_->direction = way / cv::norm(way);
   }
   Placed result{{}, scan_->direction ? way.dot(*scan_->direction) : 0.0};
   const bool goes_back = scan_->direction && result.progress < scan_->last;
-  const cv::Vec3d slack = goes_back ? options_.lines.backlash * *scan_->direction : cv::Vec3d(0.0, 0.0, 0.0);
+  const cv::Vec3d slack =
+      goes_back ? options_.lines.backlash * *scan_->direction : cv::Vec3d(0.0, 0.0, 0.0);
   for (int row = 0; row < points.rows; ++row) {
-    for (int col = 0; col < points.cols; ++col) result.points.push_back(points.at<cv::Vec3d>(row, col) + slack);
+    for (int col = 0; col < points.cols; ++col)
+      result.points.push_back(points.at<cv::Vec3d>(row, col) + slack);
   }
   return result;
 }
@@ -208,19 +226,21 @@ void LineSource::countNumber(const std_msgs::Header& header) {
 
 /// Of a line in its scan. A line that was lost has its number, too, where the driver numbers them.
 double LineSource::numberOf(const std_msgs::Header& header) {
-  const bool is_repeated = !header.stamp.isZero() && last_header_ && header.stamp == last_header_->stamp;
+  const bool is_repeated =
+      !header.stamp.isZero() && last_header_ && header.stamp == last_header_->stamp;
   if (is_repeated) ++scan_->repeated;
   const bool is_numbered = last_header_ && header.seq > last_header_->seq;
-  const std::uint32_t number =
-      is_numbered ? header.seq - scan_->first_number : static_cast<std::uint32_t>(scan_->lines.size());
+  const std::uint32_t number = is_numbered ? header.seq - scan_->first_number
+                                           : static_cast<std::uint32_t>(scan_->lines.size());
   return static_cast<double>(number) - scan_->repeated;
 }
 
 void LineSource::add(const std_msgs::Header& header, Placed line) {
   const LineOptions& options = options_.lines;
   const double move = std::max(kSmallestMove, 0.5 * options.line_pitch);
-  const bool has_turned = !scan_->lines.empty() && scan_->has_moved &&
-                          std::abs(line.progress - scan_->origin) < std::abs(scan_->furthest) - kTurn * move;
+  const bool has_turned =
+      !scan_->lines.empty() && scan_->has_moved &&
+      std::abs(line.progress - scan_->origin) < std::abs(scan_->furthest) - kTurn * move;
   if (options.end_at_turn && has_turned) {
     begin();
     if (options.motion == Motion::kTf) line.progress = 0.0;
@@ -253,9 +273,10 @@ void LineSource::end() {
   if (scan_ && !scan_->lines.empty()) finished_.push_back(std::move(*scan_));
   scan_.reset();
   if (finished_.size() > static_cast<std::size_t>(options_.points.queue_size)) {
-    accounting_.refused(
-        linesName(finished_.front().first),
-        "given up for newer ones, since " + std::to_string(options_.points.queue_size) + " wait already (queue_size)");
+    accounting_.refused(linesName(finished_.front().first),
+                        "given up for newer ones, since " +
+                            std::to_string(options_.points.queue_size) +
+                            " wait already (queue_size)");
     finished_.pop_front();
   }
 }
@@ -268,17 +289,21 @@ void LineSource::publishFinished() {
     finished_.pop_front();
     const std::string name = linesName(scan.first);
     try {
-      const LineMap result = mapOfLines(scan.lines, {options_.points.map, options_.lines.line_pitch});
+      const LineMap result =
+          mapOfLines(scan.lines, {options_.points.map, options_.lines.line_pitch});
       counts_.lost_by_position += result.lost;
       counts_.doubled += result.doubled;
-      std::string note = std::to_string(scan.lines.size()) + " lines; " + std::to_string(result.lost) +
-                         " places have none, " + std::to_string(result.doubled) + " lines lie at the place of another";
+      std::string note = std::to_string(scan.lines.size()) + " lines; " +
+                         std::to_string(result.lost) + " places have none, " +
+                         std::to_string(result.doubled) + " lines lie at the place of another";
       for (const std::string& more : result.map.notes) note += "; " + more;
       logSoon(ros::console::levels::Info, name + ": " + note);
       accounting_.show("last_map", note);
-      const std::uint64_t stamp = (scan.first.stamp.isZero() ? ros::Time::now() : scan.first.stamp).toNSec();
+      const std::uint64_t stamp =
+          (scan.first.stamp.isZero() ? ros::Time::now() : scan.first.stamp).toNSec();
       publisher_.publish(result.map.surface, options_.identity,
-                         transforms_ ? options_.points.frame : scan.first.frame_id, publisher_.freeStamp(stamp));
+                         transforms_ ? options_.points.frame : scan.first.frame_id,
+                         publisher_.freeStamp(stamp));
       accounting_.published(name);
     } catch (const std::exception& error) {  // whatever it is, the next scan may do
       accounting_.refused(name, reasonOf(error));
@@ -290,7 +315,9 @@ void LineSource::showCounts() {
   const bool has_lines = scan_ && !scan_->lines.empty();
   accounting_.waits(finished_.size() + (has_lines ? 1 : 0));
   accounting_.show("scan_is_open", is_open_ ? "true" : "false");
-  const auto show = [this](const char* key, std::uint64_t count) { accounting_.show(key, std::to_string(count)); };
+  const auto show = [this](const char* key, std::uint64_t count) {
+    accounting_.show(key, std::to_string(count));
+  };
   show("lines", counts_.taken);
   show("lines_of_this_scan", has_lines ? scan_->lines.size() : 0);
   show("lines_lost_by_position", counts_.lost_by_position);

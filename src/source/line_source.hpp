@@ -3,8 +3,8 @@
 /// @file
 /// The door `lines`: the lines of a scanner on a stage become a scan.
 ///
-/// Everything happens on the thread of the handle's queue. Lines, and the beginnings and ends of scans among them, wait in
-/// one queue until the place of the first line is known.
+/// Everything happens on the thread of the handle's queue. Lines, and the beginnings and ends of
+/// scans among them, wait in one queue until the place of the first line is known.
 
 #include <cstdint>
 #include <deque>

@@ -16,8 +16,8 @@ namespace mems_stiction {
 namespace {
 
 /// What programs call files that are not whole yet, or only theirs.
-constexpr std::array<const char*, 9> kTemporaryEndings = {".tmp",      ".temp", ".part", ".partial", ".crdownload",
-                                                          ".filepart", ".swp",  ".lock", "~"};
+constexpr std::array<const char*, 9> kTemporaryEndings = {
+    ".tmp", ".temp", ".part", ".partial", ".crdownload", ".filepart", ".swp", ".lock", "~"};
 
 constexpr std::array<std::pair<const char*, std::string ScanIdentity::*>, 4> kTextGroups = {
     {{"part_id", &ScanIdentity::part_id},
@@ -36,7 +36,8 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::size_t first = text.find_first_not_of(' ', begin);
-    if (first < end) parts.push_back(text.substr(first, text.find_last_not_of(' ', end - 1) + 1 - first));
+    if (first < end)
+      parts.push_back(text.substr(first, text.find_last_not_of(' ', end - 1) + 1 - first));
     begin = end + 1;
   }
   return parts;
@@ -44,7 +45,8 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 
 /// Python's way to name a group, in Perl's.
 std::string perlOf(std::string pattern) {
-  for (std::size_t at = pattern.find("(?P<"); at != std::string::npos; at = pattern.find("(?P<", at)) {
+  for (std::size_t at = pattern.find("(?P<"); at != std::string::npos;
+       at = pattern.find("(?P<", at)) {
     pattern.erase(at + 2, 1);
   }
   return pattern;
@@ -52,9 +54,11 @@ std::string perlOf(std::string pattern) {
 
 std::vector<std::string> groupsOf(const std::string& pattern) {
   std::vector<std::string> names;
-  for (std::size_t at = pattern.find("(?<"); at != std::string::npos; at = pattern.find("(?<", at + 1)) {
+  for (std::size_t at = pattern.find("(?<"); at != std::string::npos;
+       at = pattern.find("(?<", at + 1)) {
     const std::size_t begin = at + 3;
-    if (begin < pattern.size() && pattern[begin] != '=' && pattern[begin] != '!') {  // else it looks behind
+    if (begin < pattern.size() && pattern[begin] != '=' &&
+        pattern[begin] != '!') {  // else it looks behind
       names.push_back(pattern.substr(begin, pattern.find('>', begin) - begin));
     }
   }
@@ -69,7 +73,8 @@ bool isKnownGroup(const std::string& name) {
 
 boost::regex compiled(const std::string& stated) {
   const std::string pattern = perlOf(stated);
-  const std::string prefix = "name_pattern: '" + shortened(stated, kLongestQuotation) + "' is not allowed, ";
+  const std::string prefix =
+      "name_pattern: '" + shortened(stated, kLongestQuotation) + "' is not allowed, ";
   const std::vector<std::string> groups = groupsOf(pattern);
   if (groups.empty()) throw OptionsError({prefix + "must name a group, as in (?<part_id>[0-9]+)"});
   for (const std::string& name : groups) {
@@ -86,7 +91,8 @@ boost::regex compiled(const std::string& stated) {
 
 }  // namespace
 
-NameRules::NameRules(const std::string& patterns, const std::string& name_pattern, double site_scale)
+NameRules::NameRules(const std::string& patterns, const std::string& name_pattern,
+                     double site_scale)
     : patterns_(splitAtCommas(patterns)),
       stated_pattern_(name_pattern),
       name_pattern_(name_pattern.empty() ? boost::regex() : compiled(name_pattern)),
@@ -95,10 +101,12 @@ NameRules::NameRules(const std::string& patterns, const std::string& name_patter
 bool NameRules::isScan(const std::string& name) const {
   const std::string own = std::filesystem::path(name).filename().string();
   const std::string low = lowered(own);
-  if (own.empty() || own.front() == '.' || endsWith(low, ".yaml") || endsWith(low, ".yml")) return false;
+  if (own.empty() || own.front() == '.' || endsWith(low, ".yaml") || endsWith(low, ".yml"))
+    return false;
   if (patterns_.empty()) {
-    return own.front() != '~' && std::none_of(kTemporaryEndings.begin(), kTemporaryEndings.end(),
-                                              [&](const char* ending) { return endsWith(low, ending); });
+    return own.front() != '~' &&
+           std::none_of(kTemporaryEndings.begin(), kTemporaryEndings.end(),
+                        [&](const char* ending) { return endsWith(low, ending); });
   }
   return std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& pattern) {
     const bool is_of_path = pattern.find('/') != std::string::npos;
@@ -123,7 +131,8 @@ std::string NameRules::identify(const std::string& name, ScanIdentity& identity)
     const std::string text = match[group].str();
     char* end = nullptr;
     const double number = plainStrtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0') return std::string("has a ") + group + " that is no number: '" + text + "'";
+    if (text.empty() || *end != '\0')
+      return std::string("has a ") + group + " that is no number: '" + text + "'";
     identity.*member = number * site_scale_;
   }
   return "";

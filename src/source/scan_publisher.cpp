@@ -32,11 +32,13 @@ ScanPublisher::ScanPublisher(ros::NodeHandle& handle, const SourceOptions& optio
 template <typename Message>
 ros::Publisher ScanPublisher::advertise(ros::NodeHandle& handle, const char* topic,
                                         std::multiset<std::string>& listeners) {
-  const ros::SubscriberStatusCallback come = [this, &listeners](const ros::SingleSubscriberPublisher& one) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    listeners.insert(one.getSubscriberName());
-  };
-  const ros::SubscriberStatusCallback go = [this, &listeners](const ros::SingleSubscriberPublisher& one) {
+  const ros::SubscriberStatusCallback come =
+      [this, &listeners](const ros::SingleSubscriberPublisher& one) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        listeners.insert(one.getSubscriberName());
+      };
+  const ros::SubscriberStatusCallback go = [this,
+                                            &listeners](const ros::SingleSubscriberPublisher& one) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = listeners.find(one.getSubscriberName());
     if (found != listeners.end()) listeners.erase(found);
@@ -57,8 +59,8 @@ void ScanPublisher::takeAnswer(const StictionPrediction& prediction) {
 
 std::string ScanPublisher::waitsFor() {
   if (!isHeard()) {
-    return (listener_.empty() ? "nobody" : "no " + listener_) + " listens to " + height_.getTopic() + " and " +
-           info_.getTopic() + ": scans wait";
+    return (listener_.empty() ? "nobody" : "no " + listener_) + " listens to " +
+           height_.getTopic() + " and " + info_.getTopic() + ": scans wait";
   }
   if (max_ahead_ == 0 || predictions_.getNumPublishers() == 0) return "";
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -68,7 +70,8 @@ std::string ScanPublisher::waitsFor() {
   }
   return unanswered_.size() < max_ahead_
              ? ""
-             : "the node has not answered " + std::to_string(unanswered_.size()) + " scans yet: the next ones wait";
+             : "the node has not answered " + std::to_string(unanswered_.size()) +
+                   " scans yet: the next ones wait";
 }
 
 std::uint64_t ScanPublisher::freeStamp(std::uint64_t stamp) const {
@@ -77,8 +80,8 @@ std::uint64_t ScanPublisher::freeStamp(std::uint64_t stamp) const {
   return stamp;
 }
 
-void ScanPublisher::publish(const HeightMap& surface, const ScanIdentity& identity, const std::string& frame,
-                            std::uint64_t stamp) {
+void ScanPublisher::publish(const HeightMap& surface, const ScanIdentity& identity,
+                            const std::string& frame, std::uint64_t stamp) {
   std_msgs::Header header;
   header.seq = count_++;
   header.stamp.fromNSec(stamp);
@@ -87,7 +90,8 @@ void ScanPublisher::publish(const HeightMap& surface, const ScanIdentity& identi
   calibration.pitch_x = surface.pitchX();
   calibration.pitch_y = surface.pitchY();
   const auto info = boost::make_shared<ScanInfo>(scanInfoMessage(calibration, header));
-  // Heights that are not measured are NaN: a value that the node's configuration states is of the raw pixels.
+  // Heights that are not measured are NaN: a value that the node's configuration states is of the
+  // raw pixels.
   info->has_invalid_value = true;
   info->invalid_value = std::numeric_limits<double>::quiet_NaN();
   fillIdentity(identity, *info);

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Publishes scans as the node takes them: `height` and `scan_info` with one stamp, no stamp twice, and no faster than the
-/// node answers.
+/// Publishes scans as the node takes them: `height` and `scan_info` with one stamp, no stamp twice,
+/// and no faster than the node answers.
 
 #include <cstdint>
 #include <map>
@@ -34,11 +34,13 @@ class ScanPublisher {
 
   /// - @p frame that the heights are in
   /// - @p stamp of freeStamp()
-  void publish(const HeightMap& surface, const ScanIdentity& identity, const std::string& frame, std::uint64_t stamp);
+  void publish(const HeightMap& surface, const ScanIdentity& identity, const std::string& frame,
+               std::uint64_t stamp);
 
  private:
   template <typename Message>
-  ros::Publisher advertise(ros::NodeHandle& handle, const char* topic, std::multiset<std::string>& listeners);
+  ros::Publisher advertise(ros::NodeHandle& handle, const char* topic,
+                           std::multiset<std::string>& listeners);
   bool isHeard();
   void takeAnswer(const StictionPrediction& prediction);
 

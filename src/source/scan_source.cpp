@@ -24,7 +24,8 @@ std_msgs::String textMessage(const std::string& text) {
 
 }  // namespace
 
-ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name)
+ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                       const std::string& name)
     : options_(readSourceParameters(private_handle)),
       handle_(withOwnQueue(handle, queue_)),
       private_handle_(withOwnQueue(private_handle, queue_)),
@@ -35,12 +36,14 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       spinner_(1, &queue_) {
   prepareLog();
   diagnostics_.add("scan_source", [this](auto& status) { accounting_.report(status); });
-  diagnostics_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
-                                               [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
+  diagnostics_timer_ =
+      handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
+                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
   if (options_.source == SourceKind::kFolder) {
     folder_ = std::make_unique<FolderSource>(options_, name, publisher_, accounting_);
   } else if (options_.source == SourceKind::kLines) {
-    lines_ = std::make_unique<LineSource>(options_, handle_, private_handle_, publisher_, accounting_);
+    lines_ =
+        std::make_unique<LineSource>(options_, handle_, private_handle_, publisher_, accounting_);
   } else {
     cloud_ = std::make_unique<CloudSource>(options_, handle_, publisher_, accounting_);
   }

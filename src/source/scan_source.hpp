@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The one implementation behind the program scan_source and its nodelet: opens the door that the parameters name, and
-/// says on /diagnostics what comes through it.
+/// The one implementation behind the program scan_source and its nodelet: opens the door that the
+/// parameters name, and says on /diagnostics what comes through it.
 
 #include <memory>
 #include <string>
@@ -26,8 +26,10 @@ namespace mems_stiction {
 class ScanSource {
  public:
   /// Reads the parameters and begins.
-  /// @throw OptionsError one line per bad parameter. @throw FileError for a state file that cannot be used.
-  ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name);
+  /// @throw OptionsError one line per bad parameter. @throw FileError for a state file that cannot
+  /// be used.
+  ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+             const std::string& name);
   /// Finishes the scan at hand, and joins every thread.
   ~ScanSource();
   ScanSource(const ScanSource&) = delete;

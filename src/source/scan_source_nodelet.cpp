@@ -1,5 +1,5 @@
-/// The nodelet: opens the source in whatever manager loads it, so that scans reach a StictionNodelet there without a copy. With
-/// bad parameters it says so and stays idle.
+/// The nodelet: opens the source in whatever manager loads it, so that scans reach a
+/// StictionNodelet there without a copy. With bad parameters it says so and stays idle.
 
 #include <memory>
 
@@ -17,7 +17,8 @@ class ScanSourceNodelet : public nodelet::Nodelet {
     try {
       source_ = std::make_unique<ScanSource>(getNodeHandle(), getPrivateNodeHandle(), getName());
     } catch (const OptionsError& error) {
-      for (const std::string& line : error.violations()) NODELET_FATAL_STREAM("parameter ~" << line);
+      for (const std::string& line : error.violations())
+        NODELET_FATAL_STREAM("parameter ~" << line);
       NODELET_FATAL("stays idle: mend the parameters and load the nodelet again");
     } catch (const std::exception& error) {
       NODELET_FATAL_STREAM("stays idle: " << error.what());

@@ -84,14 +84,16 @@ SeenContents::~SeenContents() {
 
 void SeenContents::readAll() {
   struct stat status {};
-  if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) failOnState(path_, "must be a file");
+  if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
+    failOnState(path_, "must be a file");
   const std::string content = wholeContent(descriptor_, path_);
   const std::string heading = kHeading;
   if (content.size() < heading.size() && heading.compare(0, content.size(), content) == 0) {
     waiting_ = heading;  // a new file, or one whose first line a kill has cut off
     return;
   }
-  if (content.compare(0, heading.size(), heading) != 0) failOnState(path_, "is not a file of scan_source");
+  if (content.compare(0, heading.size(), heading) != 0)
+    failOnState(path_, "is not a file of scan_source");
   for (std::size_t begin = heading.size(); begin < content.size();) {
     const std::size_t end = content.find('\n', begin);
     if (end == std::string::npos) break;
@@ -110,10 +112,12 @@ void SeenContents::noteLine(const std::string& line) {
   FileStamp stamp;
   const bool is_known = words[0] == kPublished || words[0] == kPassed || words[0] == kBegun;
   const bool is_whole = words.size() == 8 && is_known && readInteger(words[2], scan_stamp) &&
-                        readInteger(words[4], stamp.size) && readInteger(words[5], stamp.modified) &&
+                        readInteger(words[4], stamp.size) &&
+                        readInteger(words[5], stamp.modified) &&
                         readInteger(words[6], stamp.changed);
   if (!is_whole)
-    failOnState(path_, "has a line that is not scan_source's: " + shortened(oneLine(line), kLongestQuotation));
+    failOnState(path_, "has a line that is not scan_source's: " +
+                           shortened(oneLine(line), kLongestQuotation));
   if (words[0] == kBegun) is_first_start_ = false;
   files_[words[3]] = stamp;
   if (words[0] != kPublished) return;
@@ -126,14 +130,16 @@ bool SeenContents::knowsFile(const std::string& name, const FileStamp& stamp) co
   return found != files_.end() && found->second == stamp;
 }
 
-void SeenContents::notePublished(const std::string& key, std::uint64_t scan_stamp, const std::string& name,
-                                 const FileStamp& stamp) {
+void SeenContents::notePublished(const std::string& key, std::uint64_t scan_stamp,
+                                 const std::string& name, const FileStamp& stamp) {
   keys_.insert(key);
   stamps_.push_back(scan_stamp);
   add(kPublished, key, scan_stamp, name, stamp);
 }
 
-void SeenContents::notePassed(const std::string& name, const FileStamp& stamp) { add(kPassed, "-", 0, name, stamp); }
+void SeenContents::notePassed(const std::string& name, const FileStamp& stamp) {
+  add(kPassed, "-", 0, name, stamp);
+}
 
 void SeenContents::noteBegun() {
   is_first_start_ = false;
@@ -144,8 +150,9 @@ void SeenContents::add(const std::string& word, const std::string& key, std::uin
                        const std::string& name, const FileStamp& stamp) {
   const std::string place = contentHash(name);
   files_[place] = stamp;
-  waiting_ += word + " " + key + " " + std::to_string(scan_stamp) + " " + place + " " + std::to_string(stamp.size) +
-              " " + std::to_string(stamp.modified) + " " + std::to_string(stamp.changed) + " " + oneLine(name) + "\n";
+  waiting_ += word + " " + key + " " + std::to_string(scan_stamp) + " " + place + " " +
+              std::to_string(stamp.size) + " " + std::to_string(stamp.modified) + " " +
+              std::to_string(stamp.changed) + " " + oneLine(name) + "\n";
 }
 
 std::string SeenContents::writeWaiting() {

@@ -1,13 +1,14 @@
 #pragma once
 
 /// @file
-/// Which contents were published, also by earlier runs: a text file that grows by a line for each, and that a kill at any
-/// moment leaves readable. One process has it at a time.
+/// Which contents were published, also by earlier runs: a text file that grows by a line for each,
+/// and that a kill at any moment leaves readable. One process has it at a time.
 ///
 ///     SeenContents seen(path);
 ///     if (!seen.knows(key)) { publish(); seen.note(...); }
 ///
-/// A line is written after its scan was published: a kill between both repeats a scan and loses none.
+/// A line is written after its scan was published: a kill between both repeats a scan and loses
+/// none.
 
 #include <cstdint>
 #include <string>
@@ -50,19 +51,21 @@ class SeenContents {
 
   /// - @p key of the content
   /// - @p scan_stamp that it was published with [ns]
-  void notePublished(const std::string& key, std::uint64_t scan_stamp, const std::string& name, const FileStamp& stamp);
+  void notePublished(const std::string& key, std::uint64_t scan_stamp, const std::string& name,
+                     const FileStamp& stamp);
   /// A file that is not to be published.
   void notePassed(const std::string& name, const FileStamp& stamp);
   /// All that lies there at the first start has been passed over or is to be published.
   void noteBegun();
-  /// Writes what was noted, and what a full disk has kept before. @return an empty text, or why it cannot be
+  /// Writes what was noted, and what a full disk has kept before. @return an empty text, or why it
+  /// cannot be
   std::string writeWaiting();
 
  private:
   void readAll();
   void noteLine(const std::string& line);
-  void add(const std::string& word, const std::string& key, std::uint64_t scan_stamp, const std::string& name,
-           const FileStamp& stamp);
+  void add(const std::string& word, const std::string& key, std::uint64_t scan_stamp,
+           const std::string& name, const FileStamp& stamp);
 
   std::string path_;
   int descriptor_ = -1;

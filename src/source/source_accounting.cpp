@@ -18,7 +18,8 @@ void SourceAccounting::published(const std::string& name) {
 void SourceAccounting::refused(const std::string& name, const std::string& reason) {
   // Readers begin with the path of the file.
   const std::string text =
-      shortened(oneLine(reason.find(name) != std::string::npos ? reason : name + ": " + reason), kLongestSentence);
+      shortened(oneLine(reason.find(name) != std::string::npos ? reason : name + ": " + reason),
+                kLongestSentence);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++counts_.refused;
@@ -48,7 +49,8 @@ void SourceAccounting::hindered(const std::string& by) {
 
 void SourceAccounting::show(const std::string& key, const std::string& value) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = std::find_if(shown_.begin(), shown_.end(), [&](const auto& entry) { return entry.first == key; });
+  const auto found = std::find_if(shown_.begin(), shown_.end(),
+                                  [&](const auto& entry) { return entry.first == key; });
   if (found == shown_.end()) {
     shown_.emplace_back(key, value);
   } else {

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The books of scan_source: all that is found ends as published or refused, or waits. Every thread may call.
+/// The books of scan_source: all that is found ends as published or refused, or waits. Every thread
+/// may call.
 
 #include <cstdint>
 #include <functional>
@@ -17,10 +18,11 @@ namespace mems_stiction {
 /// Counts since start.
 struct SourceCounts {
   std::uint64_t published = 0;
-  std::uint64_t refused = 0;   ///< with a reason each
-  std::uint64_t waiting = 0;   ///< not whole yet, or nobody listens
-  std::uint64_t repeated = 0;  ///< the same content as one that was published, also by an earlier run
-  std::uint64_t gone = 0;      ///< removed while they waited
+  std::uint64_t refused = 0;  ///< with a reason each
+  std::uint64_t waiting = 0;  ///< not whole yet, or nobody listens
+  std::uint64_t repeated =
+      0;                   ///< the same content as one that was published, also by an earlier run
+  std::uint64_t gone = 0;  ///< removed while they waited
   std::uint64_t found() const { return published + refused + waiting; }
 };
 
@@ -28,7 +30,8 @@ struct SourceCounts {
 class SourceAccounting {
  public:
   /// - @p tell takes what was refused and why, on one line
-  explicit SourceAccounting(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
+  explicit SourceAccounting(std::function<void(const std::string&)> tell)
+      : tell_(std::move(tell)) {}
 
   void published(const std::string& name);
   void refused(const std::string& name, const std::string& reason);
@@ -41,7 +44,8 @@ class SourceAccounting {
   void show(const std::string& key, const std::string& value);
 
   SourceCounts counts() const;
-  /// One status with every count; WARN where something was refused since the last report, or is hindered.
+  /// One status with every count; WARN where something was refused since the last report, or is
+  /// hindered.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:

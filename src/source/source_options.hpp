@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The parameters of scan_source, read from its private namespace by the same tables as a configuration file.
+/// The parameters of scan_source, read from its private namespace by the same tables as a
+/// configuration file.
 
 #include <string>
 
@@ -75,8 +76,8 @@ struct LineOptions {
 /// The whole private namespace.
 struct SourceOptions {
   SourceKind source = SourceKind::kFolder;
-  std::string listener;            ///< node without which nothing is published; empty = anybody will do
-  int max_ahead = 20;              ///< scans beyond those that the node has answered; 0 = any number
+  std::string listener;  ///< node without which nothing is published; empty = anybody will do
+  int max_ahead = 20;    ///< scans beyond those that the node has answered; 0 = any number
   double answer_timeout = 60.0;    ///< the node's answer is waited for no longer [s]
   double diagnostic_period = 1.0;  ///< between messages on /diagnostics [s]
   FolderOptions folder;

@@ -29,22 +29,27 @@ double largestDifference(const cv::Mat& before, const cv::Mat& after) {
 
 /// Its heights on the grid; those of a level plane are 0.
 cv::Mat heightsOn(const HeightMap& grid, const HeightMap& surface) {
-  return surface.empty() ? cv::Mat(cv::Mat::zeros(grid.rows(), grid.cols(), CV_64FC1)) : surface.asDouble().heights();
+  return surface.empty() ? cv::Mat(cv::Mat::zeros(grid.rows(), grid.cols(), CV_64FC1))
+                         : surface.asDouble().heights();
 }
 
 }  // namespace
 
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
-                                  const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                                  const RunControl& control, const std::optional<DeviceScale>& scale) {
+                                  const DeviceOptions& device,
+                                  const UncertaintyOptions& uncertainty, const RunControl& control,
+                                  const std::optional<DeviceScale>& scale) {
   if (count < 1) {
-    throw OptionsError({"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
+    throw OptionsError(
+        {"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
   }
   AdhesionModel model(withDeformedSurfaces(options));
-  const ShortWaves short_waves = shortWaves(unresolvedWaves(surfaces.lower, surfaces.upper, 0.0), options);
+  const ShortWaves short_waves =
+      shortWaves(unresolvedWaves(surfaces.lower, surfaces.upper, 0.0), options);
   ContactCyclesResult result;
   const HeightMap& grid = surfaces.lower;
-  result.surfaces = {surfaces.lower.asDouble(), surfaces.upperIsPlane() ? HeightMap() : surfaces.upper.asDouble()};
+  result.surfaces = {surfaces.lower.asDouble(),
+                     surfaces.upperIsPlane() ? HeightMap() : surfaces.upper.asDouble()};
   Wear wear;
 
   for (int cycle = 1; cycle <= count; ++cycle) {
@@ -55,7 +60,8 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     requireDeformedSurfaces(prediction);
     Evidence evidence;
     if (scale) evidence.device = scale->under(prediction);
-    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea(), evidence);
+    const Verdict verdict =
+        verdictOf(prediction, device, uncertainty, options, grid.cellArea(), evidence);
 
     ContactCycle row;
     row.cycle = cycle;
@@ -67,8 +73,9 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.contact_fraction = prediction.contact_fraction;
     row.asperity_count = prediction.asperity_count;
     row.plastic_count = prediction.plastic_count;
-    row.largest_change = std::max(largestDifference(heightsOn(grid, worn.lower), prediction.deformed_lower),
-                                  largestDifference(heightsOn(grid, worn.upper), prediction.deformed_upper));
+    row.largest_change =
+        std::max(largestDifference(heightsOn(grid, worn.lower), prediction.deformed_lower),
+                 largestDifference(heightsOn(grid, worn.upper), prediction.deformed_upper));
     wear.add(surfaces, prediction.deformed_lower, prediction.deformed_upper);
     result.surfaces.lower = HeightMap(prediction.deformed_lower, grid.pitchX(), grid.pitchY());
     result.surfaces.upper = HeightMap(prediction.deformed_upper, grid.pitchX(), grid.pitchY());
@@ -83,7 +90,8 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.is_peeled = isPeeled(verdict);
     row.pull_off_interval = pullOffInterval(prediction, options, uncertainty);
     result.cycles.push_back(row);
-    if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0) result.first_sticking_cycle = cycle;
+    if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0)
+      result.first_sticking_cycle = cycle;
     control.report(cycle, count);
   }
   result.is_complete = true;

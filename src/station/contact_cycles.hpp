@@ -3,13 +3,15 @@
 /// @file
 /// After how many contacts does the device fail?
 ///
-/// The surfaces meet N times under the same load, each time as the last contact left them: what has flowed stays flat
-/// (deformation/modified_topography.hpp), what was elastic has come back. Flattened summits conform, so that contact
-/// area and adhesion grow until the surfaces carry the load without flow (shakedown) and nothing changes any more.
-/// Assumptions: both surfaces meet in the same place each time, to the pixel; no wear, no material transfer, no
-/// hardening; contacts open fully in between.
+/// The surfaces meet N times under the same load, each time as the last contact left them: what has
+/// flowed stays flat (deformation/modified_topography.hpp), what was elastic has come back.
+/// Flattened summits conform, so that contact area and adhesion grow until the surfaces carry the
+/// load without flow (shakedown) and nothing changes any more. Assumptions: both surfaces meet in
+/// the same place each time, to the pixel; no wear, no material transfer, no hardening; contacts
+/// open fully in between.
 ///
-///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty, RunControl());
+///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty,
+///     RunControl());
 
 #include <optional>
 #include <vector>
@@ -35,28 +37,32 @@ struct ContactCycle {
   double rms_height = 0.0;      ///< Sq of the lower surface after the contact [m]
   double largest_change = 0.0;  ///< of either surface's height in this contact, at any pixel [m]
   Sticks sticks = Sticks::kUnknown;
-  double margin = Verdict::kNotStated;             ///< [-]
-  double margin_lower = Verdict::kNotStated;       ///< 2.5 % quantile [-]
-  double margin_upper = Verdict::kNotStated;       ///< 97.5 % quantile [-]
-  ForceInterval pull_off_interval;                 ///< of the pull-off force; NaN without a list of contacts
+  double margin = Verdict::kNotStated;        ///< [-]
+  double margin_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
+  double margin_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;  ///< of the pull-off force; NaN without a list of contacts
   double peel_number = Verdict::kNotStated;        ///< of the beam [-]
   double peel_number_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
   double peel_number_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
-  bool is_peeled = false;                          ///< the peel number decides, not the margin (isPeeled())
+  bool is_peeled = false;  ///< the peel number decides, not the margin (isPeeled())
 };
 
 /// What the contacts said, in order.
 struct ContactCyclesResult {
   std::vector<ContactCycle> cycles;
-  int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or neither a spring nor a beam stated
-  SurfacePair surfaces;          ///< after the last contact, the upper one in its own z; a plane starts from 0
-  bool is_complete = false;      ///< false: cancelled
+  int first_sticking_cycle =
+      0;  ///< the first whose verdict is "yes"; 0 = none, or neither a spring nor a beam stated
+  SurfacePair
+      surfaces;  ///< after the last contact, the upper one in its own z; a plane starts from 0
+  bool is_complete = false;  ///< false: cancelled
 };
 
 /// - @p count of contacts, >= 1
-/// @throw OptionsError for a count or options out of range, before any work; SurfaceError as AdhesionModel.
+/// @throw OptionsError for a count or options out of range, before any work; SurfaceError as
+/// AdhesionModel.
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
-                                  const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                                  const RunControl& control, const std::optional<DeviceScale>& scale = std::nullopt);
+                                  const DeviceOptions& device,
+                                  const UncertaintyOptions& uncertainty, const RunControl& control,
+                                  const std::optional<DeviceScale>& scale = std::nullopt);
 
 }  // namespace mems_stiction

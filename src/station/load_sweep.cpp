@@ -21,39 +21,45 @@ void addFirst(const std::string& first, std::size_t count, std::vector<std::stri
   violations.push_back(first + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : ""));
 }
 
-void addListViolations(const std::string& name, const std::vector<double>& values, const std::string& unit,
-                       std::vector<std::string>& violations) {
-  if (values.empty()) violations.push_back(name + ": an empty list is not allowed, must hold one value at least");
+void addListViolations(const std::string& name, const std::vector<double>& values,
+                       const std::string& unit, std::vector<std::string>& violations) {
+  if (values.empty())
+    violations.push_back(name + ": an empty list is not allowed, must hold one value at least");
   const auto is_wrong = [](double value) { return !std::isfinite(value) || value < 0.0; };
   const auto wrong = std::find_if(values.begin(), values.end(), is_wrong);
   if (wrong != values.end()) {
-    addFirst(name + ": " + numberText(*wrong) + " " + unit + " is not allowed, must be >= 0 " + unit,
-             static_cast<std::size_t>(std::count_if(wrong, values.end(), is_wrong)), violations);
+    addFirst(
+        name + ": " + numberText(*wrong) + " " + unit + " is not allowed, must be >= 0 " + unit,
+        static_cast<std::size_t>(std::count_if(wrong, values.end(), is_wrong)), violations);
   }
   std::string first;
   std::size_t count = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] > values[i - 1] || ++count > 1) continue;
-    first = name + ": " + numberText(values[i]) + " " + unit + " after " + numberText(values[i - 1]) + " " + unit +
-            " is not allowed, must ascend";
+    first = name + ": " + numberText(values[i]) + " " + unit + " after " +
+            numberText(values[i - 1]) + " " + unit + " is not allowed, must ascend";
   }
   addFirst(first, count, violations);
 }
 
 /// The force of the field that holds the closed device [N].
-double holdingField(const DeviceOptions& device, const InterfaceOptions& interface, const RemainingState& state,
-                    const Prediction& contact) {
-  if (device.electrode_area <= 0.0) return state.electrostatic_force * device.contact_area / contact.nominal_area;
+double holdingField(const DeviceOptions& device, const InterfaceOptions& interface,
+                    const RemainingState& state, const Prediction& contact) {
+  if (device.electrode_area <= 0.0)
+    return state.electrostatic_force * device.contact_area / contact.nominal_area;
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
-  return device.electrode_area * surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
-                                                                       state.voltage, interface.insulator_thickness,
-                                                                       interface.insulator_relative_permittivity);
+  return device.electrode_area *
+         surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
+                                               state.voltage, interface.insulator_thickness,
+                                               interface.insulator_relative_permittivity);
 }
 
 /// What opens a beam that is held, over all that holds it [-]; NaN where a share is not known.
-double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& interface, const RemainingState& state,
-                           const Prediction& contact, const LoadSweepRow& row) {
-  if (!(row.ratio() > 0.0)) return row.ratio();  // it stays down without a load, too (compressed beams)
+double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& interface,
+                           const RemainingState& state, const Prediction& contact,
+                           const LoadSweepRow& row) {
+  if (!(row.ratio() > 0.0))
+    return row.ratio();  // it stays down without a load, too (compressed beams)
   const Beam beam = device.beam();
   const double area_ratio = device.contact_area / contact.nominal_area;
   const bool has_force = device.hasBeamContact();
@@ -91,7 +97,8 @@ class Loop {
     row.direction = direction;
     if (!is_open_) fill(contact_.advance(voltage, mechanical_load), row);
     const bool closes_again = row.voltage >= pull_in_;
-    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !closes_again);
+    is_open_ = is_open_ ||
+               (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !closes_again);
     if (!is_open_) {
       row.lands = landsAt(row);
       return row;
@@ -113,7 +120,8 @@ class Loop {
     if (std::isnan(pull_in_)) return Lands::kUnknown;
     has_landed_ = has_landed_ || row.voltage >= pull_in_;
     if (!has_landed_) return Lands::kNo;
-    return row.voltage >= pull_in_ || !std::isnan(row.holding_margin) ? Lands::kYes : Lands::kUnknown;
+    return row.voltage >= pull_in_ || !std::isnan(row.holding_margin) ? Lands::kYes
+                                                                      : Lands::kUnknown;
   }
 
   void fill(const RemainingState& state, LoadSweepRow& row) {
@@ -152,8 +160,9 @@ class Loop {
     }
     if (std::isnan(verdict_.margin)) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
-    row.holding_margin = verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
-                                                     holdingField(device_, options_.interface, state, contact));
+    row.holding_margin =
+        verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
+                                    holdingField(device_, options_.interface, state, contact));
   }
 
   const Options& options_;
@@ -171,7 +180,9 @@ class Loop {
 
 }  // namespace
 
-const char* word(SweepDirection direction) { return direction == SweepDirection::kUp ? "up" : "down"; }
+const char* word(SweepDirection direction) {
+  return direction == SweepDirection::kUp ? "up" : "down";
+}
 
 const char* word(Lands lands) {
   constexpr const char* kWords[] = {"no", "yes", "unknown"};
@@ -192,10 +203,13 @@ LoadSweepSummary summaryOf(double mechanical_load, const std::vector<LoadSweepRo
     const bool is_safe_here = row.sticks == Sticks::kNo;
     is_safe = is_safe && is_safe_here;
     if (is_safe) summary.highest_safe_voltage = row.voltage;
-    if (is_safe_here && std::isnan(summary.lowest_safe_voltage)) summary.lowest_safe_voltage = row.voltage;
-    releases = releases && row.ratio() >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
+    if (is_safe_here && std::isnan(summary.lowest_safe_voltage))
+      summary.lowest_safe_voltage = row.voltage;
+    releases = releases && row.ratio() >= 1.0 && row.status != Status::kNoEquilibrium &&
+               !row.is_lower_bound;
     if (releases) summary.highest_releasing_voltage = row.voltage;
-    if (row.ratio() < 1.0 && std::isnan(summary.lowest_sticking_voltage)) summary.lowest_sticking_voltage = row.voltage;
+    if (row.ratio() < 1.0 && std::isnan(summary.lowest_sticking_voltage))
+      summary.lowest_sticking_voltage = row.voltage;
   }
   return summary;
 }
@@ -204,7 +218,8 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   std::vector<std::string> violations;
   addListViolations("voltages", voltages, "V", violations);
   addListViolations("mechanical_loads", mechanical_loads, "N", violations);
-  const double states = static_cast<double>(voltages.size()) * static_cast<double>(mechanical_loads.size());
+  const double states =
+      static_cast<double>(voltages.size()) * static_cast<double>(mechanical_loads.size());
   if (states > kMostStates) {
     violations.push_back("voltages x mechanical_loads: " + numberText(states) +
                          " pairs are not allowed, must be <= " + numberText(kMostStates));
@@ -216,9 +231,10 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   return largest.validate();
 }
 
-LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, const LoadSweepRequest& request,
-                           const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                           const RunControl& control, const std::optional<DeviceScale>& scale) {
+LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
+                           const LoadSweepRequest& request, const DeviceOptions& device,
+                           const UncertaintyOptions& uncertainty, const RunControl& control,
+                           const std::optional<DeviceScale>& scale) {
   std::vector<std::string> violations = request.validate(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
 

@@ -23,9 +23,11 @@ double remainingContactArea(const Prediction& contact, double normal_load, const
   double area = 0.0;
   for (const Asperity& asperity : contact.asperities) {
     const double axial_load = load_ratio * asperity.load * std::cos(asperity.tilt);
-    const double unloaded = jkr::equilibriumContactRadius(axial_load, work, asperity.composite_radius, modulus);
+    const double unloaded =
+        jkr::equilibriumContactRadius(axial_load, work, asperity.composite_radius, modulus);
     const double share = regimeFactor(asperity.plasticity_index);
-    area += kPi * (share * unloaded * unloaded + (1.0 - share) * asperity.contact_radius * asperity.contact_radius);
+    area += kPi * (share * unloaded * unloaded +
+                   (1.0 - share) * asperity.contact_radius * asperity.contact_radius);
   }
   return area;
 }
@@ -58,8 +60,9 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
     if (!has_contact_ || prediction.approach >= contact_.approach) {
       contact_ = std::move(prediction);
       contact_.short_waves = short_waves_;
-      pressed_ = SurfacePair(HeightMap(contact_.deformed_lower, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()),
-                             HeightMap(contact_.deformed_upper, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()));
+      pressed_ = SurfacePair(
+          HeightMap(contact_.deformed_lower, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()),
+          HeightMap(contact_.deformed_upper, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()));
       has_contact_ = true;
       state.is_searched = true;
       state.electrostatic_force = contact_.electrostatic_force;
@@ -73,7 +76,8 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
   if (contact_.model.knows_every_load) {
     const Prediction now = model_.predict(pressed_);
     const Prediction as_new = model_.predict(surfaces_);
-    const Prediction& wider = now.contact_area < as_new.contact_area ? as_new : now;  // what is flatter touches no less
+    const Prediction& wider =
+        now.contact_area < as_new.contact_area ? as_new : now;  // what is flatter touches no less
     state.electrostatic_force = now.electrostatic_force;
     state.normal_load = now.normal_load;
     state.contact_area = wider.contact_area;
@@ -84,7 +88,8 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
   state.contact_area = contact_.contact_area;
   state.contact_fraction = contact_.contact_fraction;
   state.electrostatic_force = field_factor_ * voltage * voltage;
-  const double attraction = contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
+  const double attraction =
+      contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
   state.normal_load = attraction + state.electrostatic_force + mechanical_load;
   state.contact_area_jkr = remainingContactArea(contact_, state.normal_load, options);
   return state;

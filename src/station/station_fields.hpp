@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The figures of load sweeps and contact cycles, as prediction/prediction_fields.hpp has those of the prediction.
+/// The figures of load sweeps and contact cycles, as prediction/prediction_fields.hpp has those of
+/// the prediction.
 
 #include "mems_stiction/settings/figure.hpp"
 #include "station/contact_cycles.hpp"
@@ -26,14 +27,19 @@ void visitSweepFields(const LoadSweepRow& row, Visitor&& visit) {
   visit({"contact_fraction"}, row.contact_fraction);
   visit({"asperity_count", "", "contacts"}, row.asperity_count);
   visit({"approach", "m"}, row.approach);
-  visit({"sticks", "", "once the load is taken away: 0 no, 1 marginal, 2 yes, 3 unknown"}, row.sticks);
+  visit({"sticks", "", "once the load is taken away: 0 no, 1 marginal, 2 yes, 3 unknown"},
+        row.sticks);
   visit({"margin", "", "once the load is taken away"}, row.margin);
   visit({"margin_lower", "", "2.5 % quantile"}, row.margin_lower);
-  visit({"holding_margin", "", "while the load acts: restoring force over all that holds"}, row.holding_margin);
+  visit({"holding_margin", "", "while the load acts: restoring force over all that holds"},
+        row.holding_margin);
   visit({"margin_upper", "", "97.5 % quantile"}, row.margin_upper);
-  visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"}, row.pull_off_interval.lower);
-  visit({"pull_off_force_upper", "N", "97.5 % quantile; NaN without a list of contacts"}, row.pull_off_interval.upper);
-  visit({"lands", "", "the voltage alone closes the device, or still holds it closed: 0 no, 1 yes, 2 unknown"},
+  visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"},
+        row.pull_off_interval.lower);
+  visit({"pull_off_force_upper", "N", "97.5 % quantile; NaN without a list of contacts"},
+        row.pull_off_interval.upper);
+  visit({"lands", "",
+         "the voltage alone closes the device, or still holds it closed: 0 no, 1 yes, 2 unknown"},
         row.lands);
   visit({"peel_number", "", "of the beam, once the load is taken away"}, row.peel_number);
   visit({"peel_number_lower", "", "2.5 % quantile"}, row.peel_number_lower);
@@ -45,11 +51,15 @@ void visitSweepFields(const LoadSweepRow& row, Visitor&& visit) {
 template <typename Visitor>
 void visitSummaryFields(const LoadSweepSummary& summary, Visitor&& visit) {
   visit({"mechanical_load", "N", "on the scanned area"}, summary.mechanical_load);
-  visit({"highest_releasing_voltage", "V", "margin at least 1 up to here"}, summary.highest_releasing_voltage);
-  visit({"highest_safe_voltage", "V", "the verdict is no at each voltage up to here"}, summary.highest_safe_voltage);
-  visit({"lowest_sticking_voltage", "V", "the first with a margin below 1"}, summary.lowest_sticking_voltage);
+  visit({"highest_releasing_voltage", "V", "margin at least 1 up to here"},
+        summary.highest_releasing_voltage);
+  visit({"highest_safe_voltage", "V", "the verdict is no at each voltage up to here"},
+        summary.highest_safe_voltage);
+  visit({"lowest_sticking_voltage", "V", "the first with a margin below 1"},
+        summary.lowest_sticking_voltage);
   visit({"lowest_safe_voltage", "V", "the first with the verdict no"}, summary.lowest_safe_voltage);
-  visit({"opening_voltage", "V", "the highest at which the device opens on the way down"}, summary.opening_voltage);
+  visit({"opening_voltage", "V", "the highest at which the device opens on the way down"},
+        summary.opening_voltage);
 }
 
 /// @param cycle one contact @param visit called with (Figure, value) for each
@@ -65,12 +75,14 @@ void visitCycleFields(const ContactCycle& cycle, Visitor&& visit) {
   visit({"asperity_count", "", "contacts"}, cycle.asperity_count);
   visit({"plastic_count", "", "of them fully plastic"}, cycle.plastic_count);
   visit({"rms_height", "m", "of the scanned surface after the contact"}, cycle.rms_height);
-  visit({"largest_change", "m", "of either surface's height in this contact, at any pixel"}, cycle.largest_change);
+  visit({"largest_change", "m", "of either surface's height in this contact, at any pixel"},
+        cycle.largest_change);
   visit({"sticks", "", "0 no, 1 marginal, 2 yes, 3 unknown"}, cycle.sticks);
   visit({"margin"}, cycle.margin);
   visit({"margin_lower", "", "2.5 % quantile"}, cycle.margin_lower);
   visit({"margin_upper", "", "97.5 % quantile"}, cycle.margin_upper);
-  visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"}, cycle.pull_off_interval.lower);
+  visit({"pull_off_force_lower", "N", "2.5 % quantile; NaN without a list of contacts"},
+        cycle.pull_off_interval.lower);
   visit({"pull_off_force_upper", "N", "97.5 % quantile; NaN without a list of contacts"},
         cycle.pull_off_interval.upper);
   visit({"peel_number", "", "of the beam"}, cycle.peel_number);

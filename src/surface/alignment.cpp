@@ -11,8 +11,9 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kLargestOffset = 1e3;   // [m]
-constexpr double kFarthestPixel = 1e15;  // whole numbers beyond it are not exact, and no surface repeats so often
+constexpr double kLargestOffset = 1e3;  // [m]
+constexpr double kFarthestPixel =
+    1e15;  // whole numbers beyond it are not exact, and no surface repeats so often
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -21,9 +22,12 @@ void check(const SurfacePose& pose) {
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 
-double fromMiddle(int index, int count, double pitch) { return (index - 0.5 * (count - 1)) * pitch; }
+double fromMiddle(int index, int count, double pitch) {
+  return (index - 0.5 * (count - 1)) * pitch;
+}
 
-/// Position in pixels; a rounding error beside a pixel is that pixel, so that grids that coincide give back its bits.
+/// Position in pixels; a rounding error beside a pixel is that pixel, so that grids that coincide
+/// give back its bits.
 double snapped(double position) {
   const double nearest = std::round(position);
   return std::fabs(position - nearest) < 1e-9 ? nearest : position;
@@ -31,27 +35,31 @@ double snapped(double position) {
 
 /// Keys' cubic convolution, a = -1/2, for the pixels floor(position) - 1 .. + 2.
 std::array<double, 4> cubicWeights(double t) {
-  return {((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0, ((-1.5 * t + 2.0) * t + 0.5) * t,
-          (0.5 * t - 0.5) * t * t};
+  return {((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0,
+          ((-1.5 * t + 2.0) * t + 0.5) * t, (0.5 * t - 0.5) * t * t};
 }
 
 std::array<double, 4> linearWeights(double t) { return {0.0, 1.0 - t, t, 0.0}; }
 
 class Sampler {
  public:
-  Sampler(const HeightMap& surface, Beyond beyond) : heights_(ownedHeights(surface)), beyond_(beyond) {}
+  Sampler(const HeightMap& surface, Beyond beyond)
+      : heights_(ownedHeights(surface)), beyond_(beyond) {}
 
   double at(double col, double row) const {
     if (!(std::fabs(col) < kFarthestPixel && std::fabs(row) < kFarthestPixel)) return kMissing;
-    if (std::isnan(
-            pixel(static_cast<long long>(std::floor(col + 0.5)), static_cast<long long>(std::floor(row + 0.5))))) {
+    if (std::isnan(pixel(static_cast<long long>(std::floor(col + 0.5)),
+                         static_cast<long long>(std::floor(row + 0.5))))) {
       return kMissing;
     }
     const double left = std::floor(col);
     const double top = std::floor(row);
-    const double cubic = weighted(left, top, cubicWeights(col - left), cubicWeights(row - top), true);
+    const double cubic =
+        weighted(left, top, cubicWeights(col - left), cubicWeights(row - top), true);
     // Beside a missing pixel: linear, whose weights are all positive, over what is there.
-    return std::isnan(cubic) ? weighted(left, top, linearWeights(col - left), linearWeights(row - top), false) : cubic;
+    return std::isnan(cubic)
+               ? weighted(left, top, linearWeights(col - left), linearWeights(row - top), false)
+               : cubic;
   }
 
  private:
@@ -62,9 +70,11 @@ class Sampler {
     double weights = 0.0;
     for (int down = 0; down < 4; ++down) {
       for (int right = 0; right < 4; ++right) {
-        const double weight = weights_y[static_cast<std::size_t>(down)] * weights_x[static_cast<std::size_t>(right)];
+        const double weight =
+            weights_y[static_cast<std::size_t>(down)] * weights_x[static_cast<std::size_t>(right)];
         if (weight == 0.0) continue;
-        const double height = pixel(static_cast<long long>(left) + right - 1, static_cast<long long>(top) + down - 1);
+        const double height =
+            pixel(static_cast<long long>(left) + right - 1, static_cast<long long>(top) + down - 1);
         if (std::isnan(height)) {
           if (whole) return kMissing;
           continue;
@@ -93,12 +103,15 @@ class Sampler {
 }  // namespace
 
 void SurfacePose::describe(OptionVisitor& visitor, const std::string& prefix) {
-  visitor.number(prefix + "/offset_x", offset_x, "m", Range::within(-kLargestOffset, kLargestOffset),
-                 "how far the middle of the counter-surface lies towards larger columns of the scan");
-  visitor.number(prefix + "/offset_y", offset_y, "m", Range::within(-kLargestOffset, kLargestOffset),
+  visitor.number(
+      prefix + "/offset_x", offset_x, "m", Range::within(-kLargestOffset, kLargestOffset),
+      "how far the middle of the counter-surface lies towards larger columns of the scan");
+  visitor.number(prefix + "/offset_y", offset_y, "m",
+                 Range::within(-kLargestOffset, kLargestOffset),
                  "how far the middle of the counter-surface lies towards larger rows of the scan");
-  visitor.number(prefix + "/rotation", rotation, "rad", Range::any(),
-                 "angle from the scan's x axis (columns) to the counter-surface's, towards larger rows");
+  visitor.number(
+      prefix + "/rotation", rotation, "rad", Range::any(),
+      "angle from the scan's x axis (columns) to the counter-surface's, towards larger rows");
   visitor.number(prefix + "/tilt_x", tilt_x, "rad", Range::openWithin(-1.5, 1.5),
                  "tilt of the counter-surface; positive lifts its side of larger columns");
   visitor.number(prefix + "/tilt_y", tilt_y, "rad", Range::openWithin(-1.5, 1.5),
@@ -106,10 +119,12 @@ void SurfacePose::describe(OptionVisitor& visitor, const std::string& prefix) {
 }
 
 bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() &&
+         a.pitchY() == b.pitchY();
 }
 
-HeightMap alignedTo(const HeightMap& scan, const HeightMap& counter_surface, const SurfacePose& pose, Beyond beyond) {
+HeightMap alignedTo(const HeightMap& scan, const HeightMap& counter_surface,
+                    const SurfacePose& pose, Beyond beyond) {
   check(pose);
   const Sampler sampler(counter_surface, beyond);
   const double cosine = std::cos(pose.rotation);
@@ -126,14 +141,18 @@ HeightMap alignedTo(const HeightMap& scan, const HeightMap& counter_surface, con
       const double x = fromMiddle(col, scan.cols(), scan.pitchX());
       const double from_x = x - pose.offset_x;
       const double from_y = y - pose.offset_y;
-      const double position_x = (cosine * from_x + sine * from_y) / counter_surface.pitchX() + middle_col;
-      const double position_y = (cosine * from_y - sine * from_x) / counter_surface.pitchY() + middle_row;
-      line[col] = sampler.at(snapped(position_x), snapped(position_y)) + (x * slope_x + y * slope_y);
+      const double position_x =
+          (cosine * from_x + sine * from_y) / counter_surface.pitchX() + middle_col;
+      const double position_y =
+          (cosine * from_y - sine * from_x) / counter_surface.pitchY() + middle_row;
+      line[col] =
+          sampler.at(snapped(position_x), snapped(position_y)) + (x * slope_x + y * slope_y);
     }
   }
   if (cv::countNonZero(validMask(heights)) == 0) {
-    throw SurfaceError("the counter-surface does not lie over the scan: offset " + numberText(pose.offset_x) + ", " +
-                       numberText(pose.offset_y) + " m leaves no cell in common");
+    throw SurfaceError("the counter-surface does not lie over the scan: offset " +
+                       numberText(pose.offset_x) + ", " + numberText(pose.offset_y) +
+                       " m leaves no cell in common");
   }
   return {heights, scan.pitchX(), scan.pitchY()};
 }
@@ -149,7 +168,8 @@ HeightMap tiltedFlat(const HeightMap& scan, double tilt_x, double tilt_y) {
   for (int row = 0; row < scan.rows(); ++row) {
     const double y = fromMiddle(row, scan.rows(), scan.pitchY());
     for (int col = 0; col < scan.cols(); ++col) {
-      heights.at<double>(row, col) = fromMiddle(col, scan.cols(), scan.pitchX()) * slope_x + y * slope_y;
+      heights.at<double>(row, col) =
+          fromMiddle(col, scan.cols(), scan.pitchX()) * slope_x + y * slope_y;
     }
   }
   return {heights, scan.pitchX(), scan.pitchY()};

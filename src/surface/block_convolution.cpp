@@ -17,7 +17,8 @@ constexpr std::size_t kElements = FloatPacket::kCount;
 constexpr int kMargins[] = {32, 48, 64, 96, 128, 160};
 /// Must fit: with it, a power law loses 3e-3 of the rms height of a level.
 constexpr int kLeastMargin = 96;
-/// Share of the power that may be cut off where a larger margin would keep it: 3e-4 of the rms height.
+/// Share of the power that may be cut off where a larger margin would keep it: 3e-4 of the rms
+/// height.
 constexpr double kNeglected = 1e-7;
 constexpr int kSmallestLength = 64;
 constexpr int kLargestLength = 8192;
@@ -34,11 +35,14 @@ int marginOf(int round_margin, double reach) {
 /// Least for the transform that is wanted; infinite for one that is too small.
 double costOf(const BlockSize& size, const BlockSize& margin, BlockChoice choice) {
   const double cells = static_cast<double>(size.rows) * size.cols;
-  const double block = static_cast<double>(size.rows - 2 * margin.rows) * (size.cols - 2 * margin.cols);
-  const bool is_small = size.rows <= 2 * margin.rows || size.cols <= 2 * margin.cols || block < kLeastShare * cells;
+  const double block =
+      static_cast<double>(size.rows - 2 * margin.rows) * (size.cols - 2 * margin.cols);
+  const bool is_small =
+      size.rows <= 2 * margin.rows || size.cols <= 2 * margin.cols || block < kLeastShare * cells;
   if (is_small || cells > kLargestTransform) return std::numeric_limits<double>::infinity();
   // large transforms leave the processor's memory
-  return choice == BlockChoice::kSmall ? cells : cells / block * (1.0 + 0.5 * cells / kUsualTransform);
+  return choice == BlockChoice::kSmall ? cells
+                                       : cells / block * (1.0 + 0.5 * cells / kUsualTransform);
 }
 
 /// {0, 0} where none is large enough.
@@ -79,10 +83,13 @@ std::vector<double> tapers(const LineWaves<double>& waves, int margin) {
   return window;
 }
 
-/// transform(line) of all columns of a frame whose transforms are real: two by two, as one complex line.
+/// transform(line) of all columns of a frame whose transforms are real: two by two, as one complex
+/// line.
 template <typename Transform>
-void overRealColumns(std::vector<Complex<double>>& frame, std::size_t rows, std::size_t cols, Transform transform) {
-  constexpr std::size_t kTogether = 4;  // pairs of columns: they share the lines of the processor's memory
+void overRealColumns(std::vector<Complex<double>>& frame, std::size_t rows, std::size_t cols,
+                     Transform transform) {
+  constexpr std::size_t kTogether =
+      4;  // pairs of columns: they share the lines of the processor's memory
   std::vector<Complex<double>> lines(kTogether * rows);
   for (std::size_t begin = 0; begin < cols; begin += 2 * kTogether) {
     for (std::size_t row = 0; row < rows; ++row) {
@@ -104,7 +111,8 @@ void overRealColumns(std::vector<Complex<double>>& frame, std::size_t rows, std:
   }
 }
 
-/// transform(line) of all rows of a real frame in which the row -r holds the reverse of row r: its waves are their conjugates.
+/// transform(line) of all rows of a real frame in which the row -r holds the reverse of row r: its
+/// waves are their conjugates.
 /// - @p numbers of the rows, in their order
 template <typename Transform>
 void overMirroredRows(std::vector<Complex<double>>& frame, const std::vector<std::size_t>& numbers,
@@ -128,9 +136,11 @@ std::vector<std::size_t> numbersUpTo(std::size_t count) {
   return numbers;
 }
 
-/// Eight rows of noise, the halves of a block as real and imaginary part, transformed along the rows.
-MEMS_STICTION_VECTORIZED void transformRows(const float* noise, std::size_t noise_cols, std::size_t half,
-                                            const LineWaves<float>& waves, Complex<FloatPacket>* line) {
+/// Eight rows of noise, the halves of a block as real and imaginary part, transformed along the
+/// rows.
+MEMS_STICTION_VECTORIZED void transformRows(const float* noise, std::size_t noise_cols,
+                                            std::size_t half, const LineWaves<float>& waves,
+                                            Complex<FloatPacket>* line) {
   FloatPacket re[kElements];
   FloatPacket im[kElements];
   for (std::size_t col = 0; col < waves.length(); col += kElements) {
@@ -158,22 +168,26 @@ MEMS_STICTION_INLINE void transpose(const Complex<FloatPacket>* from, Complex<Fl
   for (std::size_t i = 0; i < kElements; ++i) to[i] = {re[i], im[i]};
 }
 
-/// Eight columns, of which `block` holds eight rows and the next ones follow `stride` later: transformed, multiplied with the
-/// gains and transformed back.
-MEMS_STICTION_VECTORIZED void filterColumns(const LineWaves<float>& waves, std::size_t stride, const float* gains,
-                                            Complex<FloatPacket>* column, Complex<FloatPacket>* block) {
+/// Eight columns, of which `block` holds eight rows and the next ones follow `stride` later:
+/// transformed, multiplied with the gains and transformed back.
+MEMS_STICTION_VECTORIZED void filterColumns(const LineWaves<float>& waves, std::size_t stride,
+                                            const float* gains, Complex<FloatPacket>* column,
+                                            Complex<FloatPacket>* block) {
   const std::size_t groups = waves.length() / kElements;
-  for (std::size_t group = 0; group < groups; ++group) transpose(block + group * stride, column + group * kElements);
+  for (std::size_t group = 0; group < groups; ++group)
+    transpose(block + group * stride, column + group * kElements);
   waves.forward(column);
   for (std::size_t row = 0; row < waves.length(); ++row) {
     const FloatPacket gain = FloatPacket::load(gains + row * kElements);
     column[row] = {column[row].re * gain, column[row].im * gain};
   }
   waves.backward(column);
-  for (std::size_t group = 0; group < groups; ++group) transpose(column + group * kElements, block + group * stride);
+  for (std::size_t group = 0; group < groups; ++group)
+    transpose(column + group * kElements, block + group * stride);
 }
 
-/// Eight rows back from their waves; what lies between the margins into the two halves of the block's rows.
+/// Eight rows back from their waves; what lies between the margins into the two halves of the
+/// block's rows.
 MEMS_STICTION_VECTORIZED void transformBack(const LineWaves<float>& waves, std::size_t margin,
                                             Complex<FloatPacket>* line, float* values) {
   waves.backward(line);
@@ -201,7 +215,8 @@ struct BlockConvolution::Kernel {
   Kernel(const WaveGain& gain, const BlockLayout& layout) {
     std::vector<BlockSize> margins;
     for (const int round_margin : kMargins) {
-      const BlockSize next = {marginOf(round_margin, layout.reach_rows), marginOf(round_margin, layout.reach_cols)};
+      const BlockSize next = {marginOf(round_margin, layout.reach_rows),
+                              marginOf(round_margin, layout.reach_cols)};
       if (cheapestTransform(next, layout.choice).rows == 0) break;  // the one before it must do
       margins.push_back(next);
     }
@@ -225,7 +240,8 @@ struct BlockConvolution::Kernel {
   double variance = 0.0;
   double power = 0.0;  ///< of the kernel: the variance, if it is not that of a spline
   double neglected = 0.0;
-  std::vector<Complex<double>> values;  ///< row by row: the kernel by place in the transforms, then its waves by number
+  std::vector<Complex<double>>
+      values;  ///< row by row: the kernel by place in the transforms, then its waves by number
   std::vector<double> row_taper;
   std::vector<double> col_taper;
 
@@ -277,15 +293,18 @@ struct BlockConvolution::Kernel {
         power += times * made * made;
       }
     }
-    overMirroredRows(values, numbersUpTo(row_count), [this](Complex<double>* line) { cols.forward(line); });
-    overRealColumns(values, row_count, col_count, [this](Complex<double>* line) { rows.forward(line); });
+    overMirroredRows(values, numbersUpTo(row_count),
+                     [this](Complex<double>* line) { cols.forward(line); });
+    overRealColumns(values, row_count, col_count,
+                    [this](Complex<double>* line) { rows.forward(line); });
   }
 
   double beyondTaper() const {
     double sum = 0.0;
     for (std::size_t row = 0; row < row_taper.size(); ++row) {
       for (std::size_t col = 0; col < col_taper.size(); ++col) {
-        const double rest = values[row * col_taper.size() + col].re * (1.0 - row_taper[row] * col_taper[col]);
+        const double rest =
+            values[row * col_taper.size() + col].re * (1.0 - row_taper[row] * col_taper[col]);
         sum += rest * rest;
       }
     }
@@ -304,7 +323,8 @@ struct BlockConvolution::Kernel {
     const double scale = within > 0.0 ? std::sqrt(power / within) : 0.0;
     for (Complex<double>& value : values) value.re *= scale;
     overMirroredRows(values, rows.order(), [this](Complex<double>* line) { cols.backward(line); });
-    overRealColumns(values, row_taper.size(), col_taper.size(), [this](Complex<double>* line) { rows.backward(line); });
+    overRealColumns(values, row_taper.size(), col_taper.size(),
+                    [this](Complex<double>* line) { rows.backward(line); });
   }
 };
 
@@ -325,7 +345,8 @@ BlockConvolution::BlockConvolution(const Kernel& kernel)
       gains_(kernel.values.size()) {
   const std::size_t row_count = rows_.length();
   const std::size_t col_count = cols_.length();
-  const double cells = static_cast<double>(row_count * col_count);  // the transforms there and back multiply by it
+  const double cells =
+      static_cast<double>(row_count * col_count);  // the transforms there and back multiply by it
   for (std::size_t row = 0; row < row_count; ++row) {
     const Complex<double>* const line = &kernel.values[rows_.order()[row] * col_count];
     for (std::size_t col = 0; col < col_count; ++col) {
@@ -351,16 +372,19 @@ void BlockConvolution::make(NumberedNoise& noise, std::int64_t block_row, std::i
   const std::int64_t first_col = block_col * block().cols - margin_.cols;
   for (std::size_t row = 0; row < row_count; row += kElements) {
     for (std::size_t i = 0; i < kElements; ++i) {
-      noise.fill(first_row + static_cast<std::int64_t>(row + i), first_col, static_cast<int>(noise_cols),
-                 &memory.noise[i * noise_cols]);
+      noise.fill(first_row + static_cast<std::int64_t>(row + i), first_col,
+                 static_cast<int>(noise_cols), &memory.noise[i * noise_cols]);
     }
-    transformRows(memory.noise.data(), noise_cols, half, cols_, &memory.waves[row / kElements * col_count]);
+    transformRows(memory.noise.data(), noise_cols, half, cols_,
+                  &memory.waves[row / kElements * col_count]);
   }
   for (std::size_t col = 0; col < col_count; col += kElements) {
-    filterColumns(rows_, col_count, &gains_[col * row_count], memory.columns.data(), &memory.waves[col]);
+    filterColumns(rows_, col_count, &gains_[col * row_count], memory.columns.data(),
+                  &memory.waves[col]);
   }
   for (std::size_t row = row_margin; row < row_count - row_margin; row += kElements) {
-    transformBack(cols_, col_margin, &memory.waves[row / kElements * col_count], values + (row - row_margin) * 2 * half);
+    transformBack(cols_, col_margin, &memory.waves[row / kElements * col_count],
+                  values + (row - row_margin) * 2 * half);
   }
 }
 

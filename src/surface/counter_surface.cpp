@@ -12,10 +12,12 @@ void describeGaussian(OptionVisitor& visitor, TranslatedGaussianOptions& options
   const std::string prefix = "counter_surface/gaussian";
   visitor.number(prefix + "/rms_height", options.gaussian.rms_height, "m", Range::nonNegative(),
                  "root mean square height, exact");
-  visitor.number(prefix + "/correlation_length_x", options.gaussian.correlation_length_x, "m", Range::positive(),
-                 "distance along x at which the autocorrelation has fallen to 1/e; at most half of the scan");
-  visitor.number(prefix + "/correlation_length_y", options.gaussian.correlation_length_y, "m", Range::positive(),
-                 "the same along y");
+  visitor.number(
+      prefix + "/correlation_length_x", options.gaussian.correlation_length_x, "m",
+      Range::positive(),
+      "distance along x at which the autocorrelation has fallen to 1/e; at most half of the scan");
+  visitor.number(prefix + "/correlation_length_y", options.gaussian.correlation_length_y, "m",
+                 Range::positive(), "the same along y");
   visitor.number(prefix + "/skewness", options.skewness, "", Range::within(-4.0, 4.0),
                  "skewness of the heights, summits towards the scan counting as high; Gaussian: 0");
   visitor.number(prefix + "/kurtosis", options.kurtosis, "",
@@ -27,16 +29,21 @@ void describeSelfAffine(OptionVisitor& visitor, SelfAffineSurfaceOptions& option
   const std::string prefix = "counter_surface/self_affine";
   visitor.number(prefix + "/hurst_exponent", options.hurst_exponent, "", Range::within(0.0, 1.0),
                  "the power spectrum falls as wave number to -2 - 2 H");
-  visitor.number(prefix + "/rolloff_wavelength", options.rolloff_wavelength, "m",
-                 Range{options.cutoff_wavelength, std::numeric_limits<double>::infinity(), true, false},
-                 "longer wavelengths have the same spectral density as this one; at most the scan's longer side");
+  visitor.number(
+      prefix + "/rolloff_wavelength", options.rolloff_wavelength, "m",
+      Range{options.cutoff_wavelength, std::numeric_limits<double>::infinity(), true, false},
+      "longer wavelengths have the same spectral density as this one; at most the scan's longer "
+      "side");
   visitor.number(prefix + "/cutoff_wavelength", options.cutoff_wavelength, "m", Range::positive(),
                  "shorter wavelengths are absent; at least two of the scan's larger pitch");
-  visitor.enumeration(prefix + "/scale", options.scale,
-                      {{"rms_height", RoughnessScale::kRmsHeight}, {"rms_slope", RoughnessScale::kRmsSlope}},
-                      "which of the two figures is made exact; the other one is not used");
-  visitor.number(prefix + "/rms_height", options.rms_height, "m", Range::nonNegative(), "root mean square height");
-  visitor.number(prefix + "/rms_slope", options.rms_slope, "", Range::nonNegative(), "root mean square gradient");
+  visitor.enumeration(
+      prefix + "/scale", options.scale,
+      {{"rms_height", RoughnessScale::kRmsHeight}, {"rms_slope", RoughnessScale::kRmsSlope}},
+      "which of the two figures is made exact; the other one is not used");
+  visitor.number(prefix + "/rms_height", options.rms_height, "m", Range::nonNegative(),
+                 "root mean square height");
+  visitor.number(prefix + "/rms_slope", options.rms_slope, "", Range::nonNegative(),
+                 "root mean square gradient");
 }
 
 template <typename Grid>
@@ -52,7 +59,8 @@ void takeGrid(const HeightMap& scan, int seed, Grid& grid) {
 void refuse(const std::vector<std::string>& violations) {
   if (violations.empty()) return;
   std::string text = "the counter-surface cannot be drawn on this scan's grid: ";
-  for (const std::string& line : violations) text += (&line == &violations.front() ? "" : "; ") + line;
+  for (const std::string& line : violations)
+    text += (&line == &violations.front() ? "" : "; ") + line;
   throw SurfaceError(text);
 }
 
@@ -65,14 +73,17 @@ void CounterSurfaceOptions::describe(OptionVisitor& visitor) {
                        {"file", CounterSurfaceType::kFile},
                        {"gaussian", CounterSurfaceType::kGaussian},
                        {"self_affine", CounterSurfaceType::kSelfAffine}},
-                      "what the scan touches: a plane, the latest measured counter-surface, a scan file, or a random "
+                      "what the scan touches: a plane, the latest measured counter-surface, a scan "
+                      "file, or a random "
                       "rough surface");
   visitor.enumeration("counter_surface/facing", facing,
                       {{"unstated", CounterSurfaceFacing::kUnstated},
                        {"down", CounterSurfaceFacing::kDown},
                        {"up", CounterSurfaceFacing::kUp}},
-                      "which way the asperities of a measured counter-surface point, which must be stated with one: up "
-                      "as an instrument measures them, to be turned over about its y axis here; or down as mounted");
+                      "which way the asperities of a measured counter-surface point, which must be "
+                      "stated with one: up "
+                      "as an instrument measures them, to be turned over about its y axis here; or "
+                      "down as mounted");
   visitor.text("counter_surface/file", file, "scan file of the counter-surface, for type file");
   visitor.text("counter_surface/channel", channel,
                "title or number of the channel of that file; empty = the likeliest height channel");
@@ -91,8 +102,10 @@ HeightMap turnedOver(const HeightMap& surface) {
 }
 
 std::string facingComplaint() {
-  return "counter_surface/facing: must be stated for a measured counter-surface: up = its heights are as an instrument "
-         "measures them, asperities up, and it is turned over here (a file of an AFM or interferometer); down = its "
+  return "counter_surface/facing: must be stated for a measured counter-surface: up = its heights "
+         "are as an instrument "
+         "measures them, asperities up, and it is turned over here (a file of an AFM or "
+         "interferometer); down = its "
          "heights are already those of the mounted surface in the scan's frame, asperities down";
 }
 
@@ -115,8 +128,8 @@ HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOpt
 }
 
 bool isIdentity(const SurfacePose& pose) {
-  return pose.offset_x == 0.0 && pose.offset_y == 0.0 && pose.rotation == 0.0 && pose.tilt_x == 0.0 &&
-         pose.tilt_y == 0.0;
+  return pose.offset_x == 0.0 && pose.offset_y == 0.0 && pose.rotation == 0.0 &&
+         pose.tilt_x == 0.0 && pose.tilt_y == 0.0;
 }
 
 }  // namespace mems_stiction

@@ -3,17 +3,18 @@
 /// @file
 /// What is the scan brought into contact with?
 ///
-/// | type        | heights                                            | beyond its edge            |
-/// |-------------|----------------------------------------------------|----------------------------|
-/// | flat        | a plane                                            | goes on                    |
-/// | topic       | a measured height map that comes beside the scans  | nothing: cells are invalid |
-/// | file        | a scan file that scan_file.hpp reads, read once    | nothing: cells are invalid |
-/// | gaussian    | random heights, lengths, skewness and kurtosis     | wraps around               |
-/// | self_affine | random heights, alike on many scales               | wraps around               |
+/// | type        | heights                                           | beyond its edge            |
+/// |-------------|---------------------------------------------------|----------------------------|
+/// | flat        | a plane                                           | goes on                    |
+/// | topic       | a measured height map that comes beside the scans | nothing: cells are invalid |
+/// | file        | a scan file that scan_file.hpp reads, read once   | nothing: cells are invalid |
+/// | gaussian    | random heights, lengths, skewness and kurtosis    | wraps around               |
+/// | self_affine | random heights, alike on many scales              | wraps around               |
 ///
-/// Generated surfaces have the scan's size and pitch, and depend on it and the seed alone: the same scan size gives the
-/// same surface. They are described as a probe would see them, asperities up, and turned over for mounting. Where each
-/// lies over the scan is said by the pose (alignment.hpp); a plane takes only its tilts.
+/// Generated surfaces have the scan's size and pitch, and depend on it and the seed alone: the same
+/// scan size gives the same surface. They are described as a probe would see them, asperities up,
+/// and turned over for mounting. Where each lies over the scan is said by the pose (alignment.hpp);
+/// a plane takes only its tilts.
 
 #include <string>
 
@@ -22,10 +23,12 @@
 
 namespace mems_stiction {
 
-/// A height map that faces the other way: z negated, columns mirrored. Twice gives back the surface.
+/// A height map that faces the other way: z negated, columns mirrored. Twice gives back the
+/// surface.
 HeightMap turnedOver(const HeightMap& surface);
 
-/// "must be stated: up = ..., down = ...", where a measured counter-surface comes without its facing.
+/// "must be stated: up = ..., down = ...", where a measured counter-surface comes without its
+/// facing.
 std::string facingComplaint();
 
 /// The counter-surface in the scan's frame.

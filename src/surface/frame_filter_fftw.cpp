@@ -14,8 +14,8 @@ constexpr int kColumns = 8;
 
 }  // namespace
 
-/// A column is transformed, multiplied and transformed back while it is at hand. Plans are estimated, never timed, so that they are
-/// the same in every run.
+/// A column is transformed, multiplied and transformed back while it is at hand. Plans are
+/// estimated, never timed, so that they are the same in every run.
 struct FrameFilter::Transforms {
   Transforms(const cv::Size& frame, int rows)
       : size(frame),
@@ -28,21 +28,26 @@ struct FrameFilter::Transforms {
     auto* const real = values.ptr<float>();
     auto* const from = complex(gathered);
     auto* const to = complex(column);
-    forward_rows = fftwf_plan_many_dft_r2c(1, &width, size.height, real, nullptr, 1, 2 * waves, complex(values),
-                                           nullptr, 1, waves, FFTW_ESTIMATE);
-    backward_rows = fftwf_plan_many_dft_c2r(1, &width, rows, complex(values), nullptr, 1, waves, real, nullptr, 1,
-                                            2 * waves, FFTW_ESTIMATE);
-    forward_column = fftwf_plan_dft_1d(size.height, from, to, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
-    backward_column = fftwf_plan_dft_1d(size.height, to, from, FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
+    forward_rows = fftwf_plan_many_dft_r2c(1, &width, size.height, real, nullptr, 1, 2 * waves,
+                                           complex(values), nullptr, 1, waves, FFTW_ESTIMATE);
+    backward_rows = fftwf_plan_many_dft_c2r(1, &width, rows, complex(values), nullptr, 1, waves,
+                                            real, nullptr, 1, 2 * waves, FFTW_ESTIMATE);
+    forward_column =
+        fftwf_plan_dft_1d(size.height, from, to, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
+    backward_column =
+        fftwf_plan_dft_1d(size.height, to, from, FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
   }
   ~Transforms() {
     const std::lock_guard<std::mutex> lock(plannerMutex());
-    for (fftwf_plan plan : {forward_rows, backward_rows, forward_column, backward_column}) fftwf_destroy_plan(plan);
+    for (fftwf_plan plan : {forward_rows, backward_rows, forward_column, backward_column})
+      fftwf_destroy_plan(plan);
   }
   Transforms(const Transforms&) = delete;
   Transforms& operator=(const Transforms&) = delete;
 
-  static fftwf_complex* complex(cv::Mat& values) { return reinterpret_cast<fftwf_complex*>(values.ptr<float>()); }
+  static fftwf_complex* complex(cv::Mat& values) {
+    return reinterpret_cast<fftwf_complex*>(values.ptr<float>());
+  }
 
   void filterColumns(const cv::Mat& gains, int first, int count) {
     for (int row = 0; row < size.height; ++row) {
@@ -77,7 +82,8 @@ struct FrameFilter::Transforms {
   fftwf_plan backward_column;
 };
 
-FrameFilter::FrameFilter(const cv::Size& frame, int rows) : transforms_(std::make_unique<Transforms>(frame, rows)) {}
+FrameFilter::FrameFilter(const cv::Size& frame, int rows)
+    : transforms_(std::make_unique<Transforms>(frame, rows)) {}
 FrameFilter::~FrameFilter() = default;
 FrameFilter::FrameFilter(FrameFilter&& other) noexcept = default;
 FrameFilter& FrameFilter::operator=(FrameFilter&& other) noexcept = default;

@@ -3,7 +3,8 @@
 namespace mems_stiction {
 namespace {
 
-/// Number of the wave at a place of a packed line, whose first is 0 and whose last of an even count is count/2.
+/// Number of the wave at a place of a packed line, whose first is 0 and whose last of an even count
+/// is count/2.
 int packedNumber(int place) { return (place + 1) / 2; }
 
 }  // namespace
@@ -14,7 +15,8 @@ struct FrameFilter::Transforms {
   cv::Mat values;
 };
 
-FrameFilter::FrameFilter(const cv::Size& frame, int /*rows*/) : transforms_(std::make_unique<Transforms>(frame)) {}
+FrameFilter::FrameFilter(const cv::Size& frame, int /*rows*/)
+    : transforms_(std::make_unique<Transforms>(frame)) {}
 FrameFilter::~FrameFilter() = default;
 FrameFilter::FrameFilter(FrameFilter&& other) noexcept = default;
 FrameFilter& FrameFilter::operator=(FrameFilter&& other) noexcept = default;
@@ -27,7 +29,8 @@ void FrameFilter::apply(const cv::Mat& gains) {
   for (int row = 0; row < waves.rows; ++row) {
     float* line = waves.ptr<float>(row);
     for (int col = 0; col < waves.cols; ++col) {
-      // the first and the last column hold the waves along y, packed; all others hold theirs at their rows
+      // the first and the last column hold the waves along y, packed; all others hold theirs at
+      // their rows
       const bool is_along_y = col == 0 || col == waves.cols - 1;
       line[col] *= gains.at<float>(packedNumber(col), is_along_y ? packedNumber(row) : row);
     }

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Heights of any distribution from standard normal numbers, by a table: what a translation process needs at every pixel.
+/// Heights of any distribution from standard normal numbers, by a table: what a translation process
+/// needs at every pixel.
 ///
 ///     const HeightTranslation skewed([&](double g) { return 3e-9 * johnson(g); });
 
@@ -14,7 +15,8 @@ namespace mems_stiction {
 /// A height [m] that rises with a normal number.
 class HeightTranslation {
  public:
-  /// - @p heights [m] at equal steps from `lowest` to `highest`, not falling; straight between them and beyond the ends
+  /// - @p heights [m] at equal steps from `lowest` to `highest`, not falling; straight between them
+  /// and beyond the ends
   /// @throw OptionsError naming what is not allowed.
   HeightTranslation(double lowest, double highest, const std::vector<double>& heights);
   /// The same with 4097 heights of a function, from -8 to 8: one number of 10^15 lies beyond.
@@ -24,7 +26,8 @@ class HeightTranslation {
     const double place = (g - lowest_) * steps_;
     const double segment = place < 0.0 ? 0.0 : place < last_ ? place : last_;
     const Segment& line = segments_[static_cast<std::size_t>(segment)];
-    return line.height + line.rise * (place - static_cast<double>(static_cast<std::size_t>(segment)));
+    return line.height +
+           line.rise * (place - static_cast<double>(static_cast<std::size_t>(segment)));
   }
 
  private:

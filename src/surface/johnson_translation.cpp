@@ -9,7 +9,8 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kMaxShift = 60.0;  ///< gamma/delta: beyond it both families are log-normal to 1e-26
+constexpr double kMaxShift =
+    60.0;  ///< gamma/delta: beyond it both families are log-normal to 1e-26
 constexpr double kMinDelta = 0.05;  ///< below it the bounded family stands at two levels
 constexpr int kBisections = 48;
 
@@ -18,7 +19,8 @@ struct Shape {
   double kurtosis = 3.0;
 };
 
-/// The standard normal in equal steps: the trapezoidal rule converges exponentially for smooth functions.
+/// The standard normal in equal steps: the trapezoidal rule converges exponentially for smooth
+/// functions.
 struct Quadrature {
   static constexpr int kPoints = 1201;
   std::array<double, kPoints> g{};
@@ -99,8 +101,8 @@ Shape unboundedShape(double delta, double shift) {
   const double w = std::exp(1.0 / (delta * delta));
   const double less = w - 1.0;
   const double second = 0.5 * less * (w * std::cosh(2.0 * shift) + 1.0);
-  const double third =
-      0.25 * std::sqrt(w) * less * less * (w * (w + 2.0) * std::sinh(3.0 * shift) + 3.0 * std::sinh(shift));
+  const double third = 0.25 * std::sqrt(w) * less * less *
+                       (w * (w + 2.0) * std::sinh(3.0 * shift) + 3.0 * std::sinh(shift));
   const double fourth = 0.125 * less * less *
                         (w * w * (((w + 2.0) * w + 3.0) * w * w - 3.0) * std::cosh(4.0 * shift) +
                          4.0 * w * w * (w + 2.0) * std::cosh(2.0 * shift) + 3.0 * (2.0 * w + 1.0));
@@ -112,17 +114,20 @@ Shape unboundedShape(double delta, double shift) {
 JohnsonTranslation::JohnsonTranslation(double skewness, double kurtosis) {
   if (!Range::within(-4.0, 4.0).contains(skewness) ||
       !Range::within(skewness * skewness + 1.2, 100.0).contains(kurtosis)) {
-    throw OptionsError({"skewness: " + numberText(skewness) + " with kurtosis " + numberText(kurtosis) +
-                        " is not allowed; skewness must be in [-4, 4], kurtosis in [skewness^2 + 1.2, 100]"});
+    throw OptionsError(
+        {"skewness: " + numberText(skewness) + " with kurtosis " + numberText(kurtosis) +
+         " is not allowed; skewness must be in [-4, 4], kurtosis in [skewness^2 + 1.2, 100]"});
   }
   sign_ = skewness < 0.0 ? -1.0 : 1.0;
   const double wanted = std::fabs(skewness);
-  constexpr double kGaussian = 1e-6;  // a delta of 1000 and more is the identity to three digits of the moments' change
+  constexpr double kGaussian =
+      1e-6;  // a delta of 1000 and more is the identity to three digits of the moments' change
   if (wanted < kGaussian && std::fabs(kurtosis - 3.0) < kGaussian) return;
 
   // The log-normal of this skewness is where both families end.
   double end = 1e4;
-  if (wanted >= kGaussian) end = bisect(0.3, 1e7, wanted, [](double delta) { return logNormalShape(delta).skewness; });
+  if (wanted >= kGaussian)
+    end = bisect(0.3, 1e7, wanted, [](double delta) { return logNormalShape(delta).skewness; });
   const double border = wanted >= kGaussian ? logNormalShape(end).kurtosis : 3.0;
   const double tolerance = 1e-4 * (border - 1.0);
   if (wanted >= kGaussian && std::fabs(kurtosis - border) < tolerance) {
@@ -136,14 +141,16 @@ JohnsonTranslation::JohnsonTranslation(double skewness, double kurtosis) {
     };
     const auto shiftOf = [&](double delta) {
       if (wanted < kGaussian) return 0.0;
-      return bisect(0.0, kMaxShift, wanted, [&](double shift) { return shape(delta, shift).skewness; });
+      return bisect(0.0, kMaxShift, wanted,
+                    [&](double shift) { return shape(delta, shift).skewness; });
     };
     delta_ = bisect(bounded ? kMinDelta : 0.4, end, kurtosis,
                     [&](double delta) { return shape(delta, shiftOf(delta)).kurtosis; });
     gamma_ = (bounded ? 1.0 : -1.0) * shiftOf(delta_) * delta_;
   }
   mean_ = normalMean([this](double g) { return raw(g); });
-  deviation_ = std::sqrt(normalMean([this](double g) { return (raw(g) - mean_) * (raw(g) - mean_); }));
+  deviation_ =
+      std::sqrt(normalMean([this](double g) { return (raw(g) - mean_) * (raw(g) - mean_); }));
 }
 
 double JohnsonTranslation::raw(double g) const {
@@ -160,12 +167,14 @@ double JohnsonTranslation::raw(double g) const {
   return g;
 }
 
-double JohnsonTranslation::operator()(double g) const { return sign_ * (raw(sign_ * g) - mean_) / deviation_; }
+double JohnsonTranslation::operator()(double g) const {
+  return sign_ * (raw(sign_ * g) - mean_) / deviation_;
+}
 
 double JohnsonTranslation::gaussianCorrelation(double correlation) const {
   if (family_ == Family::kNormal) return correlation;
-  // Mehler: the correlation of the translations is the sum of c_n^2 r^n, c_n the coefficients in Hermite polynomials
-  // of norm 1: he_(n+1) = (g he_n - sqrt(n) he_(n-1))/sqrt(n + 1).
+  // Mehler: the correlation of the translations is the sum of c_n^2 r^n, c_n the coefficients in
+  // Hermite polynomials of norm 1: he_(n+1) = (g he_n - sqrt(n) he_(n-1))/sqrt(n + 1).
   constexpr int kTerms = 30;
   std::array<double, kTerms> coefficients{};
   const Quadrature& points = quadrature();
@@ -176,7 +185,8 @@ double JohnsonTranslation::gaussianCorrelation(double correlation) const {
     double current = 1.0;
     for (int n = 0; n < kTerms; ++n) {
       coefficients[static_cast<std::size_t>(n)] += current * value;
-      const double next = (g * current - std::sqrt(static_cast<double>(n)) * before) / std::sqrt(n + 1.0);
+      const double next =
+          (g * current - std::sqrt(static_cast<double>(n)) * before) / std::sqrt(n + 1.0);
       before = current;
       current = next;
     }

@@ -5,14 +5,15 @@
 ///
 /// By Johnson's translations of a standard normal g (Johnson, Biometrika 36 (1949) 149):
 ///
-///     bounded    1/(1 + exp(-(g - gamma)/delta))   kurtosis below that of the log-normal of the same skewness
-///     log-normal exp(g/delta)                      on it
-///     unbounded  sinh((g - gamma)/delta)           above it
+///     bounded    1/(1 + exp(-(g - gamma)/delta))   kurtosis below that of the log-normal of the
+///     same skewness log-normal exp(g/delta)                      on it unbounded  sinh((g -
+///     gamma)/delta)           above it
 ///
-/// shifted and scaled to mean 0 and variance 1, turned over for a negative skewness. Each pair (skewness, kurtosis)
-/// with kurtosis > skewness^2 + 1 belongs to exactly one of them; (0, 3) is the identity. gamma and delta by bisection:
-/// for each delta one gamma gives the skewness, and along these pairs kurtosis falls from unbounded to the
-/// log-normal's, or rises from two spikes to it.
+/// shifted and scaled to mean 0 and variance 1, turned over for a negative skewness. Each pair
+/// (skewness, kurtosis) with kurtosis > skewness^2 + 1 belongs to exactly one of them; (0, 3) is
+/// the identity. gamma and delta by bisection: for each delta one gamma gives the skewness, and
+/// along these pairs kurtosis falls from unbounded to the log-normal's, or rises from two spikes to
+/// it.
 
 namespace mems_stiction {
 
@@ -20,8 +21,8 @@ namespace mems_stiction {
 class JohnsonTranslation {
  public:
   /// @param skewness in [-4, 4]
-  /// @param kurtosis in [skewness^2 + 1.2, 100]: nearer to skewness^2 + 1 heights would stand at two levels.
-  /// Gaussian: 3.
+  /// @param kurtosis in [skewness^2 + 1.2, 100]: nearer to skewness^2 + 1 heights would stand at
+  /// two levels. Gaussian: 3.
   /// @throw OptionsError naming both and what is allowed.
   JohnsonTranslation(double skewness, double kurtosis);
 

@@ -13,14 +13,17 @@ LineWaves<Scalar>::LineWaves(std::size_t length) : length_(length), order_{0} {
     std::vector<Turns> turns(span / 4);
     for (std::size_t j = 0; j < turns.size(); ++j) {
       const auto turn = [&](double times) {
-        const double angle = -2.0 * kPi * times * static_cast<double>(j) / static_cast<double>(span);
-        return Complex<Scalar>{static_cast<Scalar>(std::cos(angle)), static_cast<Scalar>(std::sin(angle))};
+        const double angle =
+            -2.0 * kPi * times * static_cast<double>(j) / static_cast<double>(span);
+        return Complex<Scalar>{static_cast<Scalar>(std::cos(angle)),
+                               static_cast<Scalar>(std::sin(angle))};
       };
       turns[j] = {turn(1.0), turn(2.0), turn(3.0)};
     }
     turns_.push_back(std::move(turns));
   }
-  // A pass puts the waves r, r + 4, r + 8 ... into the quarter r; what is known of shorter lines tells their order.
+  // A pass puts the waves r, r + 4, r + 8 ... into the quarter r; what is known of shorter lines
+  // tells their order.
   const auto interleave = [this](std::size_t parts) {
     std::vector<std::size_t> longer;
     for (std::size_t part = 0; part < parts; ++part) {

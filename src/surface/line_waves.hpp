@@ -1,11 +1,12 @@
 #pragma once
 
 /// @file
-/// The discrete Fourier transform of lines whose length is a power of two, in place, for convolutions: `forward` leaves the
-/// coefficients in the order in which its butterflies end, and `backward` starts from that order. A line may be several
-/// lines side by side, one in each element of FloatPacket. Additions and multiplications alone, in a fixed order: the same bits on
-/// every processor, which libraries that fuse the two where the processor can do not promise.
-/// Source: Gentleman and Sande, AFIPS Conf. Proc. 29 (1966) 563, with four-point butterflies.
+/// The discrete Fourier transform of lines whose length is a power of two, in place, for
+/// convolutions: `forward` leaves the coefficients in the order in which its butterflies end, and
+/// `backward` starts from that order. A line may be several lines side by side, one in each element
+/// of FloatPacket. Additions and multiplications alone, in a fixed order: the same bits on every
+/// processor, which libraries that fuse the two where the processor can do not promise. Source:
+/// Gentleman and Sande, AFIPS Conf. Proc. 29 (1966) 563, with four-point butterflies.
 
 #include <cstddef>
 #include <vector>
@@ -29,13 +30,15 @@ class LineWaves {
   explicit LineWaves(std::size_t length);
 
   std::size_t length() const { return length_; }
-  /// Number of the wave whose coefficient `forward` leaves at each place: wave k is exp(2 pi i j k/length).
+  /// Number of the wave whose coefficient `forward` leaves at each place: wave k is exp(2 pi i j
+  /// k/length).
   const std::vector<std::size_t>& order() const { return order_; }
 
   /// Sum over j of line_j exp(-2 pi i j k/length). Real is Scalar, or packets of it.
   template <typename Real>
   MEMS_STICTION_INLINE void forward(Complex<Real>* line) const;
-  /// The same with exp(+2 pi i j k/length), from the order of forward() to that of places. Not divided by the length.
+  /// The same with exp(+2 pi i j k/length), from the order of forward() to that of places. Not
+  /// divided by the length.
   template <typename Real>
   MEMS_STICTION_INLINE void backward(Complex<Real>* line) const;
 
@@ -52,7 +55,8 @@ class LineWaves {
 };
 
 template <typename Real, typename Scalar>
-MEMS_STICTION_INLINE void multiply(const Complex<Real>& a, const Complex<Scalar>& turn, Complex<Real>& product) {
+MEMS_STICTION_INLINE void multiply(const Complex<Real>& a, const Complex<Scalar>& turn,
+                                   Complex<Real>& product) {
   const Real re = a.re * turn.re - a.im * turn.im;
   product.im = a.re * turn.im + a.im * turn.re;
   product.re = re;
@@ -60,7 +64,8 @@ MEMS_STICTION_INLINE void multiply(const Complex<Real>& a, const Complex<Scalar>
 
 /// With the conjugate of the turn.
 template <typename Real, typename Scalar>
-MEMS_STICTION_INLINE void multiplyBack(const Complex<Real>& a, const Complex<Scalar>& turn, Complex<Real>& product) {
+MEMS_STICTION_INLINE void multiplyBack(const Complex<Real>& a, const Complex<Scalar>& turn,
+                                       Complex<Real>& product) {
   const Real re = a.re * turn.re + a.im * turn.im;
   product.im = a.im * turn.re - a.re * turn.im;
   product.re = re;
@@ -94,9 +99,12 @@ MEMS_STICTION_INLINE void LineWaves<Scalar>::forward(Complex<Real>* line) const 
         const Complex<Real> odd_sum{b.re + d.re, b.im + d.im};
         const Complex<Real> odd_rest{b.im - d.im, d.re - b.re};  // -i (b - d)
         x[0] = {even_sum.re + odd_sum.re, even_sum.im + odd_sum.im};
-        multiply({even_rest.re + odd_rest.re, even_rest.im + odd_rest.im}, turns[j].once, x[quarter]);
-        multiply({even_sum.re - odd_sum.re, even_sum.im - odd_sum.im}, turns[j].twice, x[2 * quarter]);
-        multiply({even_rest.re - odd_rest.re, even_rest.im - odd_rest.im}, turns[j].thrice, x[3 * quarter]);
+        multiply({even_rest.re + odd_rest.re, even_rest.im + odd_rest.im}, turns[j].once,
+                 x[quarter]);
+        multiply({even_sum.re - odd_sum.re, even_sum.im - odd_sum.im}, turns[j].twice,
+                 x[2 * quarter]);
+        multiply({even_rest.re - odd_rest.re, even_rest.im - odd_rest.im}, turns[j].thrice,
+                 x[3 * quarter]);
       }
     }
     span = quarter;

@@ -35,7 +35,8 @@ MEMS_STICTION_INLINE void squaredRadii(const Bits& k, Doubles& squares) {
   Doubles x;
   toDoubles(k, x);
   x = (x + 0.5) * 0x1p-32;
-  // x = 2^e m with m from sqrt(1/2) to sqrt(2); log m = 2 artanh((m - 1)/(m + 1)), whose series ends below 1e-16
+  // x = 2^e m with m from sqrt(1/2) to sqrt(2); log m = 2 artanh((m - 1)/(m + 1)), whose series
+  // ends below 1e-16
   constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcdU;
   constexpr std::uint64_t kBias = 1023;
   Bits bits;
@@ -63,10 +64,12 @@ MEMS_STICTION_INLINE void unitVectors(const Bits& k, Doubles& cosines, Doubles& 
   rest = (rest - 0x1p33) * (2.0 * kPi * 0x1p-32);
   const Doubles z = -(rest * rest);
   Doubles sine = z * (1.0 / (16.0 * 17.0)) + 1.0;
-  for (const double n : {15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0}) sine = sine * z * (1.0 / ((n - 1.0) * n)) + 1.0;
+  for (const double n : {15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0})
+    sine = sine * z * (1.0 / ((n - 1.0) * n)) + 1.0;
   sine = sine * rest;
   Doubles cosine = z * (1.0 / (15.0 * 16.0)) + 1.0;
-  for (const double n : {14.0, 12.0, 10.0, 8.0, 6.0, 4.0, 2.0}) cosine = cosine * z * (1.0 / ((n - 1.0) * n)) + 1.0;
+  for (const double n : {14.0, 12.0, 10.0, 8.0, 6.0, 4.0, 2.0})
+    cosine = cosine * z * (1.0 / ((n - 1.0) * n)) + 1.0;
 
   Bits cosine_bits;
   Bits sine_bits;
@@ -85,9 +88,10 @@ MEMS_STICTION_INLINE void loadBits(const std::uint32_t* from, Bits& bits) {
   bits = __builtin_convertvector(loaded, Bits);
 }
 
-/// Two normal numbers, one beside the other, of each pair of a radius and an angle. `count` pairs, a multiple of 4.
-MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::uint32_t* angles, std::size_t count,
-                                        float* values) {
+/// Two normal numbers, one beside the other, of each pair of a radius and an angle. `count` pairs,
+/// a multiple of 4.
+MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::uint32_t* angles,
+                                        std::size_t count, float* values) {
   for (std::size_t i = 0; i < count; i += kPacket) {
     Bits k;
     Doubles squares;
@@ -97,7 +101,8 @@ MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::u
     Doubles sines;
     loadBits(angles + i, k);
     unitVectors(k, cosines, sines);
-    for (std::size_t element = 0; element < kPacket; ++element) squares[element] = std::sqrt(squares[element]);
+    for (std::size_t element = 0; element < kPacket; ++element)
+      squares[element] = std::sqrt(squares[element]);
     cosines *= squares;
     sines *= squares;
     for (std::size_t element = 0; element < kPacket; ++element) {

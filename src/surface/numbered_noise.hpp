@@ -1,14 +1,16 @@
 #pragma once
 
 /// @file
-/// White noise that is numbered by place: what a cell holds depends on the seed, the layer and the cell alone, not on which
-/// cells were asked for before.
+/// White noise that is numbered by place: what a cell holds depends on the seed, the layer and the
+/// cell alone, not on which cells were asked for before.
 ///
-/// The bits come from Philox4x32-10, a generator that turns a counter into bits without a state (Salmon, Moraes, Dror and
-/// Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11, doi:10.1145/2063384.2063405); its authors' library Random123 has
-/// it, tested against TestU01's BigCrush. The counter is (column/4, row, layer); the key is the seed. Box and Muller's
-/// formula makes two standard normal numbers of two 32-bit ones, in double precision, by series of additions and
-/// multiplications alone, so that the bits are the same on every processor. The largest number that it makes is 6.7.
+/// The bits come from Philox4x32-10, a generator that turns a counter into bits without a state
+/// (Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11,
+/// doi:10.1145/2063384.2063405); its authors' library Random123 has it, tested against TestU01's
+/// BigCrush. The counter is (column/4, row, layer); the key is the seed. Box and Muller's formula
+/// makes two standard normal numbers of two 32-bit ones, in double precision, by series of
+/// additions and multiplications alone, so that the bits are the same on every processor. The
+/// largest number that it makes is 6.7.
 
 #include <cstdint>
 #include <vector>

@@ -12,8 +12,10 @@ namespace mems_stiction {
 
 void TranslatedGaussianOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
   gaussian.describe(visitor, prefix);
-  visitor.number(prefix + "/skewness", skewness, "", Range::within(-4.0, 4.0), "skewness of the heights; Gaussian: 0");
-  visitor.number(prefix + "/kurtosis", kurtosis, "", Range::within(skewness * skewness + 1.2, 100.0),
+  visitor.number(prefix + "/skewness", skewness, "", Range::within(-4.0, 4.0),
+                 "skewness of the heights; Gaussian: 0");
+  visitor.number(prefix + "/kurtosis", kurtosis, "",
+                 Range::within(skewness * skewness + 1.2, 100.0),
                  "kurtosis of the heights, at least skewness^2 + 1.2; Gaussian: 3");
 }
 
@@ -28,12 +30,17 @@ HeightMap translatedGaussianSurface(const TranslatedGaussianOptions& options) {
 
   const JohnsonTranslation translation(options.skewness, options.kurtosis);
   // exp(-(l/l_g)^2) is the correlation that the translation turns into 1/e.
-  const double stretch = 1.0 / std::sqrt(-std::log(translation.gaussianCorrelation(std::exp(-1.0))));
+  const double stretch =
+      1.0 / std::sqrt(-std::log(translation.gaussianCorrelation(std::exp(-1.0))));
   GaussianSurfaceOptions gaussian = options.gaussian;
   gaussian.rms_height = 1.0;
-  const auto stretched = [stretch](double length, double frame) { return std::min(stretch * length, 0.5 * frame); };
-  gaussian.correlation_length_x = stretched(gaussian.correlation_length_x, gaussian.cols * gaussian.pitch_x);
-  gaussian.correlation_length_y = stretched(gaussian.correlation_length_y, gaussian.rows * gaussian.pitch_y);
+  const auto stretched = [stretch](double length, double frame) {
+    return std::min(stretch * length, 0.5 * frame);
+  };
+  gaussian.correlation_length_x =
+      stretched(gaussian.correlation_length_x, gaussian.cols * gaussian.pitch_x);
+  gaussian.correlation_length_y =
+      stretched(gaussian.correlation_length_y, gaussian.rows * gaussian.pitch_y);
   cv::Mat heights = gaussianSurface(gaussian).heights();
   for (int row = 0; row < heights.rows; ++row) {
     double* line = heights.ptr<double>(row);

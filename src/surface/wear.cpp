@@ -14,9 +14,12 @@ cv::Mat heightsOf(const HeightMap& surface, const cv::Size& size) {
 
 HeightMap Wear::Side::on(const HeightMap& as_made, const HeightMap& grid) const {
   const cv::Size size = grid.heights().size();
-  if (!is_changed || left.size() != size || (!as_made.empty() && as_made.heights().size() != size)) return as_made;
+  if (!is_changed || left.size() != size || (!as_made.empty() && as_made.heights().size() != size))
+    return as_made;
   const cv::Mat heights = heightsOf(as_made, size);
-  cv::Mat worn = left + (heights - made);  // in this order: the same surface again is what was left, to the bit
+  cv::Mat worn =
+      left +
+      (heights - made);  // in this order: the same surface again is what was left, to the bit
   heights.copyTo(worn, ~validMask(worn));  // pixels that one of them lacks
   return {worn, grid.pitchX(), grid.pitchY()};
 }

@@ -11,7 +11,8 @@ namespace {
 
 /// Sides of the frame over those of the surface.
 constexpr double kWiderFrame = 1.5;
-/// Up to this number a wave stands for a cell of waves whose density varies, sampled at so many places along each axis.
+/// Up to this number a wave stands for a cell of waves whose density varies, sampled at so many
+/// places along each axis.
 constexpr int kLongWaves = 6;
 constexpr int kSamplesOfCell = 8;
 
@@ -30,7 +31,8 @@ double powerOf(const WavePower& power, int number_x, int number_y, const cv::Siz
   const double step_x = 2.0 * kPi / frame.width;
   const double step_y = 2.0 * kPi / frame.height;
   if (number_x == 0 && number_y == 0) return 0.0;
-  if (std::max(std::abs(number_x), std::abs(number_y)) > kLongWaves) return power(number_x * step_x, number_y * step_y);
+  if (std::max(std::abs(number_x), std::abs(number_y)) > kLongWaves)
+    return power(number_x * step_x, number_y * step_y);
   double sum = 0.0;
   for (int i = 0; i < kSamplesOfCell; ++i) {
     for (int j = 0; j < kSamplesOfCell; ++j) {
@@ -51,7 +53,8 @@ WholeFrame::WholeFrame(const WavePower& power, int rows, int cols, bool is_even)
   const double pixels = frame_.area();
   for (int number_x = 0; number_x < gains_.rows; ++number_x) {
     float* line = gains_.ptr<float>(number_x);
-    const bool is_half = number_x > 0 && 2 * number_x < frame_.width;  // the wave (-x, -y) is there, too
+    const bool is_half =
+        number_x > 0 && 2 * number_x < frame_.width;  // the wave (-x, -y) is there, too
     for (int row = 0; row < frame_.height; ++row) {
       const int number_y = 2 * row <= frame_.height ? row : row - frame_.height;
       if (is_even && number_y < 0) {

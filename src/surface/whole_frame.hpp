@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// A random rough surface made by one transform: the way for small surfaces, which are made before a kernel is.
+/// A random rough surface made by one transform: the way for small surfaces, which are made before
+/// a kernel is.
 ///
-/// White noise on a periodic frame is multiplied with the root of the spectrum, wave by wave (Hu and Tonder, Int. J. Mach. Tools
-/// Manufact. 32 (1992) 83; Newland, An Introduction to Random Vibrations, ch. 9). The frame is half as wide again as the
-/// surface, so that opposite edges do not meet. A wave of the frame stands for all waves around it: the longest ones have the mean
+/// White noise on a periodic frame is multiplied with the root of the spectrum, wave by wave (Hu
+/// and Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83; Newland, An Introduction to Random
+/// Vibrations, ch. 9). The frame is half as wide again as the surface, so that opposite edges do
+/// not meet. A wave of the frame stands for all waves around it: the longest ones have the mean
 /// density of those, so that the variance is the spectrum's.
 ///
 ///     WholeFrame frame(gain, 192, 192);
@@ -28,7 +30,8 @@ using WavePower = std::function<double(double wave_x, double wave_y)>;
 /// The surfaces of one spectrum and size, one seed after the other.
 class WholeFrame {
  public:
-  /// - @p is_even whether waves along (x, y) and (x, -y) have one power: half of them are asked for then
+  /// - @p is_even whether waves along (x, y) and (x, -y) have one power: half of them are asked for
+  /// then
   WholeFrame(const WavePower& power, int rows, int cols, bool is_even = false);
 
   void make(NumberedNoise noise);

@@ -17,7 +17,14 @@ const std::string kMagic = "#ROSBAG V2.0\n";
 /// Of a header or a connection: names, a type and a definition [bytes].
 constexpr std::uint64_t kLargestHeader = 1 << 20;
 
-enum Op : std::uint8_t { kMessage = 2, kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
+enum Op : std::uint8_t {
+  kMessage = 2,
+  kBagHeader = 3,
+  kIndex = 4,
+  kChunk = 5,
+  kChunkInfo = 6,
+  kConnection = 7
+};
 
 /// Reading went beyond the end.
 struct CutOff {};
@@ -54,7 +61,8 @@ class BagWalk {
     if (place > size_ || count > size_ - place) throw CutOff();
     std::string text(count, '\0');
     stream_.seekg(static_cast<std::streamoff>(place));
-    if (!stream_.read(text.data(), static_cast<std::streamsize>(count))) throw FileError(path_ + ": cannot be read");
+    if (!stream_.read(text.data(), static_cast<std::streamsize>(count)))
+      throw FileError(path_ + ": cannot be read");
     return text;
   }
 
@@ -83,7 +91,8 @@ class BagWalk {
     std::map<std::string, std::string> fields;
     for (std::size_t place = 0; place < text.size();) {
       std::uint32_t size = 0;
-      if (text.size() - place < sizeof size) fail(begin + place, "a header that ends inside a field");
+      if (text.size() - place < sizeof size)
+        fail(begin + place, "a header that ends inside a field");
       std::memcpy(&size, text.data() + place, sizeof size);
       place += sizeof size;
       if (size > text.size() - place) fail(begin + place, "a field that is longer than its header");
@@ -121,7 +130,8 @@ class BagWalk {
     const auto compression = chunk.fields.find("compression");
     is_compressed_ = compression != chunk.fields.end() && compression->second != "none";
     if (is_compressed_) return;
-    if (chunk_size_ != chunk.end - chunk.data) fail(chunk.begin, "a chunk of another size than it states");
+    if (chunk_size_ != chunk.end - chunk.data)
+      fail(chunk.begin, "a chunk of another size than it states");
     for (std::uint64_t place = chunk.data; place < chunk.end;) {
       const Record record = recordAt(place, chunk.end);
       if (record.op == kMessage) messages_[place - chunk.data] = connectionOf(record);
@@ -140,7 +150,8 @@ class BagWalk {
   void checkIndex(const Record& index) {
     const std::uint32_t connection = connectionOf(index);
     const std::uint64_t count = field<std::uint32_t>(index, "count");
-    if (12 * count != index.end - index.data) fail(index.begin, "an index of another length than it states");
+    if (12 * count != index.end - index.data)
+      fail(index.begin, "an index of another length than it states");
     for (std::uint64_t place = index.data; place < index.end; place += 12) {
       const std::uint32_t message = value<std::uint32_t>(place + 8);
       const auto found = messages_.find(message);
@@ -156,7 +167,8 @@ class BagWalk {
     if (8 * std::uint64_t{field<std::uint32_t>(info, "count")} != info.end - info.data) {
       fail(info.begin, "a list of another length than it states");
     }
-    if (chunks.count(field<std::uint64_t>(info, "chunk_pos")) == 0) fail(info.begin, "a list of no chunk");
+    if (chunks.count(field<std::uint64_t>(info, "chunk_pos")) == 0)
+      fail(info.begin, "a list of no chunk");
   }
 
   void walkRecords() {
@@ -167,7 +179,8 @@ class BagWalk {
     if (index_place == 0) throw CutOff();  // whoever wrote it did not come to its end
     std::set<std::uint64_t> chunks;
     std::set<std::uint64_t> places;
-    std::set<std::uint32_t> connections;  // that stand behind all chunks, where rosbag looks for them
+    std::set<std::uint32_t>
+        connections;  // that stand behind all chunks, where rosbag looks for them
     for (place = header.end; place < size_;) {
       const Record record = recordAt(place, size_);
       places.insert(place);
@@ -187,10 +200,12 @@ class BagWalk {
       place = record.end;
     }
     if (index_place > size_) throw CutOff();
-    if (index_place != size_ && places.count(index_place) == 0) fail(kMagic.size(), "its index is not where it states");
+    if (index_place != size_ && places.count(index_place) == 0)
+      fail(kMagic.size(), "its index is not where it states");
     for (const auto& [connection, named_at] : named_) {
       if (connections.count(connection) == 0)
-        fail(named_at, "a connection (" + std::to_string(connection) + ") that is not in its index");
+        fail(named_at,
+             "a connection (" + std::to_string(connection) + ") that is not in its index");
     }
   }
 

@@ -14,7 +14,8 @@ namespace mems_stiction {
 
 struct BagScan {
   HeightMap surface;
-  HeightMap counter_surface;  ///< the latest one recorded before the scan, if it was asked for; else empty
+  HeightMap counter_surface;  ///< the latest one recorded before the scan, if it was asked for;
+                              ///< else empty
   ScanIdentity identity;
   std::string frame_id;
   std::string stamp;  ///< seconds.nanoseconds
@@ -35,7 +36,8 @@ class BagScans {
 };
 
 /// @param height_topic with or without the leading slash
-/// @throw FileError naming the bag if it cannot be opened, has no such topic, or ROS is not there to read it
+/// @throw FileError naming the bag if it cannot be opened, has no such topic, or ROS is not there
+/// to read it
 std::unique_ptr<BagScans> openBag(const std::string& path, const std::string& height_topic,
                                   const ScanOptions& parameters);
 

@@ -34,7 +34,8 @@ struct BatchArguments {
   bool strict = false;
   std::vector<std::string> inputs;
 
-  /// Whether each row finds the device's own force by its scan alone; with --parts the parts have it.
+  /// Whether each row finds the device's own force by its scan alone; with --parts the parts have
+  /// it.
   bool rowsHaveDeviceForce() const { return device_force || (parts.empty() && !no_device_force); }
 };
 

@@ -27,7 +27,9 @@ constexpr std::string_view kJsonStart = "{\"number\":";
 constexpr InputKind kRows = {"a table of rows", std::uint64_t{4} << 30};
 constexpr InputKind kSettings = {"the settings of rows", std::uint64_t{1} << 28};
 
-std::string jsonText(const nlohmann::json& value) { return value.dump(-1, ' ', false, kReplaceBadBytes); }
+std::string jsonText(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, kReplaceBadBytes);
+}
 
 std::string csvCell(const nlohmann::json& value) {
   if (value.is_null()) return "";
@@ -64,10 +66,10 @@ std::string rowsFrom(const std::string& path, RowFormat format, const std::strin
   const std::string begin(is_json ? kJsonStart : heading);
   const std::string found = readInputStart(path, kRows, begin.size());
   if (!startsWith(begin, found)) {
-    throw FileError(path +
-                    (is_json ? ": line 1 is no row"
-                             : ": line 1 has other columns than this run writes: rows of another version or with other "
-                               "options; write another file"));
+    throw FileError(path + (is_json ? ": line 1 is no row"
+                                    : ": line 1 has other columns than this run writes: rows of "
+                                      "another version or with other "
+                                      "options; write another file"));
   }
   return readRows(path);
 }
@@ -84,15 +86,18 @@ RowFormat rowFormatOf(const std::string& path, const std::string& option) {
   throw OptionsError({option + ": '" + path + "' is not allowed, must end in .csv or .jsonl"});
 }
 
-std::string rowText(const RowFields& fields, RowFormat format, const std::vector<std::string>& columns) {
+std::string rowText(const RowFields& fields, RowFormat format,
+                    const std::vector<std::string>& columns) {
   std::string line;
   if (format == RowFormat::kJsonLines) {
-    for (const auto& [name, value] : fields) line += (line.empty() ? "{\"" : ",\"") + name + "\":" + jsonText(value);
+    for (const auto& [name, value] : fields)
+      line += (line.empty() ? "{\"" : ",\"") + name + "\":" + jsonText(value);
     return line + "}\n";
   }
   for (const std::string& column : columns) {
-    const auto field =
-        std::find_if(fields.begin(), fields.end(), [&](const auto& candidate) { return candidate.first == column; });
+    const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& candidate) {
+      return candidate.first == column;
+    });
     if (&column != &columns.front()) line += ",";
     if (field != fields.end()) line += csvCell(field->second);
   }
@@ -114,7 +119,8 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
     const std::string text = hasRows(path) ? rowsFrom(path, format, heading) : "";
     std::string torn;
     std::vector<std::string> lines = linesOf(text, torn);
-    if (!torn.empty() && ::ftruncate(descriptor_, static_cast<off_t>(text.size() - torn.size())) != 0) {
+    if (!torn.empty() &&
+        ::ftruncate(descriptor_, static_cast<off_t>(text.size() - torn.size())) != 0) {
       failWithSystemsReason(path);
     }
     if (lines.empty()) {
@@ -150,8 +156,9 @@ void RowFile::takeUp(std::vector<std::string> lines, const std::vector<std::size
     } else if (end != numbers.end() && *end == number) {
       earlier_.push_back(std::move(lines[i]));
     } else {
-      throw FileError(path_ + ": line " + std::to_string(i + (heading_.empty() ? 1 : 2)) +
-                      " is not a row of this shard: continue with the same --shard, or write another file");
+      throw FileError(
+          path_ + ": line " + std::to_string(i + (heading_.empty() ? 1 : 2)) +
+          " is not a row of this shard: continue with the same --shard, or write another file");
     }
   }
   done_ = earlier_.size();
@@ -188,7 +195,8 @@ std::string settingsPathOf(const std::string& rows_path) { return rows_path + ".
 
 bool hasRows(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw FileError(path + ": is a folder, must be a file");
+  if (std::filesystem::is_directory(path, error))
+    throw FileError(path + ": is a folder, must be a file");
   if (!std::filesystem::is_regular_file(path, error)) return false;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   return !error && size > 0;
@@ -196,7 +204,9 @@ bool hasRows(const std::string& path) {
 
 std::string readRows(const std::string& path) { return readInput(path, kRows); }
 
-std::string readSettings(const std::string& rows_path) { return readInput(settingsPathOf(rows_path), kSettings); }
+std::string readSettings(const std::string& rows_path) {
+  return readInput(settingsPathOf(rows_path), kSettings);
+}
 
 void mergeRows(const std::vector<std::string>& shards, const std::string& path, std::size_t total) {
   const RowFormat format = rowFormatOf(path);
@@ -206,7 +216,9 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
     if (rowFormatOf(shard) != format) throw FileError(shard + ": not of the kind of " + path);
     std::string torn;
     std::vector<std::string> lines = linesOf(readRows(shard), torn);
-    if (!torn.empty()) throw FileError(shard + ": the last line is torn: run this shard again, it goes on from there");
+    if (!torn.empty())
+      throw FileError(shard +
+                      ": the last line is torn: run this shard again, it goes on from there");
     if (format == RowFormat::kCsv && !lines.empty()) {
       if (!heading.empty() && heading != lines.front())
         throw FileError(shard + ": other columns than " + shards.front());
@@ -215,7 +227,8 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
     }
     for (std::string& line : lines) {
       const std::size_t number = numberOf(line, format);
-      if (number < 1 || number > total) throw FileError(shard + ": a line is not a row: " + line.substr(0, 60));
+      if (number < 1 || number > total)
+        throw FileError(shard + ": a line is not a row: " + line.substr(0, 60));
       if (!rows.emplace(number, std::move(line)).second) {
         throw FileError(shard + ": row " + std::to_string(number) + " is in another shard too");
       }
@@ -224,9 +237,9 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
   if (rows.size() != total) {
     std::size_t missing = 1;
     while (rows.count(missing) != 0) ++missing;
-    throw FileError(path + ": not written, " + std::to_string(total - rows.size()) + " of " + std::to_string(total) +
-                    " rows are missing, the first of them number " + std::to_string(missing) +
-                    ": a shard is not given, or not finished");
+    throw FileError(path + ": not written, " + std::to_string(total - rows.size()) + " of " +
+                    std::to_string(total) + " rows are missing, the first of them number " +
+                    std::to_string(missing) + ": a shard is not given, or not finished");
   }
   std::string text = heading.empty() ? "" : heading + "\n";
   for (const auto& row : rows) text += row.second + "\n";

@@ -10,7 +10,9 @@
 namespace mems_stiction {
 namespace {
 
-bool isBag(const std::string& path) { return endsWith(path, ".bag") || endsWith(path, ".bag.active"); }
+bool isBag(const std::string& path) {
+  return endsWith(path, ".bag") || endsWith(path, ".bag.active");
+}
 
 }  // namespace
 
@@ -26,7 +28,8 @@ BatchScans::BatchScans(const BatchArguments& arguments, std::vector<std::string>
 ScanState BatchScans::state(std::size_t number) const {
   const std::size_t input = items_[number - 1].input;
   const auto bag = bag_states_.find(input);
-  return bag != bag_states_.end() ? bag->second : scanState(inputs_[input], true, settings_file_checksum_);
+  return bag != bag_states_.end() ? bag->second
+                                  : scanState(inputs_[input], true, settings_file_checksum_);
 }
 
 std::vector<std::string> BatchScans::files(const std::vector<std::size_t>& numbers) const {

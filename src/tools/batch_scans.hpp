@@ -29,7 +29,8 @@ struct BatchScan {
 class BatchScans {
  public:
   /// Looks into every bag. @param arguments, configuration must outlive this
-  BatchScans(const BatchArguments& arguments, std::vector<std::string> inputs, const Configuration& configuration);
+  BatchScans(const BatchArguments& arguments, std::vector<std::string> inputs,
+             const Configuration& configuration);
 
   std::size_t size() const { return items_.size(); }
   const std::vector<std::string>& inputs() const { return inputs_; }
@@ -45,7 +46,9 @@ class BatchScans {
   /// Which scan it is among those of its file, as --shard takes it: "3/5".
   std::string shardOfFile(std::size_t number) const;
   /// It gets a row with this reason in place of a prediction.
-  void passOver(std::size_t number, const std::string& reason) { items_[number - 1].reason = reason; }
+  void passOver(std::size_t number, const std::string& reason) {
+    items_[number - 1].reason = reason;
+  }
   /// Takes a scan out of its bag; what is wrong with it is its reason.
   BatchScan read(std::size_t number);
 
@@ -64,7 +67,8 @@ class BatchScans {
   std::vector<std::string> inputs_;
   const Configuration& configuration_;
   std::string settings_file_checksum_;
-  std::map<std::size_t, ScanState> bag_states_;  ///< by the places of the inputs, before the bags are read
+  std::map<std::size_t, ScanState>
+      bag_states_;  ///< by the places of the inputs, before the bags are read
   std::vector<Item> items_;
   std::unique_ptr<BagScans> bag_;  ///< the one that was opened last
   std::size_t bag_input_ = 0;

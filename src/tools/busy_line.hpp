@@ -1,6 +1,7 @@
 #pragma once
 
-/// What a program is at, in place on the terminal of the standard error, from two seconds on; gone at the end.
+/// What a program is at, in place on the terminal of the standard error, from two seconds on; gone
+/// at the end.
 
 #include <chrono>
 #include <condition_variable>
@@ -46,7 +47,8 @@ class BusyLine {
     std::unique_lock<std::mutex> lock(mutex_);
     for (auto wait = kPatience; !done_.wait_for(lock, wait, [this] { return is_done_; });
          wait = std::chrono::seconds{1}) {
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       char time[32];
       std::snprintf(time, sizeof time, ", %.0f s", seconds);
       line_.show(oneLine(doing_) + time);
@@ -75,7 +77,8 @@ inline std::string deviceText(double share) {
   return text;
 }
 
-/// The same for work(on_progress), which finds the force of a device and reports the share that is done.
+/// The same for work(on_progress), which finds the force of a device and reports the share that is
+/// done.
 /// - @p what as in "scan.tiff"
 template <typename Work>
 auto whileSayingShare(const std::string& what, Work&& work) {

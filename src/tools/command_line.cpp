@@ -37,8 +37,8 @@ bool mayHoldScan(const fs::path& file) {
   constexpr const char* kOthers[] = {".yaml", ".yml", ".md",   ".rst",   ".html", ".pdf",
                                      ".py",   ".sh",  ".json", ".jsonl", ".log",  ".zip"};
   const std::string name = file.filename().string();
-  return name.front() != '.' &&
-         std::find(std::begin(kOthers), std::end(kOthers), file.extension().string()) == std::end(kOthers);
+  return name.front() != '.' && std::find(std::begin(kOthers), std::end(kOthers),
+                                          file.extension().string()) == std::end(kOthers);
 }
 
 }  // namespace
@@ -47,14 +47,17 @@ std::vector<std::string> scansOf(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     std::error_code error;
-    if (!fs::is_directory(path, error) || fs::path(path).extension() == ".bag") {  // a bag that is a folder is a slip
+    if (!fs::is_directory(path, error) ||
+        fs::path(path).extension() == ".bag") {  // a bag that is a folder is a slip
       files.push_back(path);
       continue;
     }
     std::vector<std::string> inside;
-    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+         entry.increment(error)) {
       std::error_code ignored;
-      if (entry->is_regular_file(ignored) && mayHoldScan(entry->path())) inside.push_back(entry->path().string());
+      if (entry->is_regular_file(ignored) && mayHoldScan(entry->path()))
+        inside.push_back(entry->path().string());
     }
     if (error) throw FileError(path + ": cannot be read: " + error.message());
     if (inside.empty()) throw FileError(path + ": holds no scan file");
@@ -80,17 +83,21 @@ void printVersion(const std::string& program) {
 std::string parseFailure(const CLI::App& app, const CLI::Error& error) {
   constexpr const char* kHelp = "; --help shows all options";
   const std::string what = error.what();
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {  // "Could not convert: --voltage = 20V"
+  if (dynamic_cast<const CLI::ConversionError*>(&error) !=
+      nullptr) {  // "Could not convert: --voltage = 20V"
     const std::string pair = after(what, ": ");
     const std::string value = after(pair, " = ");
     if (!value.empty()) {
       return pair.substr(0, pair.find(" = ")) + ": '" + value +
-             "' is not allowed, must be a number: without its unit, and with a point as the decimal sign";
+             "' is not allowed, must be a number: without its unit, and with a point as the "
+             "decimal sign";
     }
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // "The following argument was not expected: --piych"
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) !=
+      nullptr) {  // "The following argument was not expected: --piych"
     const std::string first = after(what, ": ");
-    const std::size_t start = startsWith(first, "--") ? 0 : first.find(" --") + 1;  // CLI11 names its value before it
+    const std::size_t start =
+        startsWith(first, "--") ? 0 : first.find(" --") + 1;  // CLI11 names its value before it
     const std::string option = first.substr(start, first.find_first_of(" =", start) - start);
     if (startsWith(option, "--")) {
       return option + ": there is no such option" + suggestion(option, namesOf(app)) + kHelp;
@@ -100,17 +107,23 @@ std::string parseFailure(const CLI::App& app, const CLI::Error& error) {
   return what + kHelp;
 }
 
-void requireOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
+void requireOutput(const std::string& option, const std::string& path,
+                   const std::vector<std::string>& inputs) {
   if (path.empty()) return;
-  const auto refuse = [&](const std::string& why) { throw OptionsError({option + ": '" + path + "' " + why}); };
+  const auto refuse = [&](const std::string& why) {
+    throw OptionsError({option + ": '" + path + "' " + why});
+  };
   std::error_code ignored;
   for (const std::string& input : inputs) {
-    if (fs::equivalent(path, input, ignored)) refuse("is what is read, which would be lost; give another name");
+    if (fs::equivalent(path, input, ignored))
+      refuse("is what is read, which would be lost; give another name");
   }
   if (fs::is_directory(path, ignored)) refuse("is a folder, must be a file");
   if (isLonelyPipe(path)) refuse(kLonelyPipe);
-  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-  if (!fs::is_directory(parent, ignored)) refuse("cannot be written: there is no folder '" + parent.string() + "'");
+  const fs::path parent =
+      fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, ignored))
+    refuse("cannot be written: there is no folder '" + parent.string() + "'");
   const bool exists = fs::exists(path, ignored);
   if (access(exists ? path.c_str() : parent.c_str(), W_OK) != 0)
     refuse(std::string("cannot be written: ") + std::strerror(errno));
@@ -120,7 +133,9 @@ std::string positive(const std::string& text) {
   char* end = nullptr;
   const double value = plainStrtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0';  // else the conversion says so
-  return is_number && !Range::positive().contains(value) ? "'" + text + "' is not allowed, must be > 0" : "";
+  return is_number && !Range::positive().contains(value)
+             ? "'" + text + "' is not allowed, must be > 0"
+             : "";
 }
 
 Configuration configurationFile(const std::string& path, bool accept_implausible) {
@@ -131,13 +146,15 @@ Configuration configurationFile(const std::string& path, bool accept_implausible
 
 int strictStatus(const std::string& program, bool is_strict, int status) {
   if (!is_strict || status != 0 || warningCount() == 0) return status;
-  complain(program, std::to_string(warningCount()) + (warningCount() == 1 ? " warning" : " warnings") +
+  complain(program, std::to_string(warningCount()) +
+                        (warningCount() == 1 ? " warning" : " warnings") +
                         ", and --strict takes none");
   return kStrict;
 }
 
 void addChannelOption(CLI::App& app, std::string& channel) {
-  app.add_option("--channel", channel, "title or number of the channel to take from an instrument maker's file")
+  app.add_option("--channel", channel,
+                 "title or number of the channel to take from an instrument maker's file")
       ->type_name("NAME");
 }
 

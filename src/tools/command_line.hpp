@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the command-line tools have in common: parsing, exit statuses, and one line on stderr for what is wrong.
+/// What the command-line tools have in common: parsing, exit statuses, and one line on stderr for
+/// what is wrong.
 
 #include <CLI/CLI.hpp>
 
@@ -51,9 +52,12 @@ inline void applyPitch(const std::string& text, ScanFileOptions& options) {
   char comma = ',';
   bool good = static_cast<bool>(stream >> options.pitch_x);
   options.pitch_y = options.pitch_x;
-  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
-  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
-    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
+  if (good && !(stream >> std::ws).eof())
+    good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
+  if (!good || !Range::positive().contains(options.pitch_x) ||
+      !Range::positive().contains(options.pitch_y)) {
+    throw OptionsError({"--pitch: '" + text +
+                        "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
   }
 }
 
@@ -63,10 +67,12 @@ std::string parseFailure(const CLI::App& app, const CLI::Error& error);
 /// Before any work: @p path can be written to, and is none of the files that are read.
 /// - @p option that names it; nothing is asked of an empty path
 /// @throw OptionsError
-void requireOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+void requireOutput(const std::string& option, const std::string& path,
+                   const std::vector<std::string>& inputs);
 
-/// The scan files that the arguments of a program name: those of a folder, by name, in its place; sidecars aside. A folder's
-/// hidden files, folders and files that hold no scan by their ending (.yaml, .md, .py, ...) are left out.
+/// The scan files that the arguments of a program name: those of a folder, by name, in its place;
+/// sidecars aside. A folder's hidden files, folders and files that hold no scan by their ending
+/// (.yaml, .md, .py, ...) are left out.
 /// @throw FileError for a folder without any
 std::vector<std::string> scansOf(const std::vector<std::string>& paths);
 
@@ -78,10 +84,12 @@ void printVersion(const std::string& program);
 /// Numbers above 0, as an option's check.
 std::string positive(const std::string& text);
 
-/// Calls handle(path) for each scan, sidecars aside. One that throws is named with the reason; the others go on.
+/// Calls handle(path) for each scan, sidecars aside. One that throws is named with the reason; the
+/// others go on.
 /// @return the exit status
 template <typename Handler>
-int forEachScan(const std::string& program, const std::vector<std::string>& scans, Handler&& handle) {
+int forEachScan(const std::string& program, const std::vector<std::string>& scans,
+                Handler&& handle) {
   int status = 0;
   for (const std::string& path : scansOf(scans)) {
     try {
@@ -117,7 +125,8 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
     }
     const int status = run(arguments);
     if (std::cout.flush()) return status;
-    complain(program, "the standard output cannot be written: " + std::string(std::strerror(errno)));
+    complain(program,
+             "the standard output cannot be written: " + std::string(std::strerror(errno)));
     return kBadInput;
   } catch (const std::exception& error) {
     complain(program, reasonOf(error));
@@ -128,10 +137,11 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
 /// -u and -l, into `voltage` and `load` of the arguments: std::optional<double>.
 template <typename Arguments>
 void addLoadOptions(CLI::App& app, Arguments& arguments) {
-  app.add_option("-u,--voltage", arguments.voltage, "voltage between the surfaces [V]")->type_name("V");
-  app.add_option(
-         "-l,--load", arguments.load,
-         "external force pressing the scanned area together [N]; goes before load/pressure and load/device_force")
+  app.add_option("-u,--voltage", arguments.voltage, "voltage between the surfaces [V]")
+      ->type_name("V");
+  app.add_option("-l,--load", arguments.load,
+                 "external force pressing the scanned area together [N]; goes before load/pressure "
+                 "and load/device_force")
       ->type_name("N");
 }
 
@@ -146,15 +156,18 @@ void applyLoads(const Arguments& arguments, LoadOptions& load) {
 template <typename Arguments>
 void addPlausibilityOptions(CLI::App& app, Arguments& arguments) {
   app.add_flag("--accept-implausible", arguments.accept_implausible,
-               "take scans and constants that no instrument, material or device has (limits/accept_implausible)");
-  app.add_flag("--strict", arguments.strict, "exit with 1 where there is a warning and nothing worse");
+               "take scans and constants that no instrument, material or device has "
+               "(limits/accept_implausible)");
+  app.add_flag("--strict", arguments.strict,
+               "exit with 1 where there is a warning and nothing worse");
 }
 
 /// The configuration file of a program; empty: the defaults.
 /// @throw OptionsError, FileError
 Configuration configurationFile(const std::string& path, bool accept_implausible);
 
-/// The exit status of a program that has ended with @p status. @return kStrict with --strict and a warning in place of 0
+/// The exit status of a program that has ended with @p status. @return kStrict with --strict and a
+/// warning in place of 0
 int strictStatus(const std::string& program, bool is_strict, int status);
 
 /// --channel of an instrument maker's file.

@@ -9,7 +9,8 @@
 
 namespace mems_stiction {
 
-void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, const Provenance& provenance) {
+void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve,
+                const Provenance& provenance) {
   std::string text = "height,force,direction";
   std::string origin;
   visitProvenanceFields(provenance, [&](const Figure& figure, const auto& value) {
@@ -22,7 +23,8 @@ void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, c
   });
   text += "\n";
   for (const CurvePoint& point : curve) {
-    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + origin + "\n";
+    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) +
+            origin + "\n";
   }
   writeFile(path, text);
 }

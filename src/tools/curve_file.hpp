@@ -10,9 +10,10 @@
 
 namespace mems_stiction {
 
-/// CSV that plot_curve reads: a line of names, then height [m], force [N] and direction of each point, and where the curve
-/// comes from.
+/// CSV that plot_curve reads: a line of names, then height [m], force [N] and direction of each
+/// point, and where the curve comes from.
 /// @throw FileError if it cannot be written
-void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, const Provenance& provenance);
+void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve,
+                const Provenance& provenance);
 
 }  // namespace mems_stiction

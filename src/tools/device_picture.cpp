@@ -52,19 +52,21 @@ void drawDevice(const std::string& record, const HeightMap& made_surface, const 
   if (!made_surface.empty()) {
     const std::string heights = folder.path() / "heights.npy";
     writeNpy(heights, made_surface.heights());
-    for (const std::string& word :
-         {std::string("--heights"), heights, std::string("--pitch"), numberText(made_surface.pitchX())}) {
+    for (const std::string& word : {std::string("--heights"), heights, std::string("--pitch"),
+                                    numberText(made_surface.pitchX())}) {
       command.push_back(word);
     }
   }
   command.push_back(file.string());
   const ChildResult result = runChild(command, environmentWithout({}, {}), log.string(), kTimeout);
   if (!result.started) {
-    throw FileError("--picture: needs the program plot_device of the Python package, which was not found");
+    throw FileError(
+        "--picture: needs the program plot_device of the Python package, which was not found");
   }
   if (result.exit_code == 0) return;
   const std::string said = complaint(log);
-  throw FileError("--picture: '" + path + "' was not drawn: " + (said.empty() ? "plot_device was stopped" : said));
+  throw FileError("--picture: '" + path +
+                  "' was not drawn: " + (said.empty() ? "plot_device was stopped" : said));
 }
 
 }  // namespace mems_stiction

@@ -37,7 +37,8 @@ std::vector<std::string> halfSpaceColumnNames(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::vector<std::string> names;
-  for (const auto& field : halfSpaceFields({true, SolvedHalfSpace(), ""}, verdict)) names.push_back(field.first);
+  for (const auto& field : halfSpaceFields({true, SolvedHalfSpace(), ""}, verdict))
+    names.push_back(field.first);
   return names;
 }
 
@@ -50,15 +51,17 @@ std::map<std::string, std::string> halfSpaceColumnUnits() {
 }
 
 RowFields halfSpaceExtras(const SolvedHalfSpace& solution) {
-  return {{kPrefix + kWallTime, solution.processing_time}, {kPrefix + "curve", curveColumns(curveOf(solution))}};
+  return {{kPrefix + kWallTime, solution.processing_time},
+          {kPrefix + "curve", curveColumns(curveOf(solution))}};
 }
 
 NamedMaps halfSpaceMaps(const SolvedHalfSpace& solution) {
   NamedMaps maps;
-  for (const auto& [name, map] : NamedMaps{{"pressure", solution.pressure},
-                                           {"gap", solution.gap},
-                                           {"deformed", solution.deformed_lower.heights()},
-                                           {"counter_deformed", solution.deformed_upper.heights()}}) {
+  for (const auto& [name, map] :
+       NamedMaps{{"pressure", solution.pressure},
+                 {"gap", solution.gap},
+                 {"deformed", solution.deformed_lower.heights()},
+                 {"counter_deformed", solution.deformed_upper.heights()}}) {
     if (!map.empty()) maps.emplace_back(kPrefix + name, map);
   }
   return maps;

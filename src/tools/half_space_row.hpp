@@ -21,8 +21,9 @@ struct HalfSpaceAnswer {
   std::string reason;                       ///< empty if it is solved
 };
 
-/// half_space_reason, verdict_by of a verdict, then the figures by the names of the record's half_space with half_space_ before them; those that
-/// were not reached are NaN, and without a solution there are none. No wall time: the same scan gives the same row.
+/// half_space_reason, verdict_by of a verdict, then the figures by the names of the record's
+/// half_space with half_space_ before them; those that were not reached are NaN, and without a
+/// solution there are none. No wall time: the same scan gives the same row.
 RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict);
 
 /// Every such column in order.
@@ -34,7 +35,8 @@ std::map<std::string, std::string> halfSpaceColumnUnits();
 /// half_space_processing_time [s], and half_space_curve by columns.
 RowFields halfSpaceExtras(const SolvedHalfSpace& solution);
 
-/// half_space_pressure, half_space_gap, half_space_deformed and half_space_counter_deformed, as far as there are.
+/// half_space_pressure, half_space_gap, half_space_deformed and half_space_counter_deformed, as far
+/// as there are.
 NamedMaps halfSpaceMaps(const SolvedHalfSpace& solution);
 
 }  // namespace mems_stiction

@@ -15,7 +15,8 @@ namespace {
 std::atomic<bool> is_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes to it");
 
-/// While it lives, Ctrl-C stops the solution and, when that has stopped, the program; a second one does so at once.
+/// While it lives, Ctrl-C stops the solution and, when that has stopped, the program; a second one
+/// does so at once.
 class Interruption {
  public:
   Interruption() {
@@ -56,12 +57,14 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
   const bool is_higher = point.height > height_;
   height_ = point.height;
   return plainFormat("half-space: %s, %d heights, %.3g nm, %.3g uN",
-                     is_higher && heights_ > 1 ? "retraction" : "approach", heights_, 1e9 * point.height,
-                     1e6 * point.force);
+                     is_higher && heights_ > 1 ? "retraction" : "approach", heights_,
+                     1e9 * point.height, 1e6 * point.force);
 }
 
-SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {
-  const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
+SolvedHalfSpace withHalfSpaceProgress(
+    const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {
+  const Interruption
+      interruption;  // outlives the line on the terminal, which is gone when the program ends
   BusyLine line("half-space: the first height");
   HalfSpaceText text;
   HalfSpaceControl control;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its maps in files.
+/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its
+/// maps in files.
 
 #include <functional>
 #include <string>
@@ -25,7 +26,8 @@ class HalfSpaceText {
 
 /// On a terminal it says how far it is, from two seconds on. Ctrl-C ends the program.
 /// - @p solve gets what it is to be watched by
-SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve);
+SolvedHalfSpace withHalfSpaceProgress(
+    const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve);
 
 /// Where the maps of one solution go; names that are empty are not written.
 struct HalfSpaceMapFiles {

@@ -1,4 +1,5 @@
-/// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan files.
+/// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan
+/// files.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -51,39 +52,54 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Writes scans to a bag: topics /height (metres; 32FC1, or 64FC1 where that would round) and /scan_info, with\n"
+      "Writes scans to a bag: topics /height (metres; 32FC1, or 64FC1 where that would round) and "
+      "/scan_info, with\n"
       "the same stamps. A scan of the bag is predicted to the bits of its file.\n"
       "Without files, generates Gaussian rough surfaces from smooth to rough.");
-  app.add_option("-o,--output", arguments.bag, "the bag; replaced if it exists")->required()->type_name("OUT.bag");
-  app.add_option("scans", arguments.scans, "scan files, of every kind that predict_scan reads")->type_name("SCAN");
-  app.add_option("-n,--count", arguments.count, "generated surfaces; 1 if there are no files, else 0")
+  app.add_option("-o,--output", arguments.bag, "the bag; replaced if it exists")
+      ->required()
+      ->type_name("OUT.bag");
+  app.add_option("scans", arguments.scans, "scan files, of every kind that predict_scan reads")
+      ->type_name("SCAN");
+  app.add_option("-n,--count", arguments.count,
+                 "generated surfaces; 1 if there are no files, else 0")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--rows", arguments.surface.rows, "of generated surfaces")->capture_default_str();
   app.add_option("--cols", arguments.surface.cols, "of generated surfaces")->capture_default_str();
-  app.add_option(
-         "--pitch", arguments.pitch,
-         "distance of neighbouring pixels [m]; 10e-9 for generated surfaces; for files, instead of what they say")
+  app.add_option("--pitch", arguments.pitch,
+                 "distance of neighbouring pixels [m]; 10e-9 for generated surfaces; for files, "
+                 "instead of what they say")
       ->check(positive)
       ->type_name("M");
   app.add_option("--rms-height", arguments.rms_heights,
-                 "rms height [m]; two values: of the first and the last surface, the others between in equal ratios")
+                 "rms height [m]; two values: of the first and the last surface, the others "
+                 "between in equal ratios")
       ->expected(1, 2)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--correlation-length", arguments.correlation_length, "of generated surfaces [m]")
       ->type_name("M")
       ->capture_default_str();
-  app.add_option("--seed", arguments.surface.seed, "of the first surface; each further one takes the next")
+  app.add_option("--seed", arguments.surface.seed,
+                 "of the first surface; each further one takes the next")
       ->capture_default_str();
-  app.add_option("--part-id", arguments.identity.part_id, "of scan_info: the part that all these scans are places of");
+  app.add_option("--part-id", arguments.identity.part_id,
+                 "of scan_info: the part that all these scans are places of");
   app.add_option("--serial-id", arguments.identity.serial_id, "of scan_info: its serial number");
-  app.add_option("--lot-id", arguments.identity.lot_id, "of scan_info: the lot that its wafer is of");
-  app.add_option("--wafer-id", arguments.identity.wafer_id, "of scan_info: the wafer that it is of");
-  app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(positive)->capture_default_str();
-  app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
+  app.add_option("--lot-id", arguments.identity.lot_id,
+                 "of scan_info: the lot that its wafer is of");
+  app.add_option("--wafer-id", arguments.identity.wafer_id,
+                 "of scan_info: the wafer that it is of");
+  app.add_option("--rate", arguments.rate, "scans per second [Hz]")
+      ->check(positive)
+      ->capture_default_str();
+  app.footer(
+      "Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still "
+      "written).");
 }
 
-/// A new, empty file, by a name that nobody can guess: what lies there already, as a link, is never written to.
+/// A new, empty file, by a name that nobody can guess: what lies there already, as a link, is never
+/// written to.
 /// @throw std::runtime_error naming the file
 std::string newFileBeside(const std::string& path) {
   std::random_device random;
@@ -94,7 +110,8 @@ std::string newFileBeside(const std::string& path) {
       close(descriptor);
       return name;
     }
-    if (errno != EEXIST) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+    if (errno != EEXIST)
+      throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
   }
 }
 
@@ -115,7 +132,8 @@ class ScanBag {
     if (!folder.empty() && !fs::is_directory(folder, error)) {
       throw FileError(path + ": cannot be written: there is no folder '" + folder.string() + "'");
     }
-    // It is made while no interruption is handled: one that came before would remove nothing, and the file would stay.
+    // It is made while no interruption is handled: one that came before would remove nothing, and
+    // the file would stay.
     partial_.emplace([&] {
       std::string partial = newFileBeside(path);
       guarded(partial, [&] { bag_->open(partial, rosbag::bagmode::Write); });
@@ -142,7 +160,8 @@ class ScanBag {
     ScanInfo info = scanInfoMessage(calibration, header);
     fillIdentity(withGiven(stated, frame), info);
     guarded(partial_->path(), [&] {
-      bag_->write(absolute(kHeightTopic), header.stamp, *exactHeightImage(surface.heights(), header));
+      bag_->write(absolute(kHeightTopic), header.stamp,
+                  *exactHeightImage(surface.heights(), header));
       bag_->write(absolute(kScanInfoTopic), header.stamp, info);
     });
   }
@@ -150,7 +169,8 @@ class ScanBag {
   void finish() {
     guarded(partial_->path(), [&] { bag_->close(); });
     is_whole_ = std::rename(partial_->path().c_str(), path_.c_str()) == 0;
-    if (!is_whole_) throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
+    if (!is_whole_)
+      throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
   std::uint32_t count() const { return count_; }
@@ -158,8 +178,8 @@ class ScanBag {
  private:
   ScanIdentity withGiven(ScanIdentity identity, const std::string& frame) const {
     if (identity.scan_name == frame) identity.scan_name.clear();  // the image says it
-    for (std::string ScanIdentity::*name :
-         {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id}) {
+    for (std::string ScanIdentity::*name : {&ScanIdentity::part_id, &ScanIdentity::serial_id,
+                                            &ScanIdentity::lot_id, &ScanIdentity::wafer_id}) {
       if (!(given_.*name).empty()) identity.*name = given_.*name;
     }
     return identity;
@@ -168,7 +188,8 @@ class ScanBag {
   /// As `rosbag record` names topics, so that filters and prefixes find them.
   static std::string absolute(const std::string& topic) { return "/" + topic; }
 
-  /// Nothing of it stays. The bag lives to the end of the process: closing writes, and would fail in its destructor.
+  /// Nothing of it stays. The bag lives to the end of the process: closing writes, and would fail
+  /// in its destructor.
   void giveUp(const std::string& partial) {
     static_cast<void>(bag_.release());
     std::error_code ignored;
@@ -205,7 +226,8 @@ std::string stemOf(const std::string& path) {
 /// Rms height of surface `index` of `count` [m].
 double rmsHeight(const std::vector<double>& ends, int index, int count) {
   if (ends.size() == 1 || count == 1) return ends.front();
-  return ends.front() * std::pow(ends.back() / ends.front(), static_cast<double>(index) / (count - 1));
+  return ends.front() *
+         std::pow(ends.back() / ends.front(), static_cast<double>(index) / (count - 1));
 }
 
 void writeGenerated(const Arguments& arguments, int count, ScanBag& bag) {
@@ -214,13 +236,15 @@ void writeGenerated(const Arguments& arguments, int count, ScanBag& bag) {
   options.correlation_length_x = options.correlation_length_y = arguments.correlation_length;
   for (int index = 0; index < count; ++index, ++options.seed) {
     options.rms_height = rmsHeight(arguments.rms_heights, index, count);
-    const std::string doing = "surface " + std::to_string(index + 1) + " of " + std::to_string(count);
+    const std::string doing =
+        "surface " + std::to_string(index + 1) + " of " + std::to_string(count);
     bag.write(whileSaying(doing, [&] { return gaussianSurface(options); }), "scan");
   }
 }
 
 int run(const Arguments& arguments) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
+  cv::utils::logging::setLogLevel(
+      cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
   int status = 0;
   ScanFileOptions file_options;
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
@@ -228,7 +252,8 @@ int run(const Arguments& arguments) {
   for (const std::string& path : scansOf(arguments.scans)) {
     std::optional<ScanFile> scan;
     try {
-      if (fs::path(path).extension() == ".bag") throw FileError(path + ": is a bag already; rosbag filter joins bags");
+      if (fs::path(path).extension() == ".bag")
+        throw FileError(path + ": is a bag already; rosbag filter joins bags");
       scan = whileSaying(path + ": reading", [&] { return openScanFile(path, {}, file_options); });
       for (const std::string& note : scan->notes) warn(path, note);
     } catch (const Error& error) {
@@ -250,4 +275,6 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return runProgram<Arguments>("make_scan_bag", argc, argv, describe, run); }
+int main(int argc, char** argv) {
+  return runProgram<Arguments>("make_scan_bag", argc, argv, describe, run);
+}

@@ -11,8 +11,9 @@ const char* kindOf(int depth) { return depth == CV_8U ? "|u1" : depth == CV_32F 
 
 void writeNpy(const std::string& path, const cv::Mat& pixels) {
   const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
-  std::string header = std::string("{'descr': '") + kindOf(whole.depth()) + "', 'fortran_order': False, 'shape': (" +
-                       std::to_string(whole.rows) + ", " + std::to_string(whole.cols) + "), }";
+  std::string header = std::string("{'descr': '") + kindOf(whole.depth()) +
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(whole.rows) + ", " +
+                       std::to_string(whole.cols) + "), }";
   constexpr std::size_t kPreface = 10;
   header.append(63 - (kPreface + header.size()) % 64, ' ');
   header += '\n';

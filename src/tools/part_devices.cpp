@@ -27,7 +27,9 @@ Configuration forVerdict(Configuration configuration) {
 
 PartDevices::PartDevices(const BatchArguments& arguments, std::vector<std::string> inputs,
                          const Configuration& configuration)
-    : arguments_(arguments), inputs_(std::move(inputs)), configuration_(forVerdict(configuration)) {}
+    : arguments_(arguments),
+      inputs_(std::move(inputs)),
+      configuration_(forVerdict(configuration)) {}
 
 HeightMap PartDevices::surface(std::size_t number) {
   const BatchScan scan = scans_->read(number);
@@ -37,7 +39,8 @@ HeightMap PartDevices::surface(std::size_t number) {
   return openScanFile(scan.input, configuration_.scan, fileOptions(arguments_)).surface;
 }
 
-PartDevice PartDevices::device(const std::vector<RowOfPart>& rows, const std::function<void(double)>& on_progress) {
+PartDevice PartDevices::device(const std::vector<RowOfPart>& rows,
+                               const std::function<void(double)>& on_progress) {
   PartDevice part;
   const DeviceOptions& device = configuration_.device;
   if (rows.empty() || !wantsDeviceForce(device, configuration_.device_force)) return part;
@@ -54,7 +57,8 @@ PartDevice PartDevices::device(const std::vector<RowOfPart>& rows, const std::fu
       scans.add("the scan of row " + std::to_string(rows[i].number), prepared.back());
     }
     if (rows.size() > kMostScansOfDevice) {
-      part.warnings.push_back("the device's force is by the first " + std::to_string(kMostScansOfDevice) + " of " +
+      part.warnings.push_back("the device's force is by the first " +
+                              std::to_string(kMostScansOfDevice) + " of " +
                               std::to_string(rows.size()) + " scans");
     }
     Evidence evidence;
@@ -67,10 +71,11 @@ PartDevice PartDevices::device(const std::vector<RowOfPart>& rows, const std::fu
       if (is_flagged) evidence.why_half_space = regimeFlagNames(flagsForHalfSpace(row.flags));
     }
     const Prediction prediction = predictor_->predict(finest);
-    part.verdict =
-        verdictOf(prediction, device, configuration_.uncertainty,
-                  onFrame(configuration_.model, device, finest.surfaces), finest.surfaces.lower.cellArea(), evidence);
-    part.warnings.insert(part.warnings.end(), evidence.device->warnings.begin(), evidence.device->warnings.end());
+    part.verdict = verdictOf(prediction, device, configuration_.uncertainty,
+                             onFrame(configuration_.model, device, finest.surfaces),
+                             finest.surfaces.lower.cellArea(), evidence);
+    part.warnings.insert(part.warnings.end(), evidence.device->warnings.begin(),
+                         evidence.device->warnings.end());
   } catch (const std::exception& error) {
     part.warnings.push_back("the device's own force has not been found: " + reasonOf(error));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The force of a part's device, by all of its scans together: what stiction_batch --parts judges by.
+/// The force of a part's device, by all of its scans together: what stiction_batch --parts judges
+/// by.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct RowOfPart {
 
 /// What all scans of a part say of its device.
 struct PartDevice {
-  std::optional<Verdict> verdict;     ///< nothing if the device's force was not asked for or not found
+  std::optional<Verdict> verdict;  ///< nothing if the device's force was not asked for or not found
   std::vector<std::string> warnings;  ///< why not; and about the scans
 };
 
@@ -38,14 +39,17 @@ struct PartDevice {
 class PartDevices {
  public:
   /// - @p inputs of the rows, in their order
-  PartDevices(const BatchArguments& arguments, std::vector<std::string> inputs, const Configuration& configuration);
+  PartDevices(const BatchArguments& arguments, std::vector<std::string> inputs,
+              const Configuration& configuration);
   PartDevices(const PartDevices&) = delete;
   PartDevices& operator=(const PartDevices&) = delete;
 
-  /// The half-space of the finest scan, where it judged, moves the device's force as that of its scan.
+  /// The half-space of the finest scan, where it judged, moves the device's force as that of its
+  /// scan.
   /// - @p rows of one part
   /// - @p on_progress share of the device's force
-  PartDevice device(const std::vector<RowOfPart>& rows, const std::function<void(double)>& on_progress);
+  PartDevice device(const std::vector<RowOfPart>& rows,
+                    const std::function<void(double)>& on_progress);
 
  private:
   HeightMap surface(std::size_t number);

@@ -56,14 +56,18 @@ Sticks sticksOf(const std::string& text) {
 }
 
 /// The scans of a bag often have one name: the number of the row tells them apart.
-std::string nameOf(const Row& row) { return row.text("scan_name") + " (" + row.text("number") + ")"; }
+std::string nameOf(const Row& row) {
+  return row.text("scan_name") + " (" + row.text("number") + ")";
+}
 
 ScanStatement statementOf(const Row& row) {
   ScanStatement scan;
   scan.scan_name = nameOf(row);
   scan.sticks = sticksOf(row.text("sticks"));
-  scan.reason = row.text("sticks").empty() ? "the device is not stated" : row.text("verdict_reason");
-  scan.judge = row.text("verdict_by") == judgeText(Judge::kHalfSpace) ? Judge::kHalfSpace : Judge::kPrediction;
+  scan.reason =
+      row.text("sticks").empty() ? "the device is not stated" : row.text("verdict_reason");
+  scan.judge = row.text("verdict_by") == judgeText(Judge::kHalfSpace) ? Judge::kHalfSpace
+                                                                      : Judge::kPrediction;
   const std::string governed_by = row.text("governed_by");
   if (governed_by != kGovernedByPeeling) scan.margin = row.ratio("margin");
   if (governed_by != kGovernedByForce) scan.peel_number = row.ratio("peel_number");
@@ -105,7 +109,8 @@ RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& 
   });
   fields.emplace_back("regime_flag_names", regimeFlagNames(part.regime_flags));
   std::string said;
-  for (const std::string& warning : part.warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);
+  for (const std::string& warning : part.warnings)
+    said += (said.empty() ? "" : "; ") + oneLine(warning);
   fields.emplace_back("warnings", said);
   return fields;
 }
@@ -116,7 +121,8 @@ std::size_t scansWithoutPart(const std::string& rows_path) {
   std::size_t count = 0;
   for (RowTexts& texts : rowTextsOf(rows_path)) {
     const Row row(std::move(texts));
-    if (row.text("reason").empty() && row.text("part_id").empty() && row.text("serial_id").empty()) ++count;
+    if (row.text("reason").empty() && row.text("part_id").empty() && row.text("serial_id").empty())
+      ++count;
   }
   return count;
 }
@@ -141,7 +147,8 @@ std::size_t writeParts(const std::string& rows_path, const std::string& path,
   for (auto& [key, by_scans] : parts.verdicts()) {
     const ScansOfPart& scans = scans_of.at(key);
     const PartDevice found = device(scans.rows);
-    PooledVerdict verdict = found.verdict ? pooledVerdictOf(scans.statements, *found.verdict) : by_scans;
+    PooledVerdict verdict =
+        found.verdict ? pooledVerdictOf(scans.statements, *found.verdict) : by_scans;
     verdict.warnings.insert(verdict.warnings.end(), found.warnings.begin(), found.warnings.end());
     text += rowText(fieldsOf(++count, key, verdict), format, columns);
   }

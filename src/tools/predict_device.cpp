@@ -1,4 +1,5 @@
-/// predict_device: which force holds a whole device, by all scans of its surfaces? No ROS master needed.
+/// predict_device: which force holds a whole device, by all scans of its surfaces? No ROS master
+/// needed.
 
 #include <filesystem>
 #include <iostream>
@@ -41,51 +42,63 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Predicts the force that holds a whole device, from all scans of its surfaces: of any pitch, size and "
+      "Predicts the force that holds a whole device, from all scans of its surfaces: of any pitch, "
+      "size and "
       "instrument.\n"
-      "Surfaces of the device's size are made with what the scans say together, and brought to contact. Prints one "
-      "record\nin SI units: median and 95 % interval, work of adhesion, the verdict where a spring or beam is stated.");
+      "Surfaces of the device's size are made with what the scans say together, and brought to "
+      "contact. Prints one "
+      "record\nin SI units: median and 95 % interval, work of adhesion, the verdict where a spring "
+      "or beam is stated.");
   app.add_option("SCAN", arguments.scans,
-                 "scans of the surface, of any kind that predict_scan reads. Settings beside a scan: SCAN.yaml, with "
+                 "scans of the surface, of any kind that predict_scan reads. Settings beside a "
+                 "scan: SCAN.yaml, with "
                  "pitch_x, pitch_y, height_scale, ...")
       ->required()
       ->type_name("");
-  app.add_option("-c,--config", arguments.configuration,
-                 "materials, interface, loads, device, ...; every key is explained in config/stiction.yaml")
+  app.add_option(
+         "-c,--config", arguments.configuration,
+         "materials, interface, loads, device, ...; every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");
   app.add_option("-a,--area", arguments.area,
-                 "nominal area of all contacts of the device together [m^2]; goes before device/contact_area")
+                 "nominal area of all contacts of the device together [m^2]; goes before "
+                 "device/contact_area")
       ->type_name("M2");
-  app.add_option("--contacts", arguments.contacts, "separate contacts that share the area; goes before device/contacts")
+  app.add_option("--contacts", arguments.contacts,
+                 "separate contacts that share the area; goes before device/contacts")
       ->type_name("N");
-  app.add_option("--realisations", arguments.realisations,
-                 "surfaces of the device's size that are made; goes before device_force/realisations")
+  app.add_option(
+         "--realisations", arguments.realisations,
+         "surfaces of the device's size that are made; goes before device_force/realisations")
       ->type_name("N");
   app.add_option("--max-cells", arguments.max_cells,
                  "pixels of one made surface at most; goes before device_force/max_cells")
       ->type_name("N");
   app.add_option("-p,--pitch", arguments.pitches,
-                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Once for all scans, or as "
+                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Once "
+                 "for all scans, or as "
                  "often as there are scans, in their order. Goes before what files say")
       ->type_name("M")
       ->allow_extra_args(false);
-  app.add_option(
-         "--counter-surface", arguments.counter_surface,
-         "scan of the surface that meets it, in place of what counter_surface/type says; counter_surface/facing "
-         "must say which way it faces. Several by as many options")
+  app.add_option("--counter-surface", arguments.counter_surface,
+                 "scan of the surface that meets it, in place of what counter_surface/type says; "
+                 "counter_surface/facing "
+                 "must say which way it faces. Several by as many options")
       ->type_name("SCAN")
       ->allow_extra_args(false);
   addLoadOptions(app, arguments);
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
   addPlausibilityOptions(app, arguments);
-  app.add_flag("-j,--json", arguments.json, "one JSON object on one line instead of a YAML document");
+  app.add_flag("-j,--json", arguments.json,
+               "one JSON object on one line instead of a YAML document");
   app.add_option("--picture", arguments.picture,
-                 "draw spectrum, roughness against scale, a made surface and force against area, .png, .pdf or .svg; "
+                 "draw spectrum, roughness against scale, a made surface and force against area, "
+                 ".png, .pdf or .svg; "
                  "by plot_device")
       ->type_name("OUT.png");
   app.footer(
-      "Exit status: 0, 1 with --strict and a warning, or 2 for bad input (one line on stderr names the file and the\n"
+      "Exit status: 0, 1 with --strict and a warning, or 2 for bad input (one line on stderr names "
+      "the file and the\n"
       "cause; a scan that cannot be used is not left out silently).\n\n"
       "Example: predict_device --config part.yaml --area 1e-8 afm_1.gwy afm_2.gwy wide.gwy");
 }
@@ -97,11 +110,12 @@ struct InputScan {
 };
 
 /// @throw OptionsError if the number of pitches is neither one nor that of the scans
-std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<std::string>& paths, bool is_counter) {
+std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<std::string>& paths,
+                                bool is_counter) {
   const std::size_t count = arguments.pitches.size();
   if (!is_counter && count > 1 && count != paths.size()) {
-    throw OptionsError({"--pitch: " + std::to_string(count) + " are given for " + std::to_string(paths.size()) +
-                        " scans; give it once, or once for each"});
+    throw OptionsError({"--pitch: " + std::to_string(count) + " are given for " +
+                        std::to_string(paths.size()) + " scans; give it once, or once for each"});
   }
   std::vector<InputScan> inputs;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -117,18 +131,21 @@ std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<st
 
 /// The configuration file with the command line's values in it. @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
-  Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
+  Configuration configuration =
+      configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
   if (arguments.area) configuration.device.contact_area = *arguments.area;
   if (arguments.contacts) configuration.device.contacts = *arguments.contacts;
   if (arguments.realisations) configuration.device_force.realisations = *arguments.realisations;
   if (arguments.max_cells) configuration.device_force.max_cells = *arguments.max_cells;
-  if (!arguments.counter_surface.empty()) configuration.counter_surface.type = CounterSurfaceType::kFlat;
+  if (!arguments.counter_surface.empty())
+    configuration.counter_surface.type = CounterSurfaceType::kFlat;
   configuration.device_force.enabled = true;
   configuration.check();
   if (configuration.device.contact_area == 0.0) {
     throw OptionsError(
-        {"device/contact_area: is not stated; give --area, the nominal area of all contacts of the device in m^2"});
+        {"device/contact_area: is not stated; give --area, the nominal area of all contacts of the "
+         "device in m^2"});
   }
   return configuration;
 }
@@ -138,7 +155,8 @@ void requirePicture(const Arguments& arguments) {
   if (arguments.picture.empty()) return;
   const std::string kind = std::filesystem::path(arguments.picture).extension().string();
   if (kind != ".png" && kind != ".pdf" && kind != ".svg") {
-    throw OptionsError({"--picture: '" + arguments.picture + "' is not allowed, must end in .png, .pdf or .svg"});
+    throw OptionsError(
+        {"--picture: '" + arguments.picture + "' is not allowed, must end in .png, .pdf or .svg"});
   }
   std::vector<std::string> inputs = arguments.scans;
   inputs.insert(inputs.end(), arguments.counter_surface.begin(), arguments.counter_surface.end());
@@ -147,27 +165,33 @@ void requirePicture(const Arguments& arguments) {
 }
 
 /// @throw Error in one line, with the file's name
-void predictDevice(const Arguments& arguments, const Configuration& configuration, const std::vector<InputScan>& inputs,
+void predictDevice(const Arguments& arguments, const Configuration& configuration,
+                   const std::vector<InputScan>& inputs,
                    const std::vector<InputScan>& counter_inputs) {
   DevicePredictor predictor(configuration);
   const auto take = [&](const InputScan& input, const auto& add) {
-    const ScanFile file = whileSaying(input.path + ": reading",
-                                      [&] { return openScanFile(input.path, configuration.scan, input.options); });
-    for (const std::string& line : whileSaying(input.path + ": cleaning", [&] { return add(file); })) {
+    const ScanFile file = whileSaying(input.path + ": reading", [&] {
+      return openScanFile(input.path, configuration.scan, input.options);
+    });
+    for (const std::string& line :
+         whileSaying(input.path + ": cleaning", [&] { return add(file); })) {
       warn("predict_device", line);
     }
   };
   for (const InputScan& input : inputs) {
-    take(input,
-         [&](const ScanFile& file) { return predictor.add(input.path, file.surface, file.notes, file.identity); });
+    take(input, [&](const ScanFile& file) {
+      return predictor.add(input.path, file.surface, file.notes, file.identity);
+    });
   }
   for (const InputScan& input : counter_inputs) {
-    take(input,
-         [&](const ScanFile& file) { return predictor.addCounterSurface(input.path, file.surface, file.notes); });
+    take(input, [&](const ScanFile& file) {
+      return predictor.addCounterSurface(input.path, file.surface, file.notes);
+    });
   }
-  const std::string what = std::to_string(inputs.size()) + (inputs.size() == 1 ? " scan" : " scans");
-  const DevicePrediction prediction =
-      whileSayingShare(what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
+  const std::string what =
+      std::to_string(inputs.size()) + (inputs.size() == 1 ? " scan" : " scans");
+  const DevicePrediction prediction = whileSayingShare(
+      what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
   for (const std::string& line : prediction.force.warnings) warn("predict_device", line);
   const std::string json = deviceJsonRecord(prediction);
   if (arguments.json) {
@@ -184,14 +208,18 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
 int run(const Arguments& arguments) {
   const std::vector<std::string> paths = scansOf(arguments.scans);
   const std::vector<InputScan> inputs = inputsOf(arguments, paths, false);
-  const std::vector<InputScan> counter_inputs = inputsOf(arguments, scansOf(arguments.counter_surface), true);
+  const std::vector<InputScan> counter_inputs =
+      inputsOf(arguments, scansOf(arguments.counter_surface), true);
   const Configuration configuration = withFilesOfNow(configurationOf(arguments));
   requirePicture(arguments);
-  for (const std::string& warning : settingsWarnings(configuration)) warn("predict_device", warning);
+  for (const std::string& warning : settingsWarnings(configuration))
+    warn("predict_device", warning);
   predictDevice(arguments, configuration, inputs, counter_inputs);
   return strictStatus("predict_device", arguments.strict, 0);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return runProgram<Arguments>("predict_device", argc, argv, describe, run); }
+int main(int argc, char** argv) {
+  return runProgram<Arguments>("predict_device", argc, argv, describe, run);
+}

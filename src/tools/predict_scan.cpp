@@ -1,5 +1,5 @@
-/// predict_scan: will the surface in this file stick? No ROS master needed; the prediction is the node's to the last
-/// line.
+/// predict_scan: will the surface in this file stick? No ROS master needed; the prediction is the
+/// node's to the last line.
 
 #include <filesystem>
 #include <iostream>
@@ -62,71 +62,88 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Predicts whether the scanned surface sticks to its counter-surface: pull-off force, contact area, regimes.\n"
-      "Prints one record per scan in SI units, with the field names of mems_stiction/StictionPrediction.");
-  app.add_option(
-         "SCAN", arguments.scans,
-         "TIFF, PNG or EXR image of heights, .npy, text (.txt, .asc, .csv, .xyz), .gwy, or an instrument maker's file "
-         "(most of those need Gwyddion's libraries). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
-         "height_scale, ...")
+      "Predicts whether the scanned surface sticks to its counter-surface: pull-off force, contact "
+      "area, regimes.\n"
+      "Prints one record per scan in SI units, with the field names of "
+      "mems_stiction/StictionPrediction.");
+  app.add_option("SCAN", arguments.scans,
+                 "TIFF, PNG or EXR image of heights, .npy, text (.txt, .asc, .csv, .xyz), .gwy, or "
+                 "an instrument maker's file "
+                 "(most of those need Gwyddion's libraries). Settings beside a scan: SCAN.yaml, "
+                 "with pitch_x, pitch_y, "
+                 "height_scale, ...")
       ->required()
       ->type_name("");
   app.add_option("-c,--config", arguments.configuration,
                  "materials, interface, loads, ...; every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");
   app.add_option("-p,--pitch", arguments.pitch,
-                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
+                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes "
+                 "before what files say")
       ->type_name("M");
   addLoadOptions(app, arguments);
-  app.add_option("-s,--step", arguments.step, "approach per step of paper and printed [m], paper/step; 0 = automatic")
+  app.add_option("-s,--step", arguments.step,
+                 "approach per step of paper and printed [m], paper/step; 0 = automatic")
       ->type_name("M");
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
   addPlausibilityOptions(app, arguments);
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
   app.add_option("--curve", arguments.curve,
-                 "write force over height, both ways, as CSV: that of the formulation, its height z0 - displacement, "
-                 "or with --half-space that of the half-space over the same height; for one scan. plot_curve draws it")
+                 "write force over height, both ways, as CSV: that of the formulation, its height "
+                 "z0 - displacement, "
+                 "or with --half-space that of the half-space over the same height; for one scan. "
+                 "plot_curve draws it")
       ->type_name("OUT.csv");
   app.add_option("--formulation-curve", arguments.formulation_curve,
-                 "write the formulation's with --half-space too, to be drawn over the half-space's; for one scan")
+                 "write the formulation's with --half-space too, to be drawn over the "
+                 "half-space's; for one scan")
       ->type_name("OUT.csv");
-  app.add_flag("--record-curve", arguments.record_curve,
-               "the record holds the formulation's curve: displacement, force, is_separation of each point");
+  app.add_flag(
+      "--record-curve", arguments.record_curve,
+      "the record holds the formulation's curve: displacement, force, is_separation of each point");
   app.add_flag("--convergence", arguments.convergence,
-               "predict at full, half and quarter resolution too, and print how pull-off force and contact area move");
+               "predict at full, half and quarter resolution too, and print how pull-off force and "
+               "contact area move");
   app.add_flag(
       "--cleanings", arguments.cleanings,
-      "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; with and without "
+      "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; "
+      "with and without "
       "spikes), print how pull-off force and margin move, and widen the margin's interval by that");
   addSweepOptions(app, arguments.sweep);
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
-  app.add_flag(
-      "--half-space", arguments.half_space,
-      "solve the whole surface of each scan as one elastic half-space too, as half_space/enabled true does, to "
-      "see how far the asperity model is from it, and to judge the device by it; takes seconds to minutes, "
-      "doc/half_space.md. Without it those are solved whose flags ask for it, where a device is stated");
+  app.add_flag("--half-space", arguments.half_space,
+               "solve the whole surface of each scan as one elastic half-space too, as "
+               "half_space/enabled true does, to "
+               "see how far the asperity model is from it, and to judge the device by it; takes "
+               "seconds to minutes, "
+               "doc/half_space.md. Without it those are solved whose flags ask for it, where a "
+               "device is stated");
   HalfSpaceMapFiles& files = arguments.half_space_maps;
   app.add_option("--half-space-pressure", files.pressure,
-                 "write the pressure between the surfaces at rest in pascals, positive in contact; for one scan")
+                 "write the pressure between the surfaces at rest in pascals, positive in contact; "
+                 "for one scan")
       ->type_name("OUT.tiff");
-  app.add_option("--half-space-gap", files.gap, "write the gap at rest in metres; for one scan")->type_name("OUT.tiff");
+  app.add_option("--half-space-gap", files.gap, "write the gap at rest in metres; for one scan")
+      ->type_name("OUT.tiff");
   app.add_option("--half-space-deformed", files.deformed,
                  "as --deformed, by the half-space: what flowed is missing; for one scan")
       ->type_name("OUT.tiff");
   app.footer(
-      "Exit status: 0 all scans predicted, 1 so they are, with --strict and a warning, 2 bad input (one line on "
+      "Exit status: 0 all scans predicted, 1 so they are, with --strict and a warning, 2 bad input "
+      "(one line on "
       "stderr\n"
       "names the file and the cause; the other scans of the call are still predicted).\n\n"
       "Example: predict_scan --pitch 20e-9 --load 1e-6 surface.tiff");
 }
 
-void requireOneScan(const Arguments& arguments, const std::string& option, const std::string& path) {
+void requireOneScan(const Arguments& arguments, const std::string& option,
+                    const std::string& path) {
   if (arguments.scans.size() == 1) return;
-  throw OptionsError({option + ": " + path + " cannot hold what belongs to " + std::to_string(arguments.scans.size()) +
-                      " scans; give one scan"});
+  throw OptionsError({option + ": " + path + " cannot hold what belongs to " +
+                      std::to_string(arguments.scans.size()) + " scans; give one scan"});
 }
 
 /// What the half-space's and the formulation's curves are written to; empty: not asked for.
@@ -139,7 +156,9 @@ struct CurveFiles {
 CurveFiles curveFilesOf(const Arguments& arguments) {
   if (arguments.half_space) return {arguments.curve, arguments.formulation_curve};
   if (!arguments.curve.empty() && !arguments.formulation_curve.empty()) {
-    throw OptionsError({"--formulation-curve: without --half-space --curve is that curve already; give one of both"});
+    throw OptionsError(
+        {"--formulation-curve: without --half-space --curve is that curve already; give one of "
+         "both"});
   }
   return {"", arguments.curve + arguments.formulation_curve};
 }
@@ -147,7 +166,8 @@ CurveFiles curveFilesOf(const Arguments& arguments) {
 /// Under another name nobody could open it. Devices and pipes have none.
 void requireTiff(const std::string& option, const std::string& path) {
   std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) return;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    return;
   const std::string kind = std::filesystem::path(path).extension().string();
   if (path.empty() || kind == ".tiff" || kind == ".tif") return;
   throw OptionsError({option + ": '" + path + "' is not allowed, must end in .tiff or .tif"});
@@ -180,14 +200,16 @@ void setNumber(Options& options, const std::string& key, double number) {
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
-  Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
+  Configuration configuration =
+      configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
   if (arguments.step) setNumber(configuration.model, "paper/step", *arguments.step);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   sweepRequest(arguments.sweep, configuration.model);
   for (const auto& [option, path] :
-       {std::make_pair("--deformed", arguments.deformed), std::make_pair("--curve", arguments.curve),
+       {std::make_pair("--deformed", arguments.deformed),
+        std::make_pair("--curve", arguments.curve),
         std::make_pair("--formulation-curve", arguments.formulation_curve)}) {
     if (!path.empty()) requireOneScan(arguments, option, path);
   }
@@ -203,21 +225,26 @@ Configuration configurationOf(const Arguments& arguments) {
 /// @throw SurfaceError if the formulation does not follow the force
 void requireCurve(const Prediction& prediction, const std::string& formulation) {
   if (!prediction.curve.empty()) return;
-  throw SurfaceError("formulation " + formulation + " does not follow the force, so that there is no curve of it");
+  throw SurfaceError("formulation " + formulation +
+                     " does not follow the force, so that there is no curve of it");
 }
 
 /// @throw Error in one line, with the file's name
-void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
-                 const Configuration& configuration, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
+void predictScan(const std::string& path, const Arguments& arguments,
+                 const ScanFileOptions& file_options, const Configuration& configuration,
+                 const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
   if (std::filesystem::path(path).extension() == ".bag") {
-    throw FileError(path + ": is a bag; stiction_batch predicts the scans of bags (stiction_report shows them)");
+    throw FileError(
+        path +
+        ": is a bag; stiction_batch predicts the scans of bags (stiction_report shows them)");
   }
-  if (std::filesystem::path(path).extension() == ".yaml" || std::filesystem::path(path).extension() == ".yml") {
+  if (std::filesystem::path(path).extension() == ".yaml" ||
+      std::filesystem::path(path).extension() == ".yml") {
     throw FileError(path + ": is a file of settings, not a scan; give it with --config");
   }
   const CurveFiles curve_files = curveFilesOf(arguments);
-  const ScanFile scan =
-      whileSaying(path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
+  const ScanFile scan = whileSaying(
+      path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
   const auto warnAll = [&](const std::vector<std::string>& lines) {
     for (const std::string& line : lines) warn(path, line);
   };
@@ -234,8 +261,8 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   Evidence evidence;
   SolvedHalfSpace solution;
   try {
-    const PreparedScan prepared =
-        whileSaying(path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
+    const PreparedScan prepared = whileSaying(
+        path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
     warnAll(warningsOf(prepared));
     options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     prediction = whileSaying(path + ": predicting", [&] { return predictor.predict(prepared); });
@@ -244,34 +271,40 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
       extras.warnings.push_back(std::move(line));
     }
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
-    if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
+    if (!curve_files.formulation.empty() || extras.has_curve)
+      requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
     extras.pull_off_interval = pullOffInterval(prediction, options, configuration.uncertainty);
     if (arguments.convergence) {
-      extras.convergence =
-          whileSaying(path + ": predicting at coarser pixels", [&] { return predictor.convergence(prepared); });
+      extras.convergence = whileSaying(path + ": predicting at coarser pixels",
+                                       [&] { return predictor.convergence(prepared); });
     }
     std::optional<DeviceScale> scale;
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = extras.device_force.emplace();
-      evidence = whileSayingShare(
-          path, [&](const auto& tell) { return evidenceOfScan(prepared, configuration, tell, &force); });
+      evidence = whileSayingShare(path, [&](const auto& tell) {
+        return evidenceOfScan(prepared, configuration, tell, &force);
+      });
       warnAll(force.warnings);
       extras.warnings.insert(extras.warnings.end(), force.warnings.begin(), force.warnings.end());
       if (evidence.device) {
-        scale = DeviceScale{*evidence.device, prediction.pull_off_force, prediction.apparent_work_of_adhesion};
+        scale = DeviceScale{*evidence.device, prediction.pull_off_force,
+                            prediction.apparent_work_of_adhesion};
       }
     }
-    if (std::optional<LoadSweepRequest> request = sweepRequest(arguments.sweep, configuration.model)) {
-      if (request->mechanical_loads.empty()) request->mechanical_loads = {options.load.mechanical_load};
+    if (std::optional<LoadSweepRequest> request =
+            sweepRequest(arguments.sweep, configuration.model)) {
+      if (request->mechanical_loads.empty())
+        request->mechanical_loads = {options.load.mechanical_load};
       extras.sweep = whileSaying(path + ": sweeping the load", [&] {
-        return sweepLoads(options, prepared.model_surfaces, *request, configuration.device, configuration.uncertainty,
-                          RunControl(), scale);
+        return sweepLoads(options, prepared.model_surfaces, *request, configuration.device,
+                          configuration.uncertainty, RunControl(), scale);
       });
     }
     if (arguments.cleanings) {
-      extras.cleanings = whileSaying(path + ": predicting under each cleaning",
-                                     [&] { return cleaningSpread(scan.surface, configuration, scale); });
+      extras.cleanings = whileSaying(path + ": predicting under each cleaning", [&] {
+        return cleaningSpread(scan.surface, configuration, scale);
+      });
     }
     const HalfSpaceCall call = halfSpaceCall(prediction, prepared, options, configuration);
     if (call.is_made) {
@@ -327,7 +360,8 @@ int run(const Arguments& arguments) {
     half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);
     requireOutputs(arguments);
-    for (const std::string& warning : settingsWarnings(configuration)) warn("predict_scan", warning);
+    for (const std::string& warning : settingsWarnings(configuration))
+      warn("predict_scan", warning);
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;

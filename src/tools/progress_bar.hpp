@@ -1,6 +1,7 @@
 #pragma once
 
-/// How far a long run is and when it will end: in place on a terminal, a line every half minute elsewhere.
+/// How far a long run is and when it will end: in place on a terminal, a line every half minute
+/// elsewhere.
 
 #include <chrono>
 #include <cmath>
@@ -27,7 +28,8 @@ class ProgressBar {
     std::string text = std::to_string(done) + " of " + std::to_string(total_) + " scans";
     if (failed > 0) text += ", " + std::to_string(failed) + " failed";
     if (done > before_) {
-      const double rest = elapsed / static_cast<double>(done - before_) * static_cast<double>(total_ - done);
+      const double rest =
+          elapsed / static_cast<double>(done - before_) * static_cast<double>(total_ - done);
       text += ", " + clock(rest) + " left";
     }
     if (!doing.empty()) text += "; " + doing;

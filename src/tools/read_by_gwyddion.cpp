@@ -37,8 +37,8 @@ bool writeContainer(GwyContainer* data, const char* path) {
   GByteArray* bytes = gwy_serializable_serialize(G_OBJECT(data), nullptr);
   std::FILE* file = std::fopen(path, "wb");
   if (file == nullptr) return false;
-  const bool is_written =
-      std::fwrite("GWYP", 1, 4, file) == 4 && std::fwrite(bytes->data, 1, bytes->len, file) == bytes->len;
+  const bool is_written = std::fwrite("GWYP", 1, 4, file) == 4 &&
+                          std::fwrite(bytes->data, 1, bytes->len, file) == bytes->len;
   g_byte_array_free(bytes, TRUE);
   return std::fclose(file) == 0 && is_written;
 }
@@ -56,5 +56,6 @@ int main(int argc, char** argv) {
   GError* error = nullptr;
   GwyContainer* data = gwy_file_load(argv[1], GWY_RUN_NONINTERACTIVE, &error);
   if (data == nullptr) return fail(error == nullptr ? "no cause is stated" : error->message);
-  return writeContainer(data, argv[2]) ? 0 : fail("what was read cannot be written: is the disk full?");
+  return writeContainer(data, argv[2]) ? 0
+                                       : fail("what was read cannot be written: is the disk full?");
 }

@@ -24,7 +24,9 @@ constexpr const char* kRowsOfScans =
 
 constexpr const char* kNotFlagged = "no flag asks for it";
 
-void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
+void append(const RowFields& more, RowFields& fields) {
+  fields.insert(fields.end(), more.begin(), more.end());
+}
 
 }  // namespace
 
@@ -44,7 +46,8 @@ std::map<std::string, std::string> batchUnits(bool with_verdict, bool with_half_
   return units;
 }
 
-RowMaker::RowMaker(const BatchArguments& arguments, const Configuration& configuration, ScansAhead& ahead)
+RowMaker::RowMaker(const BatchArguments& arguments, const Configuration& configuration,
+                   ScansAhead& ahead)
     : arguments_(arguments),
       configuration_(configuration),
       predictor_(configuration),
@@ -77,7 +80,8 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
   row.is_warned = !subject.warnings.empty();
   beside_ = Evidence();
   if (arguments_.rowsHaveDeviceForce()) {
-    beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
+    beside_ =
+        evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
   } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
     beside_.why_no_device = kRowsOfScans;
   }
@@ -88,7 +92,8 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     row.is_unsolved = half_space.is_called && !half_space.reason.empty();
   }
   const std::optional<Verdict> verdict = judge(half_space);
-  append(figureFields(surface_, subject.warnings, prediction_, verdict, configuration_.model.formulation,
+  append(figureFields(surface_, subject.warnings, prediction_, verdict,
+                      configuration_.model.formulation,
                       provenanceOf(subject.identity, configuration_)),
          row.fields);
   if (has_half_space) append(halfSpaceFields(half_space, verdict), row.fields);
@@ -116,7 +121,8 @@ RowMaker::Subject RowMaker::predict(const BatchScan& scan, ScanOrigin& origin, S
   predictor_.preparer().setMeasuredCounterSurface(scan.of_bag.counter_surface);
   prepared_ = predictor_.preparer().prepare(surface_);
   prediction_ = predictor_.predict(prepared_);
-  for (std::string& line : predictionWarnings(prepared_, configuration_, prediction_, configuration_.model)) {
+  for (std::string& line :
+       predictionWarnings(prepared_, configuration_, prediction_, configuration_.model)) {
     subject.warnings.push_back(std::move(line));
   }
   return subject;
@@ -126,15 +132,17 @@ std::optional<Verdict> RowMaker::judge(const HalfSpaceAnswer& half_space) const 
   if (!hasDevice()) return std::nullopt;
   const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
   Evidence evidence = beside_;
-  if (half_space.is_called) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
-  return verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
-                   surface_.cellArea(), evidence);
+  if (half_space.is_called)
+    evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
+  return verdictOf(prediction_, configuration_.device, configuration_.uncertainty,
+                   configuration_.model, surface_.cellArea(), evidence);
 }
 
 HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& tell) {
   HalfSpaceAnswer answer;
   try {
-    const Options options = onFrame(configuration_.model, configuration_.device, prepared_.surfaces);
+    const Options options =
+        onFrame(configuration_.model, configuration_.device, prepared_.surfaces);
     const HalfSpaceCall call = halfSpaceCall(prediction_, prepared_, options, configuration_);
     answer.is_called = call.is_made;
     beside_.why_half_space = call.why;
@@ -146,14 +154,16 @@ HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& t
     HalfSpaceControl control;
     control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
     answer.solution = answerOf(call, half_space_, halfSpaceProblem(prepared_, options), control);
-    if (answer.solution->status != HalfSpaceStatus::kSolved) answer.reason = answer.solution->message;
+    if (answer.solution->status != HalfSpaceStatus::kSolved)
+      answer.reason = answer.solution->message;
   } catch (const std::exception& error) {
     answer.reason = reasonOf(error);
   }
   return answer;
 }
 
-void RowMaker::dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const {
+void RowMaker::dump(std::size_t number, RowFields fields,
+                    const std::optional<SolvedHalfSpace>& half_space) const {
   PlainStream folder;
   folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
   NamedMaps maps;

@@ -59,7 +59,8 @@ class RowMaker {
   HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell);
   /// On the device, if it is stated; by the half-space, if it was asked and can.
   std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;
-  void dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const;
+  void dump(std::size_t number, RowFields fields,
+            const std::optional<SolvedHalfSpace>& half_space) const;
 
   const BatchArguments& arguments_;
   const Configuration& configuration_;

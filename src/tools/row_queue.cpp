@@ -5,10 +5,13 @@
 
 namespace mems_stiction {
 
-RowQueue::RowQueue(const BatchArguments& arguments, const Configuration& configuration, BatchScans& scans)
+RowQueue::RowQueue(const BatchArguments& arguments, const Configuration& configuration,
+                   BatchScans& scans)
     : scans_(scans),
-      ahead_(configuration.scan, fileOptions(arguments), scans.settingsFileChecksum(), arguments.workers) {
-  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(arguments.workers, scans.size()));
+      ahead_(configuration.scan, fileOptions(arguments), scans.settingsFileChecksum(),
+             arguments.workers) {
+  const std::size_t workers =
+      std::max<std::size_t>(1, std::min<std::size_t>(arguments.workers, scans.size()));
   for (std::size_t i = 0; i < workers; ++i) {
     makers_.push_back(std::make_unique<RowMaker>(arguments, configuration, ahead_));
   }

@@ -27,7 +27,8 @@ class RowQueue {
   /// Which rows will be asked for, in this order: their files are read ahead.
   void expect(std::vector<std::size_t> numbers);
 
-  /// @param tell what the half-space is at; nothing where several workers make the rows. @throw as RowMaker::row()
+  /// @param tell what the half-space is at; nothing where several workers make the rows. @throw as
+  /// RowMaker::row()
   BatchRow next(const std::function<void(const std::string&)>& tell);
 
  private:

@@ -22,11 +22,13 @@ std::string textOf(const RowTexts& row, const std::string& name) {
   return found == row.end() ? "" : found->second;
 }
 
-RowTexts rowTextsOf(const std::string& line, RowFormat format, const std::vector<std::string>& columns) {
+RowTexts rowTextsOf(const std::string& line, RowFormat format,
+                    const std::vector<std::string>& columns) {
   if (format == RowFormat::kJsonLines) return textsOfJson(line);
   RowTexts texts;
   const std::vector<std::string> cells = cellsOf(line);
-  for (std::size_t i = 0; i < std::min(cells.size(), columns.size()); ++i) texts[columns[i]] = cells[i];
+  for (std::size_t i = 0; i < std::min(cells.size(), columns.size()); ++i)
+    texts[columns[i]] = cells[i];
   return texts;
 }
 

@@ -10,14 +10,16 @@
 
 namespace mems_stiction {
 
-/// The texts of a row by the names of their columns, whatever the format; none where there is nothing.
+/// The texts of a row by the names of their columns, whatever the format; none where there is
+/// nothing.
 using RowTexts = std::map<std::string, std::string>;
 
 /// Empty where there is nothing.
 std::string textOf(const RowTexts& row, const std::string& name);
 
 /// - @p columns CSV only @throw nlohmann::json::exception for what is no row of JSON
-RowTexts rowTextsOf(const std::string& line, RowFormat format, const std::vector<std::string>& columns);
+RowTexts rowTextsOf(const std::string& line, RowFormat format,
+                    const std::vector<std::string>& columns);
 
 /// All rows of a file, by the columns that it names. @throw FileError
 std::vector<RowTexts> rowTextsOf(const std::string& path);

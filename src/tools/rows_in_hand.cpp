@@ -20,8 +20,9 @@ constexpr double kLongestProbe = 3600.0;  // [s]
 
 std::vector<std::string> probeCommand(const BatchArguments& arguments, const std::string& input,
                                       const std::string& shard, const std::string& output) {
-  std::vector<std::string> command = {fs::read_symlink("/proc/self/exe").string(), "--output=" + output,
-                                      "--shard=" + shard, "--topic=" + arguments.topic};
+  std::vector<std::string> command = {fs::read_symlink("/proc/self/exe").string(),
+                                      "--output=" + output, "--shard=" + shard,
+                                      "--topic=" + arguments.topic};
   if (!arguments.configuration.empty()) command.push_back("--config=" + arguments.configuration);
   if (arguments.voltage) command.push_back("--voltage=" + numberText(*arguments.voltage));
   if (arguments.load) command.push_back("--load=" + numberText(*arguments.load));
@@ -52,14 +53,16 @@ RowsInHand::~RowsInHand() {
   if (path_) fs::remove(path_->path(), ignored);
 }
 
-std::string causeOfDeath(const BatchArguments& arguments, const std::string& input, const std::string& shard) {
+std::string causeOfDeath(const BatchArguments& arguments, const std::string& input,
+                         const std::string& shard) {
   const PrivateFolder folder;
-  const ChildResult result = runChild(probeCommand(arguments, input, shard, (folder.path() / "row.jsonl").string()),
-                                      environmentWithout({}, {}), (folder.path() / "log").string(), kLongestProbe);
+  const ChildResult result =
+      runChild(probeCommand(arguments, input, shard, (folder.path() / "row.jsonl").string()),
+               environmentWithout({}, {}), (folder.path() / "log").string(), kLongestProbe);
   if (result.timed_out) return "ended an earlier call, and takes more than an hour: passed over";
   if (result.signal == 0) return "";
-  return "ended an earlier call, and ends the program by signal " + std::to_string(result.signal) + " (" +
-         strsignal(result.signal) + "): passed over";
+  return "ended an earlier call, and ends the program by signal " + std::to_string(result.signal) +
+         " (" + strsignal(result.signal) + "): passed over";
 }
 
 }  // namespace mems_stiction

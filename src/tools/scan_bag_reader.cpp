@@ -32,7 +32,9 @@ constexpr double kMendingTimeout = 3600.0;
 
 constexpr InputKind kBag = {"a bag", std::numeric_limits<std::uint64_t>::max()};
 
-std::string withoutSlash(const std::string& topic) { return startsWith(topic, "/") ? topic.substr(1) : topic; }
+std::string withoutSlash(const std::string& topic) {
+  return startsWith(topic, "/") ? topic.substr(1) : topic;
+}
 
 /// The topic called `name` in the namespace of `topic`.
 std::string sibling(const std::string& topic, const char* name) {
@@ -44,7 +46,8 @@ std::string sibling(const std::string& topic, const char* name) {
 template <typename Function>
 void readBytes(const rosbag::MessageInstance& message, const Function& read) {
   const auto shorter = [&] {
-    return SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
+    return SurfaceError("the bag is damaged: a message of '" + message.getTopic() +
+                        "' is shorter than it states");
   };
   try {
     std::vector<std::uint8_t> bytes(message.size());
@@ -52,7 +55,8 @@ void readBytes(const rosbag::MessageInstance& message, const Function& read) {
     message.write(written);
     read(ros::serialization::IStream(bytes.data(), static_cast<std::uint32_t>(bytes.size())));
   } catch (const rosbag::BagException& error) {
-    throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' cannot be read: " + error.what());
+    throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() +
+                       "' cannot be read: " + error.what());
   } catch (const MessageError&) {
     throw shorter();
   } catch (const ros::Exception&) {  // of roscpp's deserialization
@@ -64,12 +68,13 @@ void readBytes(const rosbag::MessageInstance& message, const Function& read) {
 template <typename Message>
 boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& message) {
   if (!message.isType<Message>()) {
-    throw SurfaceError("topic '" + message.getTopic() + "' carries " + message.getDataType() + ", must be " +
-                       ros::message_traits::DataType<Message>::value());
+    throw SurfaceError("topic '" + message.getTopic() + "' carries " + message.getDataType() +
+                       ", must be " + ros::message_traits::DataType<Message>::value());
   }
   const auto content = boost::make_shared<Message>();
-  readBytes(message,
-            [&](ros::serialization::IStream stream) { readMessage(stream.getData(), stream.getLength(), *content); });
+  readBytes(message, [&](ros::serialization::IStream stream) {
+    readMessage(stream.getData(), stream.getLength(), *content);
+  });
   return content;
 }
 
@@ -93,12 +98,15 @@ void readFormer(ros::serialization::IStream stream, bool has_names, ScanInfo* in
   stream.next(info->serial_id);
 }
 
-/// scan_info of today, or of bags that were recorded before: what is of today only stands behind the rest.
+/// scan_info of today, or of bags that were recorded before: what is of today only stands behind
+/// the rest.
 boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance& message) {
   const bool has_names = message.getMD5Sum() == kNamedScanInfo;
   if (!has_names && message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
   const auto info = boost::make_shared<ScanInfo>();
-  readBytes(message, [&](const ros::serialization::IStream& stream) { readFormer(stream, has_names, info.get()); });
+  readBytes(message, [&](const ros::serialization::IStream& stream) {
+    readFormer(stream, has_names, info.get());
+  });
   return info;
 }
 
@@ -112,7 +120,8 @@ void requireMagic(const std::string& path) {
 
 }  // namespace
 
-ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters)
+ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_topic,
+                             const ScanOptions& parameters)
     : path_(path), parameters_(parameters) {
   if (!fs::exists(path)) throw FileError(path + ": no such file");
   requireMagic(path);
@@ -129,11 +138,13 @@ ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_
   if (heights_.empty()) {
     rosbag::View everything(bag_);
     std::set<std::string> topics;
-    for (const rosbag::ConnectionInfo* connection : everything.getConnections()) topics.insert(connection->topic);
+    for (const rosbag::ConnectionInfo* connection : everything.getConnections())
+      topics.insert(connection->topic);
     std::string names;
     for (const std::string& topic : topics) names += (names.empty() ? "" : ", ") + topic;
     throw FileError(path + ": no message on topic '" + height_topic + "'; the bag has " +
-                    (names.empty() ? "no messages" : names) + (wasCutOff() ? " (it was cut off)" : ""));
+                    (names.empty() ? "no messages" : names) +
+                    (wasCutOff() ? " (it was cut off)" : ""));
   }
   infos_ = messagesOf(sibling(height_topic, kScanInfoTopic));
   counter_heights_ = messagesOf(sibling(height_topic, kCounterHeightTopic));
@@ -144,8 +155,9 @@ void ScanBagReader::openMended() {
   mended_folder_ = std::make_unique<PrivateFolder>();
   const std::string folder = mended_folder_->path().string();
   const std::string cut = path_ + ": the bag was cut off; ";
-  const ChildResult result = runChild({"rosbag", "reindex", "--quiet", "--output-dir=" + folder, path_},
-                                      environmentWithout({}, {}), folder + "/log", kMendingTimeout);
+  const ChildResult result =
+      runChild({"rosbag", "reindex", "--quiet", "--output-dir=" + folder, path_},
+               environmentWithout({}, {}), folder + "/log", kMendingTimeout);
   if (!result.started) throw FileError(cut + "the program rosbag, which mends it, was not found");
   const fs::path mended = fs::path(folder) / fs::path(path_).filename();
   if (!fs::exists(mended)) throw FileError(cut + "rosbag reindex could not mend it");
@@ -165,14 +177,15 @@ ScanBagReader::Messages ScanBagReader::messagesOf(const std::string& topic) {
   return messages;
 }
 
-ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message, const Messages& infos) const {
+ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message,
+                                 const Messages& infos) const {
   const auto image = instantiate<sensor_msgs::Image>(message);
   if (infos.empty()) return receiveScan(image, parameters_);
 
   // Partners are recorded one after the other: look outwards from the time of the image.
-  const auto after = std::lower_bound(
-      infos.begin(), infos.end(), message.getTime(),
-      [](const rosbag::MessageInstance& info, const ros::Time& time) { return info.getTime() < time; });
+  const auto after = std::lower_bound(infos.begin(), infos.end(), message.getTime(),
+                                      [](const rosbag::MessageInstance& info,
+                                         const ros::Time& time) { return info.getTime() < time; });
   const std::ptrdiff_t middle = after - infos.begin();
   const auto size = static_cast<std::ptrdiff_t>(infos.size());
   ScanInfoConstPtr found;
@@ -198,11 +211,14 @@ BagScan ScanBagReader::read(std::size_t index, bool with_counter_surface) const 
   stamp << scan.header.stamp;
   BagScan result{scan.surface, {}, scan.identity, scan.header.frame_id, stamp.str()};
   if (!with_counter_surface) return result;
-  const auto after = std::upper_bound(
-      counter_heights_.begin(), counter_heights_.end(), message.getTime(),
-      [](const ros::Time& time, const rosbag::MessageInstance& counter) { return time < counter.getTime(); });
+  const auto after =
+      std::upper_bound(counter_heights_.begin(), counter_heights_.end(), message.getTime(),
+                       [](const ros::Time& time, const rosbag::MessageInstance& counter) {
+                         return time < counter.getTime();
+                       });
   if (after == counter_heights_.begin()) {
-    throw SurfaceError("no counter-surface was recorded before the scan (counter_surface/type is topic)");
+    throw SurfaceError(
+        "no counter-surface was recorded before the scan (counter_surface/type is topic)");
   }
   result.counter_surface = pair(*(after - 1), counter_infos_).surface;
   return result;

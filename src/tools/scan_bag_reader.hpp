@@ -1,6 +1,7 @@
 #pragma once
 
-/// Scans out of a bag, one by one and by their number, without a ROS master: what the node would have paired.
+/// Scans out of a bag, one by one and by their number, without a ROS master: what the node would
+/// have paired.
 
 #include <cstddef>
 #include <memory>
@@ -17,20 +18,22 @@
 
 namespace mems_stiction {
 
-/// A bag that was cut off (a recorder that was killed) has lost its index: it is read from a copy that `rosbag reindex`
-/// mends in a folder for temporary files, and wasCutOff() says so.
+/// A bag that was cut off (a recorder that was killed) has lost its index: it is read from a copy
+/// that `rosbag reindex` mends in a folder for temporary files, and wasCutOff() says so.
 class ScanBagReader : public BagScans {
  public:
-  /// @param height_topic with or without the leading slash; scan_info, counter_height and counter_scan_info are looked
+  /// @param height_topic with or without the leading slash; scan_info, counter_height and
+  /// counter_scan_info are looked
   ///        for in its namespace.
   /// @throw FileError naming the bag if it cannot be opened or has no such topic.
-  ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters);
+  ScanBagReader(const std::string& path, const std::string& height_topic,
+                const ScanOptions& parameters);
 
   std::size_t count() const override { return heights_.size(); }
   bool wasCutOff() const override { return mended_folder_ != nullptr; }
 
-  /// A scan without a scan_info of its stamp is refused, unless the bag has no scan_info at all: then the parameters
-  /// serve for every scan.
+  /// A scan without a scan_info of its stamp is refused, unless the bag has no scan_info at all:
+  /// then the parameters serve for every scan.
   BagScan read(std::size_t index, bool with_counter_surface) const override;
 
  private:

@@ -18,9 +18,9 @@ namespace {
 
 /// Visits every figure of a row with its value and unit.
 template <typename Visitor>
-void visitFigures(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                  const std::optional<Verdict>& verdict, const std::string& formulation, const Provenance& provenance,
-                  Visitor&& visit) {
+void visitFigures(const HeightMap& scan, const std::vector<std::string>& warnings,
+                  const Prediction& prediction, const std::optional<Verdict>& verdict,
+                  const std::string& formulation, const Provenance& provenance, Visitor&& visit) {
   std::string said;
   for (const std::string& warning : warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);
   visit({"warnings"}, said);
@@ -30,7 +30,8 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visit({"pitch_y", "m"}, scan.pitchY());
   visit({"formulation"}, formulation);
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-    const bool verdict_has_it = verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
+    const bool verdict_has_it =
+        verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
     if (std::strcmp(figure.name, "processing_time") != 0 && !verdict_has_it) visit(figure, value);
   });
   visitRoughnessFields(prediction.roughness, visit);
@@ -61,10 +62,13 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
   nlohmann::json columns = nlohmann::json::object();
   const Asperity none;
-  visitAsperityFields(none, [&](const Figure& figure, const auto&) { columns[figure.name] = nlohmann::json::array(); });
+  visitAsperityFields(none, [&](const Figure& figure, const auto&) {
+    columns[figure.name] = nlohmann::json::array();
+  });
   for (const Asperity& asperity : asperities) {
-    visitAsperityFields(asperity,
-                        [&](const Figure& figure, const auto& value) { columns[figure.name].push_back(value); });
+    visitAsperityFields(asperity, [&](const Figure& figure, const auto& value) {
+      columns[figure.name].push_back(value);
+    });
   }
   columns.erase("is_at_border");
   return columns;
@@ -73,7 +77,8 @@ nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
 nlohmann::json energyColumns(const std::vector<EnergyPoint>& curve) {
   nlohmann::json columns = nlohmann::json::object();
   for (const EnergyPoint& point : curve) {
-    visitEnergyPointFields(point, [&](const Figure& figure, double value) { columns[figure.name].push_back(value); });
+    visitEnergyPointFields(
+        point, [&](const Figure& figure, double value) { columns[figure.name].push_back(value); });
   }
   return columns;
 }
@@ -83,8 +88,9 @@ nlohmann::json energyColumns(const std::vector<EnergyPoint>& curve) {
 nlohmann::json curveColumns(const std::vector<CurvePoint>& curve) {
   nlohmann::json columns = nlohmann::json::object();
   for (const CurvePoint& point : curve) {
-    visitCurvePointFields(
-        point, [&](const Figure& figure, const auto& value) { columns[figure.name].push_back(shown(value)); });
+    visitCurvePointFields(point, [&](const Figure& figure, const auto& value) {
+      columns[figure.name].push_back(shown(value));
+    });
   }
   return columns;
 }
@@ -92,17 +98,23 @@ nlohmann::json curveColumns(const std::vector<CurvePoint>& curve) {
 RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
   nlohmann::json scan;
   if (origin.scan > 0) scan = origin.scan;
-  return {{"number", origin.number},      {"file", oneLine(origin.file)}, {"scan", scan},
-          {"name", oneLine(origin.name)}, {"stamp", origin.stamp},        {"channel", oneLine(origin.channel)},
+  return {{"number", origin.number},
+          {"file", oneLine(origin.file)},
+          {"scan", scan},
+          {"name", oneLine(origin.name)},
+          {"stamp", origin.stamp},
+          {"channel", oneLine(origin.channel)},
           {"reason", oneLine(reason)}};
 }
 
-RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                       const std::optional<Verdict>& verdict, const std::string& formulation,
-                       const Provenance& provenance) {
+RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings,
+                       const Prediction& prediction, const std::optional<Verdict>& verdict,
+                       const std::string& formulation, const Provenance& provenance) {
   RowFields fields;
   visitFigures(scan, warnings, prediction, verdict, formulation, provenance,
-               [&](const Figure& figure, const auto& value) { fields.emplace_back(figure.name, shown(value)); });
+               [&](const Figure& figure, const auto& value) {
+                 fields.emplace_back(figure.name, shown(value));
+               });
   return fields;
 }
 
@@ -126,7 +138,8 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
 }
 
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
-                     const Prediction& prediction, const std::vector<CurvePoint>& curve, const NamedMaps& more) {
+                     const Prediction& prediction, const std::vector<CurvePoint>& curve,
+                     const NamedMaps& more) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be made: " + error.message());
@@ -141,7 +154,8 @@ void writeFullResult(const std::string& folder, const RowFields& fields, const H
   result["asperities"] = asperityColumns(prediction.asperities);
   result["energy_curve"] = energyColumns(prediction.energy_curve);
   result["force_curve"] = curveColumns(curve);
-  writeFile(folder + "/result.json", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+  writeFile(folder + "/result.json",
+            result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
             OutputSafety::kWhole);
 }
 

@@ -29,15 +29,17 @@ struct ScanOrigin {
   std::string channel;   ///< of an instrument maker's file
 };
 
-/// number, file, scan, name, stamp, channel, reason; the reason is empty for a scan that was predicted.
+/// number, file, scan, name, stamp, channel, reason; the reason is empty for a scan that was
+/// predicted.
 RowFields originFields(const ScanOrigin& origin, const std::string& reason);
 
-/// The figures of the prediction, by the names of StictionPrediction, and of the verdict if there is one. No wall time:
-/// the same scan gives the same row. Flags of the model's range are there with and without a verdict.
+/// The figures of the prediction, by the names of StictionPrediction, and of the verdict if there
+/// is one. No wall time: the same scan gives the same row. Flags of the model's range are there
+/// with and without a verdict.
 /// @param formulation that the prediction is of
-RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                       const std::optional<Verdict>& verdict, const std::string& formulation,
-                       const Provenance& provenance);
+RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings,
+                       const Prediction& prediction, const std::optional<Verdict>& verdict,
+                       const std::string& formulation, const Provenance& provenance);
 
 /// Every column in order. @param with_verdict whether a device is stated
 std::vector<std::string> columnNames(bool with_verdict);
@@ -51,13 +53,15 @@ nlohmann::json curveColumns(const std::vector<CurvePoint>& curve);
 /// Maps of the size of the scan, by the names of their files.
 using NamedMaps = std::vector<std::pair<std::string, cv::Mat>>;
 
-/// Writes heights.npy, deformed.npy, counter_deformed.npy (float64 [m], NaN where invalid), contact_map.npy (uint8) and,
-/// last, result.json: figures, asperities, energy curve and force curve by columns. Makes the folder.
+/// Writes heights.npy, deformed.npy, counter_deformed.npy (float64 [m], NaN where invalid),
+/// contact_map.npy (uint8) and, last, result.json: figures, asperities, energy curve and force
+/// curve by columns. Makes the folder.
 /// @param prepared the scan that the model got, before contact
 /// @param curve force over height of the prediction, as far as it has one
 /// @param more maps to write too, as writeNpy() takes them
 /// @throw FileError
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
-                     const Prediction& prediction, const std::vector<CurvePoint>& curve, const NamedMaps& more = {});
+                     const Prediction& prediction, const std::vector<CurvePoint>& curve,
+                     const NamedMaps& more = {});
 
 }  // namespace mems_stiction

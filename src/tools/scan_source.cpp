@@ -1,5 +1,5 @@
-/// The program: opens the source and runs until ROS ends, by a shutdown, INT, TERM or HUP. Exit 1 with one line per bad
-/// parameter, or where a node of its name runs.
+/// The program: opens the source and runs until ROS ends, by a shutdown, INT, TERM or HUP. Exit 1
+/// with one line per bad parameter, or where a node of its name runs.
 
 #include <clocale>
 #include <csignal>
@@ -41,9 +41,11 @@ int run(int argc, char** argv) {
   std::setlocale(LC_CTYPE, "C.UTF-8");
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   CLI::App app(
-      "Publishes each scan that an instrument gives on the topics height and scan_info; doc/instruments.md. Settings "
+      "Publishes each scan that an instrument gives on the topics height and scan_info; "
+      "doc/instruments.md. Settings "
       "are\nparameters of the node: start it by\n"
-      "  roslaunch mems_stiction station.launch config:=/path/to/device.yaml folder:=/path/to/scans");
+      "  roslaunch mems_stiction station.launch config:=/path/to/device.yaml "
+      "folder:=/path/to/scans");
   app.footer("Exit status: 0 ended, 1 it cannot start, 2 bad command line.");
   if (asksVersion(argc, argv)) {
     printVersion("scan_source");
@@ -64,11 +66,13 @@ int run(int argc, char** argv) {
   const std::string& name = ros::this_node::getName();
   const std::string owner = livingOwnerOf(name);
   if (!owner.empty()) {
-    complain("scan_source", "a node of the name " + name + " runs already, at " + owner +
-                                ": give another name (__name:=NAME) or end that one (rosnode kill " + name + ")");
+    complain("scan_source",
+             "a node of the name " + name + " runs already, at " + owner +
+                 ": give another name (__name:=NAME) or end that one (rosnode kill " + name + ")");
     return EXIT_FAILURE;
   }
-  const ros::NodeHandle handle;  // outlives the source: with the last handle ROS shuts down, and its log with it
+  const ros::NodeHandle
+      handle;  // outlives the source: with the last handle ROS shuts down, and its log with it
   const ros::NodeHandle private_handle("~");
   try {
     std::optional<ScanSource> source;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMostRows = 10000;  // of the record of one scan: each is a prediction and a line
 
-[[noreturn]] void refuseNumbers(const std::string& option, const std::string& text, const std::string& why) {
+[[noreturn]] void refuseNumbers(const std::string& option, const std::string& text,
+                                const std::string& why) {
   throw OptionsError({option + ": '" + text + "' is not allowed" + why});
 }
 
@@ -26,8 +27,8 @@ std::vector<std::string> piecesOf(const std::string& text, char mark) {
 /// "05": what a decimal comma leaves of 0,05.
 bool looksLikeDecimals(const std::string& part) {
   const std::size_t at = part.find_first_not_of(" +-");
-  return at != std::string::npos && at + 1 < part.size() && part[at] == '0' && part[at + 1] >= '0' &&
-         part[at + 1] <= '9';
+  return at != std::string::npos && at + 1 < part.size() && part[at] == '0' &&
+         part[at + 1] >= '0' && part[at + 1] <= '9';
 }
 
 double rowsOf(std::size_t voltages, std::size_t loads) {
@@ -37,12 +38,15 @@ double rowsOf(std::size_t voltages, std::size_t loads) {
 }  // namespace
 
 void addSweepOptions(CLI::App& app, SweepArguments& arguments) {
-  app.add_option("--sweep-voltage", arguments.voltages,
-                 "sweep the voltage [V] up through these and down again: lands, sticks after it, opens; rows in the "
-                 "record (sweep: points) and a table at its end, as sweep_load has them of a running node")
+  app.add_option(
+         "--sweep-voltage", arguments.voltages,
+         "sweep the voltage [V] up through these and down again: lands, sticks after it, opens; "
+         "rows in the "
+         "record (sweep: points) and a table at its end, as sweep_load has them of a running node")
       ->type_name("FIRST:LAST:STEP|V,V,...");
   app.add_option("--sweep-load", arguments.loads,
-                 "with a loop of the voltage for each of these forces on the scanned area [N]; without it at the load "
+                 "with a loop of the voltage for each of these forces on the scanned area [N]; "
+                 "without it at the load "
                  "that is set")
       ->type_name("FIRST:LAST:STEP|N,N,...");
 }
@@ -56,7 +60,8 @@ std::vector<double> numbersOf(const std::string& option, const std::string& text
       refuseNumbers(option, text, ": commas stand between numbers, the decimal sign is a point");
     char* end = nullptr;
     const double value = plainStrtod(part.c_str(), &end);
-    const bool is_number = end != part.c_str() && part.find_first_not_of(' ', end - part.c_str()) == std::string::npos;
+    const bool is_number =
+        end != part.c_str() && part.find_first_not_of(' ', end - part.c_str()) == std::string::npos;
     if (!is_number || !std::isfinite(value)) break;
     values.push_back(value);
   }
@@ -67,12 +72,13 @@ std::vector<double> numbersOf(const std::string& option, const std::string& text
   const double first = values[0], last = values[1], step = values[2];
   if (!(step > 0.0)) refuseNumbers(option, text, ", the step must be > 0");
   if (first > last) {
-    refuseNumbers(
-        option, text,
-        ": nothing lies from " + numberText(first) + " up to " + numberText(last) + "; the way down follows by itself");
+    refuseNumbers(option, text,
+                  ": nothing lies from " + numberText(first) + " up to " + numberText(last) +
+                      "; the way down follows by itself");
   }
   if ((last - first) / step > kMostRows) {
-    refuseNumbers(option, text, ": more than " + numberText(kMostRows) + " numbers, a larger step has fewer");
+    refuseNumbers(option, text,
+                  ": more than " + numberText(kMostRows) + " numbers, a larger step has fewer");
   }
   const auto count = static_cast<std::size_t>((last - first) / step * (1.0 + 1e-12) + 1e-9) + 1;
   values.clear();
@@ -80,26 +86,30 @@ std::vector<double> numbersOf(const std::string& option, const std::string& text
   return values;
 }
 
-std::optional<LoadSweepRequest> sweepRequest(const SweepArguments& arguments, const Options& model) {
+std::optional<LoadSweepRequest> sweepRequest(const SweepArguments& arguments,
+                                             const Options& model) {
   if (!arguments.voltages && !arguments.loads) return std::nullopt;
   LoadSweepRequest request;
-  request.voltages =
-      arguments.voltages ? numbersOf("--sweep-voltage", *arguments.voltages) : std::vector<double>{model.load.voltage};
+  request.voltages = arguments.voltages ? numbersOf("--sweep-voltage", *arguments.voltages)
+                                        : std::vector<double>{model.load.voltage};
   if (arguments.loads) request.mechanical_loads = numbersOf("--sweep-load", *arguments.loads);
   LoadSweepRequest tested = request;
   if (tested.mechanical_loads.empty()) tested.mechanical_loads = {model.load.mechanical_load};
   std::vector<std::string> violations = tested.validate(model);
   for (std::string& violation : violations) {
-    for (const auto& [name, option] :
-         {std::pair("voltages: ", "--sweep-voltage: "), std::pair("load/voltage: ", "--sweep-voltage: "),
-          std::pair("mechanical_loads: ", "--sweep-load: "), std::pair("load/mechanical_load: ", "--sweep-load: ")}) {
-      if (violation.rfind(name, 0) == 0) violation = option + violation.substr(std::string(name).size());
+    for (const auto& [name, option] : {std::pair("voltages: ", "--sweep-voltage: "),
+                                       std::pair("load/voltage: ", "--sweep-voltage: "),
+                                       std::pair("mechanical_loads: ", "--sweep-load: "),
+                                       std::pair("load/mechanical_load: ", "--sweep-load: ")}) {
+      if (violation.rfind(name, 0) == 0)
+        violation = option + violation.substr(std::string(name).size());
     }
   }
   const double rows = rowsOf(tested.voltages.size(), tested.mechanical_loads.size());
   if (violations.empty() && rows > kMostRows) {
-    violations.push_back("--sweep-voltage and --sweep-load: " + numberText(rows) +
-                         " rows, up and down, are not allowed, must be <= " + numberText(kMostRows));
+    violations.push_back(
+        "--sweep-voltage and --sweep-load: " + numberText(rows) +
+        " rows, up and down, are not allowed, must be <= " + numberText(kMostRows));
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return request;

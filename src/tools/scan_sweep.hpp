@@ -21,12 +21,14 @@ struct SweepArguments {
 
 void addSweepOptions(CLI::App& app, SweepArguments& arguments);
 
-/// "0,5,1e1", or a range with its end, as "0:30:2.5": the numbers that scripts/sweep_load takes, to the bit.
+/// "0,5,1e1", or a range with its end, as "0:30:2.5": the numbers that scripts/sweep_load takes, to
+/// the bit.
 /// - @p option that is named by what is thrown
 /// @throw OptionsError
 std::vector<double> numbersOf(const std::string& option, const std::string& text);
 
-/// The grid; without --sweep-voltage the voltage that is set. Without --sweep-load it has no load yet: that of the frame.
+/// The grid; without --sweep-voltage the voltage that is set. Without --sweep-load it has no load
+/// yet: that of the frame.
 /// @throw OptionsError for numbers that cannot be swept, naming the option
 std::optional<LoadSweepRequest> sweepRequest(const SweepArguments& arguments, const Options& model);
 

@@ -33,8 +33,8 @@ ScanAhead ScansAhead::take(const std::string& path) {
   std::future<ScanAhead> next;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found =
-        std::find_if(reading_.begin(), reading_.end(), [&](const auto& reading) { return reading.first == path; });
+    const auto found = std::find_if(reading_.begin(), reading_.end(),
+                                    [&](const auto& reading) { return reading.first == path; });
     if (found != reading_.end()) {
       next = std::move(found->second);
       reading_.erase(found);
@@ -50,7 +50,8 @@ ScanAhead ScansAhead::take(const std::string& path) {
 void ScansAhead::startMore() {
   for (; started_ < paths_.size() && reading_.size() < at_a_time_; ++started_) {
     const std::string& path = paths_[started_];
-    reading_.emplace_back(path, std::async(std::launch::async, [this, &path] { return read(path); }));
+    reading_.emplace_back(path,
+                          std::async(std::launch::async, [this, &path] { return read(path); }));
   }
 }
 

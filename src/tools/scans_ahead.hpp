@@ -23,14 +23,15 @@ struct ScanAhead {
   std::exception_ptr failure;  ///< what openScanFile() has thrown; else null
 };
 
-/// The files of a batch in their order, each read once; as many at a time as there are processors, or takers. Any number of threads
-/// may take them.
+/// The files of a batch in their order, each read once; as many at a time as there are processors,
+/// or takers. Any number of threads may take them.
 class ScansAhead {
  public:
-  /// - @p settings_file_checksum goes into the state of each scan; none: states are left out, for which each file is read once more
+  /// - @p settings_file_checksum goes into the state of each scan; none: states are left out, for
+  /// which each file is read once more
   /// - @p takers threads that will take files
-  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::optional<std::string> settings_file_checksum,
-             unsigned takers);
+  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options,
+             std::optional<std::string> settings_file_checksum, unsigned takers);
 
   /// The files that will be taken, in this order.
   void expect(std::vector<std::string> paths);

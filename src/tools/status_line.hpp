@@ -1,7 +1,7 @@
 #pragma once
 
-/// One line in place on the terminal of the standard error, gone at the end, or when the program is interrupted. Elsewhere
-/// there is none.
+/// One line in place on the terminal of the standard error, gone at the end, or when the program is
+/// interrupted. Elsewhere there is none.
 
 #include <unistd.h>
 

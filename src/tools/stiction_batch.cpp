@@ -1,5 +1,5 @@
-/// stiction_batch: one row per scan over many bags and scan files; goes on where it was interrupted, in shards that join
-/// to what one run gives. No ROS master needed.
+/// stiction_batch: one row per scan over many bags and scan files; goes on where it was
+/// interrupted, in shards that join to what one run gives. No ROS master needed.
 
 #include <algorithm>
 #include <filesystem>
@@ -38,18 +38,21 @@ constexpr std::size_t kMostNamed = 10;
 
 /// Refuses before the work what could not be written after it. @throw OptionsError, FileError
 void checkOutputs(const BatchArguments& arguments) {
-  for (const std::string& path : {arguments.output, settingsPathOf(arguments.output), arguments.parts}) {
+  for (const std::string& path :
+       {arguments.output, settingsPathOf(arguments.output), arguments.parts}) {
     if (isLonelyPipe(path)) throw FileError(path + ": " + kLonelyPipe);
   }
   if (arguments.parts.empty()) return;
   rowFormatOf(arguments.parts, "--parts");
-  if (arguments.parts == arguments.output) throw OptionsError({"--parts: must be another file than --output"});
+  if (arguments.parts == arguments.output)
+    throw OptionsError({"--parts: must be another file than --output"});
 }
 
 /// Whether the solver at work leaves a setting alone: it would be warned of.
 bool isIgnored(const std::string& key, const Options& options) {
   const std::vector<IgnoredSetting> ignored = ignoredSettings(options.formulation, options);
-  return std::any_of(ignored.begin(), ignored.end(), [&](const IgnoredSetting& setting) { return setting.key == key; });
+  return std::any_of(ignored.begin(), ignored.end(),
+                     [&](const IgnoredSetting& setting) { return setting.key == key; });
 }
 
 /// Says of scans that may be of one device, and do not say so, how they are judged together.
@@ -57,20 +60,24 @@ void askForPart(const BatchArguments& arguments, const Configuration& configurat
   if (!configuration.device.isStated()) return;
   const std::size_t count = scansWithoutPart(arguments.output);
   if (count < 2) return;
-  complain("stiction_batch", std::to_string(count) +
-                                 " scans state no part_id, and each is judged alone: if they are of one device, --part "
-                                 "NAME with --parts judges them together; of several, state part_id beside each scan "
-                                 "(SCAN.yaml)");
+  complain(
+      "stiction_batch",
+      std::to_string(count) +
+          " scans state no part_id, and each is judged alone: if they are of one device, --part "
+          "NAME with --parts judges them together; of several, state part_id beside each scan "
+          "(SCAN.yaml)");
 }
 
 /// If they are asked for, by the rows that are there.
 /// - @p inputs, configuration that the rows were made of and with
-void pool(const BatchArguments& arguments, const std::vector<std::string>& inputs, const Configuration& configuration) {
+void pool(const BatchArguments& arguments, const std::vector<std::string>& inputs,
+          const Configuration& configuration) {
   if (arguments.parts.empty()) return;
   PartDevices devices(arguments, inputs, configuration);
   const auto device = [&](const std::vector<RowOfPart>& rows) {
-    return whileSayingShare("a part of " + std::to_string(rows.size()) + " scans",
-                            [&](const auto& on_progress) { return devices.device(rows, on_progress); });
+    return whileSayingShare(
+        "a part of " + std::to_string(rows.size()) + " scans",
+        [&](const auto& on_progress) { return devices.device(rows, on_progress); });
   };
   const std::size_t count = writeParts(arguments.output, arguments.parts, device);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
@@ -80,14 +87,17 @@ constexpr const char* kGone = "rows are of files that are no longer there";
 
 /// Complains of the first of many things in full, and of how many more there are: "more " + rest.
 void complainOfMany(const std::vector<std::string>& things, const std::string& rest) {
-  for (std::size_t i = 0; i < std::min(things.size(), kMostNamed); ++i) complain("stiction_batch", things[i]);
+  for (std::size_t i = 0; i < std::min(things.size(), kMostNamed); ++i)
+    complain("stiction_batch", things[i]);
   if (things.size() <= kMostNamed) return;
   complain("stiction_batch", std::to_string(things.size() - kMostNamed) + " more " + rest);
 }
 
 /// Places of the rows whose files have changed since; says which, and which files are gone.
-std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, const BatchArguments& arguments,
-                                     const std::vector<std::string>& columns, const BatchScans& scans,
+std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format,
+                                     const BatchArguments& arguments,
+                                     const std::vector<std::string>& columns,
+                                     const BatchScans& scans,
                                      const std::vector<std::size_t>& numbers) {
   std::vector<std::size_t> changed;
   std::vector<std::string> changes;
@@ -100,8 +110,8 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
       const ScanState now = scans.state(number);
       change = changeSince(row, now);
       if (isGone(row, now)) {
-        gone.push_back(scans.file(number) + ": is no longer there; its row " + std::to_string(number) +
-                       " stays as it was");
+        gone.push_back(scans.file(number) + ": is no longer there; its row " +
+                       std::to_string(number) + " stays as it was");
       }
     } catch (const FileError& error) {
       throw FileError(arguments.output + ": " + error.what());
@@ -119,7 +129,8 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
 }
 
 int run(const BatchArguments& arguments) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
+  cv::utils::logging::setLogLevel(
+      cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
   checkOutputs(arguments);
@@ -129,7 +140,8 @@ int run(const BatchArguments& arguments) {
   OutputOptions& output = configuration.model.output;
   output = OutputOptions{};  // figures do not depend on it
   output.deformed_surfaces = output.contact_map = !arguments.dump.empty();
-  output.energy_curve = !arguments.dump.empty() && !isIgnored("output/energy_curve", configuration.model);
+  output.energy_curve =
+      !arguments.dump.empty() && !isIgnored("output/energy_curve", configuration.model);
   const OutputOptions wanted = output;
   output.energy_curve = output.deformed_surfaces = output.contact_map = false;
   const Configuration stated = configuration;  // the same settings with and without --dump
@@ -140,25 +152,27 @@ int run(const BatchArguments& arguments) {
   const bool has_device = configuration.device.isStated();
   const bool has_half_space = mayCallHalfSpace(configuration);
   const std::vector<std::string> columns = batchColumns(has_device, has_half_space);
-  checkSettings(arguments.output,
-                settingsText(scans.size(), inputs, arguments, batchUnits(has_device, has_half_space), stated));
+  checkSettings(arguments.output, settingsText(scans.size(), inputs, arguments,
+                                               batchUnits(has_device, has_half_space), stated));
   std::vector<std::size_t> numbers;
-  for (std::size_t number = shard.index; number <= scans.size(); number += shard.count) numbers.push_back(number);
+  for (std::size_t number = shard.index; number <= scans.size(); number += shard.count)
+    numbers.push_back(number);
 
   RowFile rows(arguments.output, format, headingText(format, columns), numbers);
-  const std::vector<std::size_t> changed = changedRows(rows, format, arguments, columns, scans, numbers);
+  const std::vector<std::size_t> changed =
+      changedRows(rows, format, arguments, columns, scans, numbers);
   const std::size_t before = rows.done() - changed.size();
   std::vector<std::size_t> wanted_numbers;
   wanted_numbers.reserve(numbers.size());
   for (const std::size_t place : changed) wanted_numbers.push_back(numbers[place]);
-  wanted_numbers.insert(wanted_numbers.end(), numbers.begin() + static_cast<std::ptrdiff_t>(rows.done()),
-                        numbers.end());
+  wanted_numbers.insert(wanted_numbers.end(),
+                        numbers.begin() + static_cast<std::ptrdiff_t>(rows.done()), numbers.end());
   const RowsInHand in_hand(arguments.output, queue.inHand());
   for (std::size_t i = 0; i < std::min(in_hand.left(), wanted_numbers.size()); ++i) {
     const std::size_t number = wanted_numbers[i];
-    const std::string cause =
-        whileSaying(scans.file(number) + ": an earlier call was killed here; trying it alone",
-                    [&] { return causeOfDeath(arguments, scans.file(number), scans.shardOfFile(number)); });
+    const std::string cause = whileSaying(
+        scans.file(number) + ": an earlier call was killed here; trying it alone",
+        [&] { return causeOfDeath(arguments, scans.file(number), scans.shardOfFile(number)); });
     if (!cause.empty()) scans.passOver(number, cause);
   }
   queue.expect(wanted_numbers);
@@ -168,7 +182,9 @@ int run(const BatchArguments& arguments) {
   {
     ProgressBar progress(numbers.size(), before);
     std::size_t made = 0;
-    const auto show = [&](const std::string& doing) { progress.show(before + made, failed_count, doing); };
+    const auto show = [&](const std::string& doing) {
+      progress.show(before + made, failed_count, doing);
+    };
     for (; made < wanted_numbers.size(); ++made) {
       show("");
       const BatchRow row = queue.next(show);
@@ -185,15 +201,16 @@ int run(const BatchArguments& arguments) {
     }
   }
   rows.settle();
-  std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before << " of them from before, "
-            << failed_count << " scans failed in this run";
+  std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before
+            << " of them from before, " << failed_count << " scans failed in this run";
   if (arguments.half_space || unsolved_count > 0) {
     std::cout << ", half-space not solved for " << unsolved_count << " others";
   }
   std::cout << "\n";
   if (failed_count > 0) {
     complain("stiction_batch",
-             (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
+             (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") +
+                 first_reason);
   }
   askForPart(arguments, stated);
   pool(arguments, scans.inputs(), stated);
@@ -210,9 +227,9 @@ int merge(const BatchArguments& arguments) {
     std::error_code ignored;
     const bool is_there = std::filesystem::exists(shard, ignored);
     if (is_there && std::filesystem::exists(settingsPathOf(shard), ignored)) continue;
-    throw FileError(shard + (is_there
-                                 ? ": no rows of stiction_batch: there is no " + settingsPathOf(shard) + " beside it"
-                                 : ": there is no such file"));
+    throw FileError(shard + (is_there ? ": no rows of stiction_batch: there is no " +
+                                            settingsPathOf(shard) + " beside it"
+                                      : ": there is no such file"));
   }
   const std::string settings = readSettings(shards.front());
   for (const std::string& shard : shards) {
@@ -224,7 +241,8 @@ int merge(const BatchArguments& arguments) {
   complainOfMany(requireOneState(shards), kGone);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
-  std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";
+  std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size()
+            << " shards\n";
   if (!arguments.parts.empty()) {
     BatchArguments of_rows = arguments;
     const Configuration configuration = madeOf(shards.front(), settings, of_rows);
@@ -237,7 +255,8 @@ int merge(const BatchArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return runProgram<BatchArguments>("stiction_batch", argc, argv, describe, [](const BatchArguments& arguments) {
-    return arguments.merge ? merge(arguments) : run(arguments);
-  });
+  return runProgram<BatchArguments>("stiction_batch", argc, argv, describe,
+                                    [](const BatchArguments& arguments) {
+                                      return arguments.merge ? merge(arguments) : run(arguments);
+                                    });
 }

@@ -1,6 +1,6 @@
-/// The node: constructs the server and runs until ROS ends, by a shutdown, INT, TERM or HUP: all of them let it finish the
-/// scan at hand and take its name off the master, in 4 s at most, whatever the master does. Exit 1 with one line per bad parameter,
-/// or where a node of its name runs.
+/// The node: constructs the server and runs until ROS ends, by a shutdown, INT, TERM or HUP: all of
+/// them let it finish the scan at hand and take its name off the master, in 4 s at most, whatever
+/// the master does. Exit 1 with one line per bad parameter, or where a node of its name runs.
 
 #include <clocale>
 #include <csignal>
@@ -24,8 +24,8 @@ namespace {
 
 using namespace mems_stiction;
 
-/// From the signal to the end [s]. A master that takes the call by which a topic is taken back and does not answer keeps roscpp
-/// for ever.
+/// From the signal to the end [s]. A master that takes the call by which a topic is taken back and
+/// does not answer keeps roscpp for ever.
 constexpr unsigned kLongestEnd = 4;
 
 volatile std::sig_atomic_t is_end_requested = 0;
@@ -40,7 +40,8 @@ void requestEnd(int /*signal*/) {
 
 void endAtOnce(int /*signal*/) {
   constexpr std::string_view kText =
-      "the node ends without having finished: a master that does not answer, or a long prediction; the master may "
+      "the node ends without having finished: a master that does not answer, or a long prediction; "
+      "the master may "
       "still "
       "hold its name\n";
   const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
@@ -53,11 +54,13 @@ void shutDownOn(int number) {
 
 /// The whole of main(). @return the exit status
 int run(int argc, char** argv) {
-  // rosconsole's log writes "?" for each letter that the locale of C has not. Numbers keep their decimal point.
+  // rosconsole's log writes "?" for each letter that the locale of C has not. Numbers keep their
+  // decimal point.
   std::setlocale(LC_CTYPE, "C.UTF-8");
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // whenever it ends, what was said is written
   CLI::App app(
-      "Predicts each scan that comes on the topic height; doc/ros_api.md. Settings are parameters of the node: start "
+      "Predicts each scan that comes on the topic height; doc/ros_api.md. Settings are parameters "
+      "of the node: start "
       "it by\n"
       "  roslaunch mems_stiction stiction.launch config:=/path/to/device.yaml\n"
       "or set single ones by _KEY:=VALUE; __name:=NAME gives it another name.");
@@ -87,9 +90,10 @@ int run(int argc, char** argv) {
   const std::string& name = ros::this_node::getName();
   const std::string owner = takes_over ? "" : livingOwnerOf(name);
   if (!owner.empty()) {
-    complain("stiction_node", "a node of the name " + name + " runs already, at " + owner +
-                                  ": give another name (__name:=NAME), end that one (rosnode kill " + name +
-                                  "), or take its place with --take-over");
+    complain("stiction_node",
+             "a node of the name " + name + " runs already, at " + owner +
+                 ": give another name (__name:=NAME), end that one (rosnode kill " + name +
+                 "), or take its place with --take-over");
     return EXIT_FAILURE;
   }
   // Outlive the server: with the last handle ROS shuts down, and its log with it.

@@ -16,9 +16,11 @@ struct ArmTerms {
   explicit ArmTerms(const Beam& beam) {
     const double stretch = beam.gap / beam.thickness;
     const double plain = 1.5 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap;
-    bending = beam.type == BeamType::kDoublyClamped ? plain * (1.0 + 0.36 * stretch * stretch) : plain;
-    tension =
-        beam.type == BeamType::kDoublyClamped ? 0.6 * beam.residual_stress * beam.thickness * beam.gap * beam.gap : 0.0;
+    bending =
+        beam.type == BeamType::kDoublyClamped ? plain * (1.0 + 0.36 * stretch * stretch) : plain;
+    tension = beam.type == BeamType::kDoublyClamped
+                  ? 0.6 * beam.residual_stress * beam.thickness * beam.gap * beam.gap
+                  : 0.0;
   }
 
   double work(double length) const {
@@ -35,10 +37,13 @@ struct ArmTerms {
 
 }  // namespace
 
-double sShapeWork(const Beam& beam, double unstuck_length) { return ArmTerms(beam).work(unstuck_length); }
+double sShapeWork(const Beam& beam, double unstuck_length) {
+  return ArmTerms(beam).work(unstuck_length);
+}
 
 double arcWork(const Beam& beam, double unstuck_length) {
-  return 0.375 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap / std::pow(unstuck_length, 4);
+  return 0.375 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap /
+         std::pow(unstuck_length, 4);
 }
 
 double peelNumber(const Beam& beam, double work) {
@@ -56,7 +61,8 @@ double peelNumber(const Beam& beam, double work) {
 double detachmentLength(const Beam& beam, double work) {
   switch (beam.type) {
     case BeamType::kCantilever:
-      return std::sqrt(0.5) * ArmTerms(beam).length(work);  // the arc's G is a quarter of the S-shape's
+      return std::sqrt(0.5) *
+             ArmTerms(beam).length(work);  // the arc's G is a quarter of the S-shape's
     case BeamType::kDoublyClamped:
       return 2.0 * ArmTerms(beam).length(work);
     case BeamType::kNone:
@@ -66,7 +72,8 @@ double detachmentLength(const Beam& beam, double work) {
 }
 
 double beamForce(const Beam& beam) {
-  const double plain = beam.modulus * beam.width * std::pow(beam.thickness, 3) * beam.gap / std::pow(beam.length, 3);
+  const double plain =
+      beam.modulus * beam.width * std::pow(beam.thickness, 3) * beam.gap / std::pow(beam.length, 3);
   switch (beam.type) {
     case BeamType::kCantilever:
       return 0.25 * plain;
@@ -74,7 +81,8 @@ double beamForce(const Beam& beam) {
       const double stretch = beam.gap / beam.thickness;
       const double slenderness = beam.length / beam.thickness;
       return 16.0 * plain *
-             (1.0 + 0.72 * stretch * stretch + 0.3 * beam.residual_stress / beam.modulus * slenderness * slenderness);
+             (1.0 + 0.72 * stretch * stretch +
+              0.3 * beam.residual_stress / beam.modulus * slenderness * slenderness);
     }
     case BeamType::kNone:
       break;
@@ -83,7 +91,9 @@ double beamForce(const Beam& beam) {
 }
 
 double peelLength(const Beam& beam, double work, double pressure) {
-  return 0.5 * std::pow(2.0 * beam.modulus * std::pow(beam.thickness, 3) * work / (3.0 * pressure * pressure), 0.25);
+  return 0.5 * std::pow(2.0 * beam.modulus * std::pow(beam.thickness, 3) * work /
+                            (3.0 * pressure * pressure),
+                        0.25);
 }
 
 double unstuckLength(const Beam& beam, double work) {

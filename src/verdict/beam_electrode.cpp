@@ -26,7 +26,8 @@ ScaledShape scaledShape(const Beam& beam, const BeamElectrode& electrode) {
   BeamShape bent = shapeUnder(beam, electrode.start, electrode.length, kCells);
   ScaledShape shape;
   for (const double slope : bent.slope) shape.slope_square += slope * slope * bent.step;
-  for (const double curvature : bent.curvature) shape.curvature_square += curvature * curvature * bent.step;
+  for (const double curvature : bent.curvature)
+    shape.curvature_square += curvature * curvature * bent.step;
   shape.deflection = std::move(bent.deflection);
   const double most = *std::max_element(shape.deflection.begin(), shape.deflection.end());
   for (double& value : shape.deflection) value /= most;
@@ -37,8 +38,10 @@ ScaledShape scaledShape(const Beam& beam, const BeamElectrode& electrode) {
 
 }  // namespace
 
-std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device, const InterfaceOptions& interface) {
-  if (!device.hasBeam() || device.hasSpring() || device.electrode_length <= 0.0 || device.beam_width <= 0.0) {
+std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device,
+                                         const InterfaceOptions& interface) {
+  if (!device.hasBeam() || device.hasSpring() || device.electrode_length <= 0.0 ||
+      device.beam_width <= 0.0) {
     return std::nullopt;
   }
   return BeamElectrode{device.electrode_start, device.electrode_length,
@@ -47,10 +50,12 @@ std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device, const Inte
 }
 
 double beamClosingVoltage(const Beam& beam, const BeamElectrode& electrode) {
-  if (beam.type == BeamType::kNone || !(beam.width > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (beam.type == BeamType::kNone || !(beam.width > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
   const ScaledShape shape = scaledShape(beam, electrode);
   const double section = beam.width * beam.thickness;
-  double linear = beam.modulus * section * beam.thickness * beam.thickness / 12.0 * shape.curvature_square;
+  double linear =
+      beam.modulus * section * beam.thickness * beam.thickness / 12.0 * shape.curvature_square;
   double cubic = 0.0;
   if (beam.type == BeamType::kDoublyClamped) {
     linear += beam.residual_stress * section * shape.slope_square;

@@ -11,7 +11,8 @@
 namespace mems_stiction {
 namespace {
 
-constexpr int kArmCells = 1000;   // along an arm; the gap is linear within each, which is right to 1e-4
+constexpr int kArmCells =
+    1000;  // along an arm; the gap is linear within each, which is right to 1e-4
 constexpr int kMostRounds = 500;  // of the balance: near the end of what balances it creeps
 constexpr double kBalanced = 1e-9;
 constexpr double kDiscretisation = 1e-4;  // of the deflection
@@ -24,11 +25,13 @@ struct ArmShape {
 };
 
 ArmShape armShape(BeamType type, double xi) {
-  if (type == BeamType::kCantilever) return {xi * xi * (1.5 - 0.5 * xi), xi * (3.0 - 1.5 * xi), 3.0 - 3.0 * xi};
+  if (type == BeamType::kCantilever)
+    return {xi * xi * (1.5 - 0.5 * xi), xi * (3.0 - 1.5 * xi), 3.0 - 3.0 * xi};
   return {xi * xi * (3.0 - 2.0 * xi), 6.0 * xi * (1.0 - xi), 6.0 - 12.0 * xi};
 }
 
-/// An arm that is held by h at its end, above a part of the electrode; its edges are those of kArmCells cells from the clamp.
+/// An arm that is held by h at its end, above a part of the electrode; its edges are those of
+/// kArmCells cells from the clamp.
 class ClosedArm {
  public:
   /// - @p length s [m]
@@ -77,7 +80,8 @@ class ClosedArm {
       const double next = field * beam_.width * sum(psi_, amplitude) / stiffness_;
       if (!(next >= 0.0)) break;  // compressed beyond its stiffness
       if (std::abs(next - amplitude) <= kBalanced * next) {
-        return {field * beam_.width * sum(phi_, next), field * beam_.gap / length_ * sum(spread_, next)};
+        return {field * beam_.width * sum(phi_, next),
+                field * beam_.gap / length_ * sum(spread_, next)};
       }
       amplitude = next;
     }
@@ -107,10 +111,12 @@ class ClosedArm {
       const double last = std::min(begin + step_, to_);
       if (!(last > first)) continue;
       const double gap = rest_gap_ - deflectionAt(cell, amplitude);
-      const double rise = (deflectionAt(cell, amplitude) - deflectionAt(cell + 1, amplitude)) / step_;
+      const double rise =
+          (deflectionAt(cell, amplitude) - deflectionAt(cell + 1, amplitude)) / step_;
       const double middle = (0.5 * (first + last) - begin) / step_;
       const double of_middle = (1.0 - middle) * weight[cell] + middle * weight[cell + 1];
-      total += of_middle * (last - first) / ((gap + rise * (first - begin)) * (gap + rise * (last - begin)));
+      total += of_middle * (last - first) /
+               ((gap + rise * (first - begin)) * (gap + rise * (last - begin)));
     }
     return total;
   }
@@ -129,7 +135,8 @@ class ClosedArm {
 
 }  // namespace
 
-FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage, double contact_gap) {
+FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
+                    double contact_gap) {
   if (beam.type == BeamType::kNone || voltage == 0.0) return {};
   const double field = 0.5 * kVacuumPermittivity * voltage * voltage;
   const double rest_gap = electrode.gap + electrode.insulator_gap + contact_gap;
@@ -139,7 +146,8 @@ FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double vol
   }
   const double arm = 0.5 * beam.length;
   const FieldHold left = ClosedArm(beam, arm, electrode.start, end, rest_gap).under(field);
-  const FieldHold right = ClosedArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
+  const FieldHold right =
+      ClosedArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
   return {left.force + right.force, 0.5 * (left.work + right.work)};
 }
 

@@ -19,8 +19,9 @@ BeamShape shapeUnder(const Beam& beam, double start, double length, int cells) {
   curvature.resize(static_cast<std::size_t>(cells));
   for (int i = 0; i < cells; ++i) curvature[static_cast<std::size_t>(i)] = momentOfLoad(middle(i));
   if (beam.type == BeamType::kDoublyClamped) {
-    // what it needs at its other clamp, no slope and no deflection, is brought by a force and a moment there:
-    // curvature - force (l - x) - moment has no mean and no first moment about the far end
+    // what it needs at its other clamp, no slope and no deflection, is brought by a force and a
+    // moment there: curvature - force (l - x) - moment has no mean and no first moment about the
+    // far end
     double sum = 0.0;
     double moment = 0.0;
     for (int i = 0; i < cells; ++i) {

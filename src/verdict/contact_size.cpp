@@ -17,13 +17,16 @@ bool hasSizeOfScan(const Prediction& prediction, const DeviceOptions& device) {
   return std::max(ratio, 1.0 / ratio) <= kTrustedAreaRatio * (1.0 + kRounding);
 }
 
-std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device, const std::string& why) {
-  const std::string whose = device.contacts == 1
-                                ? "the contact (device/contacts: 1)"
-                                : "each of the " + std::to_string(device.contacts) + " contacts (device/contacts)";
-  return "the device's own force has not been found" + (why.empty() ? "" : " (" + why + ")") + ": " + whose + " has " +
-         shortNumber(device.contact_area / device.contacts) + " m^2 and the scan " +
-         shortNumber(prediction.nominal_area) + " m^2, and forces do not go with area beyond a factor of 2" +
+std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device,
+                          const std::string& why) {
+  const std::string whose =
+      device.contacts == 1
+          ? "the contact (device/contacts: 1)"
+          : "each of the " + std::to_string(device.contacts) + " contacts (device/contacts)";
+  return "the device's own force has not been found" + (why.empty() ? "" : " (" + why + ")") +
+         ": " + whose + " has " + shortNumber(device.contact_area / device.contacts) +
+         " m^2 and the scan " + shortNumber(prediction.nominal_area) +
+         " m^2, and forces do not go with area beyond a factor of 2" +
          (why.empty() ? "; set device_force/enabled, or ask predict_device" : "");
 }
 

@@ -1,16 +1,18 @@
 #pragma once
 
 /// @file
-/// Has a contact of the device the size of the scan, so that the scan's own force may be taken for it?
+/// Has a contact of the device the size of the scan, so that the scan's own force may be taken for
+/// it?
 ///
 ///     ratio = (device/contact_area/device/contacts)/scanned area
 ///
-/// Forces do not go with area. A larger contact rests on higher summits, so its surfaces stand further apart and a
-/// handful of places hold it whatever its area; a smaller one has lower summits. Large generated surfaces (4096 x 4096
-/// pixels of 10 nm, self-affine and Gaussian) against parts of them, scaled by area: parts of a quarter of the area come
-/// out 1.6 to 2.5 times too strong, of a 16th 2.6 to 10 times, of a 64th 8 to 41 times (medians of 12 places). So where
-/// nobody has found the force of such an area (device_force.hpp), the scan's stands for contacts of half to twice its
-/// area alone.
+/// Forces do not go with area. A larger contact rests on higher summits, so its surfaces stand
+/// further apart and a handful of places hold it whatever its area; a smaller one has lower
+/// summits. Large generated surfaces (4096 x 4096 pixels of 10 nm, self-affine and Gaussian)
+/// against parts of them, scaled by area: parts of a quarter of the area come out 1.6 to 2.5 times
+/// too strong, of a 16th 2.6 to 10 times, of a 64th 8 to 41 times (medians of 12 places). So where
+/// nobody has found the force of such an area (device_force.hpp), the scan's stands for contacts of
+/// half to twice its area alone.
 
 #include <string>
 
@@ -27,6 +29,7 @@ bool hasSizeOfScan(const Prediction& prediction, const DeviceOptions& device);
 
 /// Why the device cannot be judged by the scan's force.
 /// - @p why the device's own force is missing, and what to do; empty: nobody asked for it
-std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device, const std::string& why);
+std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device,
+                          const std::string& why);
 
 }  // namespace mems_stiction

@@ -25,7 +25,8 @@ std::string zerosOf(std::initializer_list<std::pair<const char*, double>> settin
 }  // namespace
 
 Beam DeviceOptions::beam() const {
-  return {beam_type, beam_length, beam_thickness, beam_gap, beam_modulus, beam_residual_stress, beam_width};
+  return {beam_type,    beam_length,          beam_thickness, beam_gap,
+          beam_modulus, beam_residual_stress, beam_width};
 }
 
 double DeviceOptions::beamContactLength() const {
@@ -46,46 +47,56 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
                  "area that the voltage acts on, for the pull-in voltage; 0 = not stated");
   visitor.number("device/electrode_gap", electrode_gap, "m", Range::nonNegative(),
                  "distance of the electrodes at rest; 0 = the travel, of a beam its gap");
-  visitor.enumeration(
-      "device/beam_type", beam_type,
-      {{"none", BeamType::kNone}, {"cantilever", BeamType::kCantilever}, {"doubly_clamped", BeamType::kDoublyClamped}},
-      "beam whose peel number is asked for");
-  visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(), "length of the beam");
+  visitor.enumeration("device/beam_type", beam_type,
+                      {{"none", BeamType::kNone},
+                       {"cantilever", BeamType::kCantilever},
+                       {"doubly_clamped", BeamType::kDoublyClamped}},
+                      "beam whose peel number is asked for");
+  visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(),
+                 "length of the beam");
   visitor.number("device/beam_width", beam_width, "m", Range::nonNegative(),
                  "width of the beam, for its force and its pull-in voltage; 0 = not stated");
-  visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(), "thickness of the beam");
-  visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(), "height of the beam above the substrate");
-  visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(), "Young's modulus of the beam");
+  visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(),
+                 "thickness of the beam");
+  visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(),
+                 "height of the beam above the substrate");
+  visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(),
+                 "Young's modulus of the beam");
   visitor.number("device/beam_residual_stress", beam_residual_stress, "Pa", Range::any(),
                  "residual stress of a doubly clamped beam, tensile positive");
   visitor.number("device/electrode_start", electrode_start, "m", Range::nonNegative(),
                  "where the electrode below a beam begins, from the clamp");
   visitor.number("device/electrode_length", electrode_length, "m", Range::nonNegative(),
                  "length of the electrode along the beam, for its pull-in voltage; 0 = not stated");
-  visitor.number("device/apparent_work_of_adhesion", apparent_work_of_adhesion, "J/m^2", Range::nonNegative(),
+  visitor.number("device/apparent_work_of_adhesion", apparent_work_of_adhesion, "J/m^2",
+                 Range::nonNegative(),
                  "of the rough interface, measured on beams; 0 = from the predicted contacts");
 }
 
 std::vector<std::string> DeviceOptions::validate() const {
   std::vector<std::string> violations = rangeViolations(*this);
   if (electrode_gap > 0.0 && travel > electrode_gap) {
-    violations.push_back("device/travel: " + numberText(travel) + " m is not allowed, must not exceed " +
-                         "device/electrode_gap " + numberText(electrode_gap) + " m");
+    violations.push_back("device/travel: " + numberText(travel) +
+                         " m is not allowed, must not exceed " + "device/electrode_gap " +
+                         numberText(electrode_gap) + " m");
   }
   if (!hasBeam()) return violations;
   if (beam_width > 0.0 && contact_area > beam_width * beam_length && beam_length > 0.0) {
-    violations.push_back("device/contact_area: " + numberText(contact_area) +
-                         " m^2 is not allowed, must not exceed device/beam_width times device/beam_length, " +
-                         numberText(beam_width * beam_length) + " m^2");
+    violations.push_back(
+        "device/contact_area: " + numberText(contact_area) +
+        " m^2 is not allowed, must not exceed device/beam_width times device/beam_length, " +
+        numberText(beam_width * beam_length) + " m^2");
   }
   if (electrode_start + electrode_length > beam_length && beam_length > 0.0) {
     violations.push_back("device/electrode_length: " + numberText(electrode_length) +
                          " m from device/electrode_start " + numberText(electrode_start) +
-                         " m is not allowed, must end within device/beam_length " + numberText(beam_length) + " m");
+                         " m is not allowed, must end within device/beam_length " +
+                         numberText(beam_length) + " m");
   }
   if (electrode_gap > 0.0 && electrode_length > 0.0 && electrode_gap < beam_gap) {
     violations.push_back("device/electrode_gap: " + numberText(electrode_gap) +
-                         " m is not allowed, must be at least device/beam_gap " + numberText(beam_gap) + " m");
+                         " m is not allowed, must be at least device/beam_gap " +
+                         numberText(beam_gap) + " m");
   }
   if (electrode_area > 0.0 && !hasSpring()) {
     const double length = beam_width > 0.0 ? electrode_area / beam_width : 0.0;
@@ -93,7 +104,9 @@ std::vector<std::string> DeviceOptions::validate() const {
         "device/electrode_area: " + numberText(electrode_area) +
         " m^2 is not allowed for a beam without a spring, must be 0: its electrode is stated by "
         "device/electrode_start and device/electrode_length" +
-        (length > 0.0 ? " (of the whole device/beam_width it would be " + shortNumber(length) + " m long)" : ""));
+        (length > 0.0
+             ? " (of the whole device/beam_width it would be " + shortNumber(length) + " m long)"
+             : ""));
   }
   const std::pair<const char*, double> sizes[] = {{"device/beam_length", beam_length},
                                                   {"device/beam_thickness", beam_thickness},
@@ -101,8 +114,9 @@ std::vector<std::string> DeviceOptions::validate() const {
                                                   {"device/beam_modulus", beam_modulus}};
   for (const auto& size : sizes) {
     if (size.second == 0.0) {
-      violations.push_back(std::string(size.first) +
-                           ": 0 is not allowed with a device/beam_type other than none; must be > 0");
+      violations.push_back(
+          std::string(size.first) +
+          ": 0 is not allowed with a device/beam_type other than none; must be > 0");
     }
   }
   return violations;
@@ -110,7 +124,8 @@ std::vector<std::string> DeviceOptions::validate() const {
 
 std::string whatPullInLacks(const DeviceOptions& device) {
   if (device.hasBeam() && !device.hasSpring()) {
-    return zerosOf({{"device/beam_width", device.beam_width}, {"device/electrode_length", device.electrode_length}});
+    return zerosOf({{"device/beam_width", device.beam_width},
+                    {"device/electrode_length", device.electrode_length}});
   }
   return zerosOf({{"device/spring_stiffness", device.spring_stiffness},
                   {"device/travel", device.travel},
@@ -118,22 +133,25 @@ std::string whatPullInLacks(const DeviceOptions& device) {
 }
 
 std::string whatSpringLacks(const DeviceOptions& device) {
-  if (device.spring_stiffness <= 0.0 && device.travel <= 0.0 && device.contact_area <= 0.0) return "";
+  if (device.spring_stiffness <= 0.0 && device.travel <= 0.0 && device.contact_area <= 0.0)
+    return "";
   return zerosOf({{"device/spring_stiffness", device.spring_stiffness},
                   {"device/travel", device.travel},
                   {"device/contact_area", device.contact_area}});
 }
 
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {
-  if (const auto electrode = electrodeOf(device, interface)) return beamClosingVoltage(device.beam(), *electrode);
-  if (!device.hasSpring() || device.electrode_area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (const auto electrode = electrodeOf(device, interface))
+    return beamClosingVoltage(device.beam(), *electrode);
+  if (!device.hasSpring() || device.electrode_area <= 0.0)
+    return std::numeric_limits<double>::quiet_NaN();
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
   const double thickness = interface.insulator_thickness;
   const double permittivity = interface.insulator_relative_permittivity;
   const double electrical_gap = rest_gap + thickness / permittivity;
   if (3.0 * device.travel >= electrical_gap) {
-    return surface_forces::pullInVoltage(device.spring_stiffness, rest_gap, device.electrode_area, thickness,
-                                         permittivity);
+    return surface_forces::pullInVoltage(device.spring_stiffness, rest_gap, device.electrode_area,
+                                         thickness, permittivity);
   }
   const double pressure_of_one_volt =
       surface_forces::electrostaticPressure(rest_gap - device.travel, 1.0, thickness, permittivity);

@@ -21,14 +21,16 @@ std::string whyNotJudging(const SolvedHalfSpace& solution) {
   if (solution.path == HalfSpacePath::kRest) return kRestAlone;
   if (!solution.is_converged) return "not every state is an equilibrium";
   if (!solution.is_resolved) return kPixelsTooLarge;
-  if (!solution.is_step_converged) return "its steps are too large for the pull-off force: lower half_space/step";
+  if (!solution.is_step_converged)
+    return "its steps are too large for the pull-off force: lower half_space/step";
   return "";
 }
 
 Prediction withHalfSpace(const Prediction& prediction, const SolvedHalfSpace& solution) {
   Prediction judged = prediction;
   judged.status = Status::kEquilibrium;
-  judged.pull_off_force = judged.pull_off_force_jkr = judged.pull_off_force_transition = solution.pull_off_force;
+  judged.pull_off_force = judged.pull_off_force_jkr = judged.pull_off_force_transition =
+      solution.pull_off_force;
   judged.apparent_work_of_adhesion = solution.work_of_adhesion;
   judged.model.respond = nullptr;  // the work is not that of its contacts
   return judged;
@@ -45,7 +47,8 @@ DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_fa
 }
 
 DeviceEvidence DeviceScale::under(const Prediction& contact) const {
-  return scaled(device, contact.pull_off_force / frame_pull_off_force, contact.apparent_work_of_adhesion / frame_work);
+  return scaled(device, contact.pull_off_force / frame_pull_off_force,
+                contact.apparent_work_of_adhesion / frame_work);
 }
 
 double halfSpaceError(const SolvedHalfSpace& solution) {

@@ -26,14 +26,15 @@ bool isPeeled(const Verdict& verdict) {
   return verdict.peel_number < verdict.margin;
 }
 
-Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
-                    bool has_cleanings) {
-  const std::string interval = name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " +
-                               shortNumber(highest) + (has_cleanings ? " (cleaning included)" : "");
+Finding judgedRatio(const std::string& name, double value, double lowest, double highest,
+                    bool is_upper_bound, bool has_cleanings) {
+  const std::string interval = name + " " + shortNumber(value) + ", 95 % within " +
+                               shortNumber(lowest) + " to " + shortNumber(highest) +
+                               (has_cleanings ? " (cleaning included)" : "");
   if (highest < 1.0) return {Sticks::kYes, interval + ": below 1"};
   if (is_upper_bound) {
-    return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name + " at most " +
-                                  shortNumber(value) + ", but not safely below 1"};
+    return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name +
+                                  " at most " + shortNumber(value) + ", but not safely below 1"};
   }
   if (lowest > 1.0) return {Sticks::kNo, interval + ": above 1"};
   return {Sticks::kMarginal, interval + ": 1 lies within"};

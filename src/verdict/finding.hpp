@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The word for a ratio of what opens to what holds, and the sentence that goes with it: the same for one scan and for
-/// the scans of a part.
+/// The word for a ratio of what opens to what holds, and the sentence that goes with it: the same
+/// for one scan and for the scans of a part.
 
 #include <string>
 
@@ -24,11 +24,11 @@ int gravity(Sticks sticks);
 /// - @p lowest, highest ends of its 95 % interval
 /// - @p is_upper_bound the ratio is at most so much: the surfaces bond
 /// - @p has_cleanings the interval knows how far the choice of cleaning moves it
-Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
-                    bool has_cleanings);
+Finding judgedRatio(const std::string& name, double value, double lowest, double highest,
+                    bool is_upper_bound, bool has_cleanings);
 
-/// Whether the peel number is what decides, not the margin: as governed_by says, else the one that is known; where a spring
-/// and a beam are both stated, the smaller.
+/// Whether the peel number is what decides, not the margin: as governed_by says, else the one that
+/// is known; where a spring and a beam are both stated, the smaller.
 bool isPeeled(const Verdict& verdict);
 
 }  // namespace mems_stiction

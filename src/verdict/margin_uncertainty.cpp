@@ -50,16 +50,18 @@ int hamakerSeed(const UncertaintyOptions& uncertainty) { return -1 - uncertainty
 
 std::unique_ptr<ContactResponse> responseOf(const Prediction& prediction, const Options& options) {
   if (prediction.model.respond == nullptr) return nullptr;
-  return prediction.model.respond({options, prediction.asperities, prediction.mechanical_load,
-                                   prediction.electrostatic_force, prediction.van_der_waals_force,
-                                   prediction.pull_off_force, prediction.pull_off_force_jkr, prediction.nominal_area,
-                                   prediction.contact_area, prediction.mean_gap});
+  return prediction.model.respond(
+      {options, prediction.asperities, prediction.mechanical_load, prediction.electrostatic_force,
+       prediction.van_der_waals_force, prediction.pull_off_force, prediction.pull_off_force_jkr,
+       prediction.nominal_area, prediction.contact_area, prediction.mean_gap});
 }
 
 /// Radii go with the square of the pitch, as the nominal area does.
-FigureFactors byExponents(const Prediction& prediction, const ConstantFactors& factors, const FigureFactors& error) {
+FigureFactors byExponents(const Prediction& prediction, const ConstantFactors& factors,
+                          const FigureFactors& error) {
   const auto moved = [&](const Exponents& exponents) {
-    return std::pow(factors.adhesion, exponents.adhesion) * std::pow(factors.modulus, exponents.modulus) *
+    return std::pow(factors.adhesion, exponents.adhesion) *
+           std::pow(factors.modulus, exponents.modulus) *
            std::pow(factors.hamaker, exponents.hamaker);
   };
   return {factors.place * moved(prediction.pull_off_exponents) * error.pull_off,
@@ -80,7 +82,8 @@ double samplingDeviation(const std::vector<Asperity>& contacts) {
 /// Standard normal number below which the share lies. @param share in (0, 1)
 double normalQuantile(double share) {
   if (share > 0.5) return -normalQuantile(1.0 - share);
-  double normal = 0.0;  // from above: the share is convex there, so Newton's steps stay above the root
+  double normal =
+      0.0;  // from above: the share is convex there, so Newton's steps stay above the root
   for (int i = 0; i < 100; ++i) {
     const double density = std::exp(-0.5 * normal * normal) / std::sqrt(2.0 * kPi);
     const double step = (0.5 * std::erfc(-normal / std::sqrt(2.0)) - share) / density;
@@ -91,8 +94,8 @@ double normalQuantile(double share) {
 }
 
 /// Samples of a prediction, in the order in which they are drawn.
-AdhesionSpread samplesOf(const Prediction& prediction, const Options& options, const UncertaintyOptions& uncertainty,
-                         const ModelError& error) {
+AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
+                         const UncertaintyOptions& uncertainty, const ModelError& error) {
   AdhesionSpread spread;
   if (!prediction.listsContacts()) return spread;
   const std::unique_ptr<ContactResponse> response = responseOf(prediction, options);
@@ -121,7 +124,8 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options, c
       moved = response->under(factors);
     } else {
       const double model = numbers.next();
-      moved = byExponents(prediction, factors, {std::exp(error.pull_off * model), std::exp(error.work * model)});
+      moved = byExponents(prediction, factors,
+                          {std::exp(error.pull_off * model), std::exp(error.work * model)});
     }
     spread.pull_off.push_back(moved.pull_off);
     spread.apparent_work.push_back(moved.work);
@@ -172,11 +176,13 @@ void widen(std::vector<double>& samples, const FactorRange& range) {
   const double median = quantile(samples, 0.5);
   const auto count = static_cast<double>(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    // By the shares of quantile(), so that the ends are those of the range; the first and the last are finite.
+    // By the shares of quantile(), so that the ends are those of the range; the first and the last
+    // are finite.
     const double share = static_cast<double>(i) / std::max(count - 1.0, 1.0);
     const double normal = normalQuantile(std::clamp(share, 0.5 / count, 1.0 - 0.5 / count));
     const double distance = std::log(samples[i] / median);
-    const double moved = normal < 0.0 ? -std::hypot(distance, below * normal) : std::hypot(distance, above * normal);
+    const double moved =
+        normal < 0.0 ? -std::hypot(distance, below * normal) : std::hypot(distance, above * normal);
     samples[i] = median * std::exp(moved);
   }
 }
@@ -195,7 +201,8 @@ double quantile(const std::vector<double>& sorted_samples, double share) {
   const double place = share * static_cast<double>(sorted_samples.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(place), sorted_samples.size() - 1);
   const std::size_t above = std::min(below + 1, sorted_samples.size() - 1);
-  return sorted_samples[below] + (place - static_cast<double>(below)) * (sorted_samples[above] - sorted_samples[below]);
+  return sorted_samples[below] +
+         (place - static_cast<double>(below)) * (sorted_samples[above] - sorted_samples[below]);
 }
 
 }  // namespace mems_stiction

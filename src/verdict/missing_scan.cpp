@@ -31,7 +31,8 @@ double roundedDown(double value) {
 }
 
 std::string inUnits(double length) {
-  return length < 0.9995e-6 ? shortNumber(length * 1e9, 3) + " nm" : shortNumber(length * 1e6, 3) + " um";
+  return length < 0.9995e-6 ? shortNumber(length * 1e9, 3) + " nm"
+                            : shortNumber(length * 1e6, 3) + " um";
 }
 
 /// At a wave of this length flattening costs a quarter of the work of adhesion [m].
@@ -53,7 +54,8 @@ ShortWaves shortWaves(const UnresolvedWaves& waves, const Options& options) {
   // h falls as p^H, what is flattened as p^(1/2)
   double share = std::pow(reach / waves.rms_height, 1.0 / waves.hurst);
   const double excess = waves.hurst - 0.5;
-  if (excess > 0.0) share = std::max(share, std::pow(std::min(flattened / waves.rms_height, 1.0), 1.0 / excess));
+  if (excess > 0.0)
+    share = std::max(share, std::pow(std::min(flattened / waves.rms_height, 1.0), 1.0 / excess));
   found.needed_pitch = std::max(roundedDown(0.5 * waves.shortest_shown * share), kSmallestPixel);
   return found;
 }
@@ -61,15 +63,17 @@ ShortWaves shortWaves(const UnresolvedWaves& waves, const Options& options) {
 std::string whatIsMissing(const ShortWaves& found, const std::string& who) {
   if (!found.areUnresolved()) return "";
   const bool is_by_tip = found.waves.shortest_shown > kByTip * 2.0 * found.waves.pitch;
-  const std::string waves = is_by_tip ? "than " + inUnits(found.waves.shortest_shown) + ", which are the tip's,"
-                                      : "than two pixels of " + inUnits(found.waves.pitch);
+  const std::string waves =
+      is_by_tip ? "than " + inUnits(found.waves.shortest_shown) + ", which are the tip's,"
+                : "than two pixels of " + inUnits(found.waves.pitch);
   const std::string instrument = found.needed_pitch <= kPixelOfLight ? "AFM" : "a scan";
   return who + " what holds: waves shorter " + waves + " have an rms height of some " +
          shortNumber(found.waves.rms_height * 1e9, 2) + " nm, and adhesion bridges " +
          shortNumber(found.limit * 1e9, 2) + " nm; missing is " + instrument +
-         (is_by_tip ? " with a sharper tip" : "") + ", " + inUnits(kFewPixels * found.needed_pitch) + " to " +
-         inUnits(kManyPixels * found.needed_pitch) + " wide, pixels of " + inUnits(found.needed_pitch) +
-         " or less, beside which coarser scans serve as wide ones";
+         (is_by_tip ? " with a sharper tip" : "") + ", " +
+         inUnits(kFewPixels * found.needed_pitch) + " to " +
+         inUnits(kManyPixels * found.needed_pitch) + " wide, pixels of " +
+         inUnits(found.needed_pitch) + " or less, beside which coarser scans serve as wide ones";
 }
 
 }  // namespace mems_stiction

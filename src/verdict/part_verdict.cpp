@@ -25,24 +25,29 @@ constexpr std::uint32_t kNoStatementFlags =
 constexpr std::uint32_t kUnboundedFlags = kBondedFlag | kNoEquilibriumFlag;
 
 bool isKnown(const JudgedRatio& ratio) {
-  return std::isfinite(ratio.value) && std::isfinite(ratio.lower) && std::isfinite(ratio.upper) && ratio.value != 0.0;
+  return std::isfinite(ratio.value) && std::isfinite(ratio.lower) && std::isfinite(ratio.upper) &&
+         ratio.value != 0.0;
 }
 
 /// Whether nothing but the number of its contacts keeps the scan from a statement.
 bool lacksOnlyContacts(const ScanStatement& scan) {
   return scan.sticks == Sticks::kUnknown && (isKnown(scan.margin) || isKnown(scan.peel_number)) &&
-         (scan.regime_flags & kNoStatementFlags) == 0 && scan.contacts < kFewestContactsForStatement;
+         (scan.regime_flags & kNoStatementFlags) == 0 &&
+         scan.contacts < kFewestContactsForStatement;
 }
 
-bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan); }
+bool counts(const ScanStatement& scan) {
+  return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan);
+}
 
-/// A scan that does not show what holds: it serves as a wide one, and is no objection to the others.
+/// A scan that does not show what holds: it serves as a wide one, and is no objection to the
+/// others.
 bool isUnresolved(const ScanStatement& scan) { return (scan.regime_flags & kUnresolvedFlag) != 0; }
 
 double squared(double value) { return value * value; }
 
-/// Share of Student's distribution within -t ... t: with tan(theta) = t/sqrt(freedom) its density is that of a power of
-/// the cosine, which is summed by Simpson's rule.
+/// Share of Student's distribution within -t ... t: with tan(theta) = t/sqrt(freedom) its density
+/// is that of a power of the cosine, which is summed by Simpson's rule.
 double studentShare(double t, double freedom) {
   constexpr int kIntervals = 200;
   const double angle = std::atan(t / std::sqrt(freedom));
@@ -51,13 +56,15 @@ double studentShare(double t, double freedom) {
     const double weight = i == 0 || i == kIntervals ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
     sum += weight * std::pow(std::cos(angle * i / kIntervals), freedom - 1.0);
   }
-  const double whole = 0.5 * std::sqrt(kPi) * std::exp(std::lgamma(0.5 * freedom) - std::lgamma(0.5 * freedom + 0.5));
+  const double whole = 0.5 * std::sqrt(kPi) *
+                       std::exp(std::lgamma(0.5 * freedom) - std::lgamma(0.5 * freedom + 0.5));
   return sum * angle / (3.0 * kIntervals) / whole;
 }
 
 double studentDensity(double t, double freedom) {
   const double factor = std::exp(std::lgamma(0.5 * freedom + 0.5) - std::lgamma(0.5 * freedom));
-  return factor / std::sqrt(freedom * kPi) * std::pow(1.0 + t * t / freedom, -0.5 * (freedom + 1.0));
+  return factor / std::sqrt(freedom * kPi) *
+         std::pow(1.0 + t * t / freedom, -0.5 * (freedom + 1.0));
 }
 
 /// One side of the intervals, in standard deviations of the logarithm.
@@ -129,7 +136,8 @@ PooledRatio pooled(const std::vector<const ScanStatement*>& scans, const RatioOf
   }
   const double mean = meanOf(sample.logarithms);
   double variance = 0.0;
-  for (const double logarithm : sample.logarithms) variance += squared(logarithm - mean) / (count - 1.0);
+  for (const double logarithm : sample.logarithms)
+    variance += squared(logarithm - mean) / (count - 1.0);
   const double excess = std::max(0.0, variance - place_variance);
   const double near = Side(sample.near, sample.places).reach(place_variance, excess, count);
   const double away = Side(sample.away, sample.places).reach(place_variance, excess, count);
@@ -141,7 +149,8 @@ PooledRatio pooled(const std::vector<const ScanStatement*>& scans, const RatioOf
   return result;
 }
 
-/// Geometric mean of the margins with the prefactors of the JKR-DMT transition; NaN if a scan has none.
+/// Geometric mean of the margins with the prefactors of the JKR-DMT transition; NaN if a scan has
+/// none.
 double pooledTransition(const std::vector<const ScanStatement*>& scans) {
   std::vector<double> logarithms;
   for (const ScanStatement* scan : scans) {
@@ -159,8 +168,8 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
   Finding finding{Sticks::kNo, "nothing holds the contact: no adhesion"};
   const bool has_margin = isKnown(part.margin);
   const auto worst = [&](const std::string& name, const PooledRatio& ratio) {
-    return "; " + countText(part.counted_scans, "scan") + ", the lowest " + name + " " + shortNumber(ratio.worst) +
-           " of " + ratio.worst_scan;
+    return "; " + countText(part.counted_scans, "scan") + ", the lowest " + name + " " +
+           shortNumber(ratio.worst) + " of " + ratio.worst_scan;
   };
   if (has_margin) {
     const double lowest = std::min(part.margin.lower, pooledTransition(scans));
@@ -180,7 +189,8 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
 std::string whatIsUnbounded(const std::vector<ScanStatement>& scans) {
   for (const ScanStatement& scan : scans) {
     if (counts(scan) || isUnresolved(scan) || (scan.regime_flags & kUnboundedFlags) == 0) continue;
-    return scan.scan_name + " makes no statement, and may hold more than the others: " + scan.reason;
+    return scan.scan_name +
+           " makes no statement, and may hold more than the others: " + scan.reason;
   }
   return "";
 }
@@ -191,58 +201,68 @@ Finding objectionTo(const std::vector<ScanStatement>& scans, const PooledVerdict
   bool is_without_adhesion = true;
   for (const ScanStatement& scan : scans) {
     if (!counts(scan)) continue;
-    if (scan.sticks == Sticks::kYes) return {Sticks::kMarginal, scan.scan_name + " by itself sticks"};
+    if (scan.sticks == Sticks::kYes)
+      return {Sticks::kMarginal, scan.scan_name + " by itself sticks"};
     contacts += scan.contacts;
     if (isKnown(scan.margin) || isKnown(scan.peel_number)) is_without_adhesion = false;
   }
   const std::string unbounded = whatIsUnbounded(scans);
   if (!unbounded.empty()) return {Sticks::kUnknown, unbounded};
-  const auto asked = static_cast<int>(std::count_if(
-      scans.begin(), scans.end(), [](const ScanStatement& scan) { return counts(scan) || !isUnresolved(scan); }));
+  const auto asked =
+      static_cast<int>(std::count_if(scans.begin(), scans.end(), [](const ScanStatement& scan) {
+        return counts(scan) || !isUnresolved(scan);
+      }));
   if (2 * part.counted_scans < asked) {
-    return {Sticks::kUnknown,
-            "only " + std::to_string(part.counted_scans) + " of " + countText(asked, "scan") + " make a statement"};
+    return {Sticks::kUnknown, "only " + std::to_string(part.counted_scans) + " of " +
+                                  countText(asked, "scan") + " make a statement"};
   }
   if (contacts < kFewestContactsForStatement && !is_without_adhesion) {
-    return {Sticks::kUnknown, "the answer rests on " + countText(contacts, "contact") + ": scan more places"};
+    return {Sticks::kUnknown,
+            "the answer rests on " + countText(contacts, "contact") + ": scan more places"};
   }
   return {Sticks::kNo, ""};
 }
 
 int judgedBy(Judge judge, const std::vector<const ScanStatement*>& scans) {
-  return static_cast<int>(
-      std::count_if(scans.begin(), scans.end(), [&](const ScanStatement* scan) { return scan->judge == judge; }));
+  return static_cast<int>(std::count_if(
+      scans.begin(), scans.end(), [&](const ScanStatement* scan) { return scan->judge == judge; }));
 }
 
 std::string judgesOf(const std::vector<const ScanStatement*>& scans) {
   std::string text;
   for (const Judge judge : {Judge::kPrediction, Judge::kHalfSpace}) {
-    if (judgedBy(judge, scans) > 0) text += (text.empty() ? "" : " and ") + std::string(judgeText(judge));
+    if (judgedBy(judge, scans) > 0)
+      text += (text.empty() ? "" : " and ") + std::string(judgeText(judge));
   }
   return text;
 }
 
 std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans,
-                                    const std::vector<const ScanStatement*>& counted, const PooledVerdict& part) {
+                                    const std::vector<const ScanStatement*>& counted,
+                                    const PooledVerdict& part) {
   std::vector<std::string> warnings;
   const int silent = part.scan_count - part.counted_scans;
   if (silent > 0) {
-    const auto last = std::find_if(scans.rbegin(), scans.rend(), [](const auto& scan) { return !counts(scan); });
+    const auto last =
+        std::find_if(scans.rbegin(), scans.rend(), [](const auto& scan) { return !counts(scan); });
     warnings.push_back(std::to_string(silent) + " of " + countText(part.scan_count, "scan") +
-                       (silent == 1 ? " does" : " do") + " not count; of " + last->scan_name + ": " + last->reason);
+                       (silent == 1 ? " does" : " do") + " not count; of " + last->scan_name +
+                       ": " + last->reason);
   }
   const int by_half_space = judgedBy(Judge::kHalfSpace, counted);
   const int by_prediction = judgedBy(Judge::kPrediction, counted);
   if (by_half_space > 0 && by_prediction > 0) {
     warnings.push_back("the half-space has judged " + std::to_string(by_half_space) + " of the " +
-                       std::to_string(part.counted_scans) + " scans that count, the prediction the others");
+                       std::to_string(part.counted_scans) +
+                       " scans that count, the prediction the others");
   }
   return warnings;
 }
 
 }  // namespace
 
-ScanStatement statementOf(const std::string& scan_name, const Prediction& prediction, const Verdict& verdict) {
+ScanStatement statementOf(const std::string& scan_name, const Prediction& prediction,
+                          const Verdict& verdict) {
   ScanStatement statement;
   statement.scan_name = scan_name;
   statement.contacts = prediction.pull_off_contact_count;
@@ -259,7 +279,8 @@ void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
     statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
   }
   if (verdict.governed_by != kGovernedByForce) {
-    statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
+    statement.peel_number = {verdict.peel_number, verdict.peel_number_lower,
+                             verdict.peel_number_upper};
   }
   statement.margin_transition = verdict.margin_transition;
   statement.place_deviation = verdict.place_deviation;
@@ -277,21 +298,25 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
   part.counted_scans = static_cast<int>(counted.size());
   part.verdict_by = judgesOf(counted);
   part.warnings = warningsOf(scans, counted, part);
-  part.margin = pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.margin; });
-  part.peel_number = pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.peel_number; });
+  part.margin =
+      pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.margin; });
+  part.peel_number = pooled(
+      counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.peel_number; });
   if (scans.size() == 1) {
     part.sticks = scans.front().sticks;
     part.reason = scans.front().reason;
     return part;
   }
   if (counted.empty()) {
-    part.reason = scans.empty() ? "no scan yet" : "no scan makes a statement; " + scans.back().reason;
+    part.reason =
+        scans.empty() ? "no scan yet" : "no scan makes a statement; " + scans.back().reason;
     return part;
   }
   Finding finding = findingOf(counted, part);
   if (finding.sticks == Sticks::kNo) {
     const Finding objection = objectionTo(scans, part);
-    if (objection.sticks != Sticks::kNo) finding = {objection.sticks, finding.reason + "; but " + objection.reason};
+    if (objection.sticks != Sticks::kNo)
+      finding = {objection.sticks, finding.reason + "; but " + objection.reason};
   }
   part.sticks = finding.sticks;
   part.reason = finding.reason;
@@ -319,11 +344,15 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Ver
 }
 
 double studentQuantile(double freedom) {
-  constexpr double kLarge = 1e5;  // from here on one term of the expansion in 1/freedom is left, within 1e-9
-  if (!(freedom < kLarge)) return kToQuantile + (kToQuantile * kToQuantile + 1.0) * kToQuantile / (4.0 * freedom);
-  double quantile = kToQuantile;  // from below: the share is concave, so that Newton's steps stay below the root
+  constexpr double kLarge =
+      1e5;  // from here on one term of the expansion in 1/freedom is left, within 1e-9
+  if (!(freedom < kLarge))
+    return kToQuantile + (kToQuantile * kToQuantile + 1.0) * kToQuantile / (4.0 * freedom);
+  double quantile =
+      kToQuantile;  // from below: the share is concave, so that Newton's steps stay below the root
   for (int i = 0; i < 50; ++i) {
-    const double step = (kInside - studentShare(quantile, freedom)) / (2.0 * studentDensity(quantile, freedom));
+    const double step =
+        (kInside - studentShare(quantile, freedom)) / (2.0 * studentDensity(quantile, freedom));
     quantile += step;
     if (std::abs(step) < 1e-10 * quantile) break;
   }

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The figures of the verdict on a part, as prediction/prediction_fields.hpp has those of the prediction.
+/// The figures of the verdict on a part, as prediction/prediction_fields.hpp has those of the
+/// prediction.
 
 #include "mems_stiction/settings/figure.hpp"
 #include "verdict/part_verdict.hpp"
@@ -14,14 +15,17 @@ namespace mems_stiction {
 template <typename VerdictType, typename Visitor>
 void visitPartVerdictFields(VerdictType& part, Visitor&& visit) {
   visit({"scan_count", "", "scans of this part"}, part.scan_count);
-  visit({"counted_scans", "", "of them make a statement: the figures are theirs"}, part.counted_scans);
+  visit({"counted_scans", "", "of them make a statement: the figures are theirs"},
+        part.counted_scans);
   visit({"sticks", "", "no, marginal, yes or unknown"}, part.sticks);
   visit({"reason", "", "of sticks, one sentence"}, part.reason);
   visit({"verdict_by", "", "who has judged the scans that count"}, part.verdict_by);
-  visit({"margin", "", "restoring over pull-off force, geometric mean over the scans"}, part.margin.value);
+  visit({"margin", "", "restoring over pull-off force, geometric mean over the scans"},
+        part.margin.value);
   visit({"margin_lower", "", "2.5 % quantile of margin"}, part.margin.lower);
   visit({"margin_upper", "", "97.5 % quantile of margin"}, part.margin.upper);
-  visit({"margin_spread", "", "standard deviation of ln margin between the scans; NaN of fewer than two"},
+  visit({"margin_spread", "",
+         "standard deviation of ln margin between the scans; NaN of fewer than two"},
         part.margin.spread);
   visit({"margin_place_spread", "", "what the number of contacts explains of the spread of margin"},
         part.margin.place_spread);
@@ -30,9 +34,11 @@ void visitPartVerdictFields(VerdictType& part, Visitor&& visit) {
   visit({"peel_number", "", "of the beam, geometric mean over the scans"}, part.peel_number.value);
   visit({"peel_number_lower", "", "2.5 % quantile of peel_number"}, part.peel_number.lower);
   visit({"peel_number_upper", "", "97.5 % quantile of peel_number"}, part.peel_number.upper);
-  visit({"peel_number_spread", "", "standard deviation of ln peel_number between the scans; NaN of fewer than two"},
+  visit({"peel_number_spread", "",
+         "standard deviation of ln peel_number between the scans; NaN of fewer than two"},
         part.peel_number.spread);
-  visit({"peel_number_place_spread", "", "what the number of contacts explains of the spread of peel_number"},
+  visit({"peel_number_place_spread", "",
+         "what the number of contacts explains of the spread of peel_number"},
         part.peel_number.place_spread);
   visit({"worst_peel_number", "", "lowest peel_number of one scan"}, part.peel_number.worst);
   visit({"worst_peel_number_scan", "", "its name"}, part.peel_number.worst_scan);

@@ -22,8 +22,8 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
   const std::vector<Asperity>& contacts = prediction.holdingContacts();
   if (contacts.empty()) {
     const double mean_area = prediction.contact_area / prediction.asperity_count;
-    shares.flowing =
-        static_cast<double>(prediction.asperity_count - prediction.elastic_count) / prediction.asperity_count;
+    shares.flowing = static_cast<double>(prediction.asperity_count - prediction.elastic_count) /
+                     prediction.asperity_count;
     shares.small = mean_area < smallest_area ? 1.0 : 0.0;
     shares.single = mean_area < kOneCell * cell_area ? 1.0 : 0.0;
     return shares;
@@ -53,7 +53,8 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   if (prediction.short_waves.areUnresolved()) flags |= kUnresolvedFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.pull_off_contact_count == 0) return flags | kFewContactsFlag;
-  if (prediction.model.assumes_jkr && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
+  if (prediction.model.assumes_jkr && prediction.contact_theory != ContactTheory::kJkr)
+    flags |= kTaborFlag;
   const Shares shares = sharesOf(prediction, cell_area);
   if (shares.flowing > kLargeShare) flags |= kPlasticityFlag;
   if (shares.small > kLargeShare) flags |= kResolutionFlag;

@@ -9,11 +9,12 @@
 namespace mems_stiction {
 
 void ResolutionOptions::describe(OptionVisitor& visitor) {
-  visitor.number("resolution/min_contact_pixels", min_contact_pixels, "", Range::nonNegative(),
-                 "a median contact of fewer pixels of the scan sets is_resolution_limited; 0 = never");
   visitor.number(
-      "resolution/tip_radius", tip_radius, "m", Range::nonNegative(),
-      "radius of the tip that drew the scan, for is_tip_limited and tip_limit; 0 = that of preprocessing/tip");
+      "resolution/min_contact_pixels", min_contact_pixels, "", Range::nonNegative(),
+      "a median contact of fewer pixels of the scan sets is_resolution_limited; 0 = never");
+  visitor.number("resolution/tip_radius", tip_radius, "m", Range::nonNegative(),
+                 "radius of the tip that drew the scan, for is_tip_limited and tip_limit; 0 = that "
+                 "of preprocessing/tip");
 }
 
 void flagResolution(double min_contact_pixels, double tip_radius, Prediction& prediction) {
@@ -29,8 +30,9 @@ void countBelowTip(double tip_limit, Prediction& prediction) {
   const bool are_listed = !prediction.pull_off_contacts.empty() || prediction.listsContacts();
   if (std::isnan(tip_limit) || !are_listed) return;
   const double smallest_area = 0.25 * kPi * tip_limit * tip_limit;
-  prediction.below_tip_count = static_cast<int>(std::count_if(
-      contacts.begin(), contacts.end(), [&](const Asperity& contact) { return contact.area < smallest_area; }));
+  prediction.below_tip_count = static_cast<int>(
+      std::count_if(contacts.begin(), contacts.end(),
+                    [&](const Asperity& contact) { return contact.area < smallest_area; }));
 }
 
 }  // namespace mems_stiction

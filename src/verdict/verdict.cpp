@@ -14,9 +14,11 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
+constexpr double kStandardLower =
+    0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
-constexpr double kReach95 = 1.959964;  // standard deviations of a normal distribution that hold 95 % of it
+constexpr double kReach95 =
+    1.959964;  // standard deviations of a normal distribution that hold 95 % of it
 /// By less the linear rule's margin may differ unsaid [-].
 constexpr double kWorthSaying = 1.5;
 
@@ -25,21 +27,24 @@ bool hasContact(const DeviceOptions& device) {
   return device.contact_area > 0.0 && (device.hasSpring() || device.hasBeamContact());
 }
 
-/// What there is to say where the contacts are not listed, so that nothing tells how far the figures may be off.
+/// What there is to say where the contacts are not listed, so that nothing tells how far the
+/// figures may be off.
 Finding withoutContacts(const std::string& what, const Prediction& prediction) {
   return {Sticks::kUnknown,
           what + " needs the list of contacts: " +
-              (prediction.has_asperities ? "output/asperities is off" : "this approach/formulation tells none apart")};
+              (prediction.has_asperities ? "output/asperities is off"
+                                         : "this approach/formulation tells none apart")};
 }
 
-/// "2.2e-09 m (now 1e-08 m), 512 x 512 of them on 1.1e-06 m": pixels of which a contact of one pixel would have enough.
+/// "2.2e-09 m (now 1e-08 m), 512 x 512 of them on 1.1e-06 m": pixels of which a contact of one
+/// pixel would have enough.
 std::string finerPixels(double cell_area) {
   constexpr int kUsual = 512;  // pixels of a side
   const double pitch = std::sqrt(cell_area);
   const double finer = pitch / std::sqrt(kFewestCellsPerContact);
   const std::string side = std::to_string(kUsual);
-  return shortNumber(finer, 2) + " m (now " + shortNumber(pitch, 2) + " m), " + side + " x " + side + " of them on " +
-         shortNumber(kUsual * finer, 2) + " m";
+  return shortNumber(finer, 2) + " m (now " + shortNumber(pitch, 2) + " m), " + side + " x " +
+         side + " of them on " + shortNumber(kUsual * finer, 2) + " m";
 }
 
 /// "at least 3 times", for one contact.
@@ -50,7 +55,8 @@ std::string areaFactor(int contacts) {
 
 /// Why a scan can carry no plain "no", and what to do, one thing after the other; empty if it can.
 /// - @p cell_area of the scan [m^2]
-/// - @p of_device surfaces of the device's size judge, whose contacts are not those of the scan; nullptr: the scan does
+/// - @p of_device surfaces of the device's size judge, whose contacts are not those of the scan;
+/// nullptr: the scan does
 std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double cell_area,
                       const DeviceEvidence* of_device) {
   const bool is_of_device = of_device != nullptr;
@@ -58,21 +64,25 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double 
   const bool has_few = prediction.has_asperities && contacts < kFewestContactsForStatement;
   if ((flags & kOnePixelFlag) != 0) {
     const bool needs_places = !is_of_device && (has_few || (flags & kBorderFlag) != 0);
-    return "the answer rests on contacts of one pixel: scan finer pixels" + std::string(needs_places ? " first" : "") +
-           ", of at most " + finerPixels(cell_area) +
-           (needs_places ? ", then as many such places as have " + std::to_string(kFewestContactsForStatement) +
-                               " contacts inside; a larger area of the same pixels would show none better"
-                         : "") +
+    return "the answer rests on contacts of one pixel: scan finer pixels" +
+           std::string(needs_places ? " first" : "") + ", of at most " + finerPixels(cell_area) +
+           (needs_places
+                ? ", then as many such places as have " +
+                      std::to_string(kFewestContactsForStatement) +
+                      " contacts inside; a larger area of the same pixels would show none better"
+                : "") +
            "; or set preprocessing/refine";
   }
   if (!is_of_device && (flags & kBorderFlag) != 0) {
-    return "the answer rests on a contact at the border of the frame, whose summit may lie outside: scan another "
+    return "the answer rests on a contact at the border of the frame, whose summit may lie "
+           "outside: scan another "
            "place, "
            "or a larger one";
   }
   if (has_few) {
-    return "the answer rests on " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts") +
-           (is_of_device ? " in all scans" : "") + ": scan more places, or an area " + areaFactor(contacts) +
+    return "the answer rests on " + std::to_string(contacts) +
+           (contacts == 1 ? " contact" : " contacts") + (is_of_device ? " in all scans" : "") +
+           ": scan more places, or an area " + areaFactor(contacts) +
            " as large, another may have higher summits";
   }
   return "";
@@ -115,15 +125,18 @@ Finding springFinding(const Holding& holding, Verdict& verdict) {
   if (!holding.spread.isKnown()) return withoutContacts("the margin's interval", prediction);
   // the margin falls as the pull-off force grows
   const std::vector<double>& forces = holding.spread.pull_off;
-  verdict.device_pull_off_force_lower = verdict.device_pull_off_force * quantile(forces, kLowerShare);
-  verdict.device_pull_off_force_upper = verdict.device_pull_off_force * quantile(forces, kUpperShare);
+  verdict.device_pull_off_force_lower =
+      verdict.device_pull_off_force * quantile(forces, kLowerShare);
+  verdict.device_pull_off_force_upper =
+      verdict.device_pull_off_force * quantile(forces, kUpperShare);
   verdict.margin_lower = verdict.restoring_force / verdict.device_pull_off_force_upper;
   verdict.margin_upper = verdict.restoring_force / verdict.device_pull_off_force_lower;
   verdict.margin_uncertainty =
-      0.5 * verdict.margin * (1.0 / quantile(forces, kStandardLower) - 1.0 / quantile(forces, kStandardUpper));
+      0.5 * verdict.margin *
+      (1.0 / quantile(forces, kStandardLower) - 1.0 / quantile(forces, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  Finding finding = judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(),
-                                holding.has_cleanings);
+  Finding finding = judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper,
+                                prediction.isLowerBound(), holding.has_cleanings);
   if (holding.of_device != nullptr) finding.reason += linearMargin(*holding.of_device, verdict);
   return finding;
 }
@@ -141,26 +154,31 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
   if (!is_measured) {  // known, as the contacts that the work of adhesion was summed over
-    const double at_most = verdict.peel_number / quantile(holding.spread.apparent_work, kLowerShare);
-    const double at_least = verdict.peel_number / quantile(holding.spread.apparent_work, kUpperShare);
-    verdict.peel_number_lower = std::min(at_least, at_most);  // compressed beams have peel numbers below 0
+    const double at_most =
+        verdict.peel_number / quantile(holding.spread.apparent_work, kLowerShare);
+    const double at_least =
+        verdict.peel_number / quantile(holding.spread.apparent_work, kUpperShare);
+    verdict.peel_number_lower =
+        std::min(at_least, at_most);  // compressed beams have peel numbers below 0
     verdict.peel_number_upper = std::max(at_least, at_most);
   }
-  Finding finding =
-      judgedRatio("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
-                  holding.prediction.isLowerBound() && !is_measured, holding.has_cleanings && !is_measured);
+  Finding finding = judgedRatio(
+      "peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
+      holding.prediction.isLowerBound() && !is_measured, holding.has_cleanings && !is_measured);
   if (!is_measured && device.contact_area == 0.0) {
-    finding.reason += "; by the scan's work of adhesion: with device/contact_area it would be that of the device";
+    finding.reason +=
+        "; by the scan's work of adhesion: with device/contact_area it would be that of the device";
   }
   return finding;
 }
 
-/// The decay length of a bonded beam over peelLength(), which is half of it: ends of a contact that are further apart do not feel each
-/// other [-].
+/// The decay length of a bonded beam over peelLength(), which is half of it: ends of a contact that
+/// are further apart do not feel each other [-].
 constexpr double kDecayLength = 2.0;
 
-/// How far along a beam adhesion gives way at one time (peelLength()), and between which lengths a contact is neither pulled open as a
-/// whole nor peeled: from the shortest that 95 % contain to the longest decay length [m].
+/// How far along a beam adhesion gives way at one time (peelLength()), and between which lengths a
+/// contact is neither pulled open as a whole nor peeled: from the shortest that 95 % contain to the
+/// longest decay length [m].
 struct PeelReach {
   double length = 0.0;
   double shortest = 0.0;
@@ -187,10 +205,12 @@ PeelReach peelReach(const Holding& holding, const Verdict& verdict) {
   return reach;
 }
 
-/// Of a beam whose force and whose work of adhesion are both known, that which decides: by how far the contact reaches, and the
-/// worse of both where that leaves it open.
-Finding governingFinding(const Holding& holding, Finding of_force, Finding of_work, Verdict& verdict) {
-  if (std::isnan(verdict.margin) || std::isnan(verdict.peel_number) || std::isinf(verdict.margin)) return of_work;
+/// Of a beam whose force and whose work of adhesion are both known, that which decides: by how far
+/// the contact reaches, and the worse of both where that leaves it open.
+Finding governingFinding(const Holding& holding, Finding of_force, Finding of_work,
+                         Verdict& verdict) {
+  if (std::isnan(verdict.margin) || std::isnan(verdict.peel_number) || std::isinf(verdict.margin))
+    return of_work;
   const double reach = holding.device.beamContactLength();
   const PeelReach peeled = peelReach(holding, verdict);
   const bool is_open = reach > peeled.shortest && reach < peeled.longest;
@@ -198,15 +218,20 @@ Finding governingFinding(const Holding& holding, Finding of_force, Finding of_wo
   const bool is_force = worse_force != 0 ? worse_force > 0 : reach < peeled.length;
   verdict.governed_by = is_force ? kGovernedByForce : kGovernedByPeeling;
   Finding finding = is_force ? std::move(of_force) : std::move(of_work);
-  const std::string whole = "pulled open as a whole (up to " + shortNumber(peeled.shortest, 2) + " m)";
+  const std::string whole =
+      "pulled open as a whole (up to " + shortNumber(peeled.shortest, 2) + " m)";
   const std::string peeling = "peeled (from " + shortNumber(peeled.longest, 2) + " m on)";
   const std::string compared =
-      is_open ? "between being " + whole + " and " + peeling + ", so that the worse of both counts: "
-              : std::string(is_force ? "less" : "further") + " than the " + shortNumber(peeled.length, 2) +
-                    " m over which adhesion gives way at one time, so that ";
-  finding.reason += "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " + compared +
-                    (is_force ? "its force decides (peel number " + shortNumber(verdict.peel_number, 2) + ")"
-                              : "it is peeled (the margin of its force is " + shortNumber(verdict.margin, 2) + ")");
+      is_open
+          ? "between being " + whole + " and " + peeling + ", so that the worse of both counts: "
+          : std::string(is_force ? "less" : "further") + " than the " +
+                shortNumber(peeled.length, 2) +
+                " m over which adhesion gives way at one time, so that ";
+  finding.reason +=
+      "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " + compared +
+      (is_force
+           ? "its force decides (peel number " + shortNumber(verdict.peel_number, 2) + ")"
+           : "it is peeled (the margin of its force is " + shortNumber(verdict.margin, 2) + ")");
   return finding;
 }
 
@@ -236,36 +261,41 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   verdict.pull_in_voltage = closingVoltage(device, options.interface);
   verdict.apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
   const bool has_contact = hasContact(device);
-  if (device.hasSpring() || device.hasBeamContact()) verdict.restoring_force = device.restoringForce();
+  if (device.hasSpring() || device.hasBeamContact())
+    verdict.restoring_force = device.restoringForce();
   if (!has_contact && !device.hasBeam()) {
     const std::string missing = whatSpringLacks(device);
-    verdict.reason =
-        "the device is not stated" +
-        (missing.empty() ? ": it needs device/spring_stiffness with device/travel and device/contact_area; or a beam"
-                         : " in full: " + missing + " must be > 0");
+    verdict.reason = "the device is not stated" +
+                     (missing.empty() ? ": it needs device/spring_stiffness with device/travel and "
+                                        "device/contact_area; or a beam"
+                                      : " in full: " + missing + " must be > 0");
     return verdict;
   }
   const DeviceEvidence* of_device = evidence.device ? &*evidence.device : nullptr;
   if (device.apparent_work_of_adhesion > 0.0) {
     verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion;
   } else {
-    verdict.apparent_work_of_adhesion =
-        of_device != nullptr ? of_device->apparent_work_of_adhesion : apparentWorkOfAdhesion(prediction, options);
+    verdict.apparent_work_of_adhesion = of_device != nullptr
+                                            ? of_device->apparent_work_of_adhesion
+                                            : apparentWorkOfAdhesion(prediction, options);
   }
   if (prediction.status == Status::kNoEquilibrium) {
-    verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
+    verdict.reason =
+        "the search for equilibrium ended before it was found: raise approach/max_steps";
     return verdict;
   }
 
   const AdhesionSpread spread = spread_of();
   verdict.place_deviation = spread.place_deviation;
-  verdict.surface_reach = of_device != nullptr ? of_device->surface_reach : kReach95 * spread.place_deviation;
-  std::string why_not =
-      of_device != nullptr ? of_device->missing_scan : whatIsMissing(prediction.short_waves, kTheScan);
+  verdict.surface_reach =
+      of_device != nullptr ? of_device->surface_reach : kReach95 * spread.place_deviation;
+  std::string why_not = of_device != nullptr ? of_device->missing_scan
+                                             : whatIsMissing(prediction.short_waves, kTheScan);
   if (why_not.empty() && of_device == nullptr && !hasSizeOfScan(prediction, device)) {
     why_not = whatSizeLacks(prediction, device, evidence.why_no_device);
   }
-  const Holding holding{prediction, device, spread, of_device, evidence.cleaning.has_value(), why_not};
+  const Holding holding{prediction, device, spread, of_device, evidence.cleaning.has_value(),
+                        why_not};
   Finding finding{Sticks::kNo, ""};
   if (has_contact) finding = springFinding(holding, verdict);
   if (device.hasBeam()) {
@@ -278,10 +308,12 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   }
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
-  const bool is_of_scan = has_contact || device.apparent_work_of_adhesion == 0.0;  // not of beams that were measured
-  const std::string lack = finding.sticks == Sticks::kNo && is_of_scan && prediction.pull_off_force > 0.0
-                               ? whatLacks(prediction, flags, cell_area, of_device)
-                               : "";
+  const bool is_of_scan =
+      has_contact || device.apparent_work_of_adhesion == 0.0;  // not of beams that were measured
+  const std::string lack =
+      finding.sticks == Sticks::kNo && is_of_scan && prediction.pull_off_force > 0.0
+          ? whatLacks(prediction, flags, cell_area, of_device)
+          : "";
   if (!lack.empty()) {
     verdict.sticks = Sticks::kUnknown;
     verdict.reason = finding.reason + "; but " + lack;
@@ -296,22 +328,26 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
 
 }  // namespace
 
-const char* judgeText(Judge judge) { return judge == Judge::kHalfSpace ? "half_space" : "prediction"; }
+const char* judgeText(Judge judge) {
+  return judge == Judge::kHalfSpace ? "half_space" : "prediction";
+}
 
 const char* sticksText(Sticks sticks) {
   constexpr const char* kWords[] = {"no", "marginal", "yes", "unknown"};
   return kWords[static_cast<int>(sticks)];
 }
 
-Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                  const Options& options, double cell_area, const Evidence& evidence) {
+Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device,
+                  const UncertaintyOptions& uncertainty, const Options& options, double cell_area,
+                  const Evidence& evidence) {
   const std::uint32_t flags = regimeFlags(prediction, cell_area);
   const bool is_asked = evidence.half_space != nullptr && (hasContact(device) || device.hasBeam());
   const std::string objection = is_asked ? whyNotJudging(*evidence.half_space) : "";
   const std::string& why = evidence.why_half_space;
   Evidence counted = evidence;
-  if (evidence.device && !(std::isfinite(evidence.device->pull_off_force) && !evidence.device->force_factors.empty() &&
-                           std::isfinite(evidence.device->force_factors.back()))) {
+  if (evidence.device &&
+      !(std::isfinite(evidence.device->pull_off_force) && !evidence.device->force_factors.empty() &&
+        std::isfinite(evidence.device->force_factors.back()))) {
     if (counted.why_no_device.empty() && !evidence.device->warnings.empty()) {
       counted.why_no_device = evidence.device->warnings.front();
     }
@@ -320,8 +356,9 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   if (!is_asked || !objection.empty()) counted.half_space = nullptr;
   const auto judged_by = [&](const Prediction& figures) {
     if (counted.device && counted.half_space != nullptr) {
-      counted.device = scaled(*counted.device, figures.pull_off_force / prediction.pull_off_force,
-                              figures.apparent_work_of_adhesion / prediction.apparent_work_of_adhesion);
+      counted.device =
+          scaled(*counted.device, figures.pull_off_force / prediction.pull_off_force,
+                 figures.apparent_work_of_adhesion / prediction.apparent_work_of_adhesion);
     }
     return verdictBy(figures, device, options, flags, cell_area, counted,
                      [&] { return adhesionSpread(prediction, options, uncertainty, counted); });
@@ -329,7 +366,8 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   if (counted.half_space == nullptr) {
     Verdict verdict = judged_by(prediction);
     if (!objection.empty()) {
-      verdict.reason += "; " + (why.empty() ? "the half-space" : why + " asks for the half-space, which") +
+      verdict.reason += "; " +
+                        (why.empty() ? "the half-space" : why + " asks for the half-space, which") +
                         " does not count: " + objection;
     } else if (!why.empty() && !evidence.where_half_space.empty()) {
       verdict.reason += "; " + why + " asks for the half-space: " + evidence.where_half_space;
@@ -338,7 +376,8 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   }
   Verdict verdict = judged_by(withHalfSpace(prediction, *evidence.half_space));
   verdict.judge = Judge::kHalfSpace;
-  verdict.reason = "by the half-space" + (why.empty() ? "" : ", as " + why + " asks for it") + ": " + verdict.reason;
+  verdict.reason = "by the half-space" + (why.empty() ? "" : ", as " + why + " asks for it") +
+                   ": " + verdict.reason;
   return verdict;
 }
 

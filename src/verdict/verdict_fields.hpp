@@ -19,28 +19,35 @@ void visitVerdictFields(VerdictType& verdict, Visitor&& visit) {
   visit({"reason", "", "of sticks, one sentence"}, verdict.reason);
   visit({"restoring_force", "N", "of the device's spring"}, verdict.restoring_force);
   visit({"device_pull_off_force", "N", "of the whole device"}, verdict.device_pull_off_force);
-  visit({"margin", "", "restoring over pull-off force: above 1 the spring wins; infinite without adhesion"},
+  visit({"margin", "",
+         "restoring over pull-off force: above 1 the spring wins; infinite without adhesion"},
         verdict.margin);
   visit({"margin_lower", "", "2.5 % quantile of margin"}, verdict.margin_lower);
   visit({"margin_upper", "", "97.5 % quantile of margin"}, verdict.margin_upper);
-  visit({"margin_uncertainty", "", "half of the central 68 % interval of margin"}, verdict.margin_uncertainty);
-  visit({"margin_transition", "", "margin with the prefactors of the JKR-DMT transition"}, verdict.margin_transition);
+  visit({"margin_uncertainty", "", "half of the central 68 % interval of margin"},
+        verdict.margin_uncertainty);
+  visit({"margin_transition", "", "margin with the prefactors of the JKR-DMT transition"},
+        verdict.margin_transition);
   visit({"apparent_work_of_adhesion", "J/m^2", "of the rough interface, per nominal area"},
         verdict.apparent_work_of_adhesion);
-  visit({"peel_number", "", "of the beam: above 1 it comes off (de Boer and Michalske 1999)"}, verdict.peel_number);
+  visit({"peel_number", "", "of the beam: above 1 it comes off (de Boer and Michalske 1999)"},
+        verdict.peel_number);
   visit({"peel_number_lower", "", "2.5 % quantile of peel_number"}, verdict.peel_number_lower);
   visit({"peel_number_upper", "", "97.5 % quantile of peel_number"}, verdict.peel_number_upper);
-  visit({"detachment_length", "m", "longest beam that comes off by itself (Mastrangelo and Hsu 1993)"},
+  visit({"detachment_length", "m",
+         "longest beam that comes off by itself (Mastrangelo and Hsu 1993)"},
         verdict.detachment_length);
   visit({"unstuck_length", "m", "free arm of the beam while it is stuck"}, verdict.unstuck_length);
   visit({"pull_in_voltage", "V", "at which the electrodes close"}, verdict.pull_in_voltage);
-  visit({"regime_flags", "", "where the model leaves its range: bits, 0 when all is well"}, verdict.regime_flags);
+  visit({"regime_flags", "", "where the model leaves its range: bits, 0 when all is well"},
+        verdict.regime_flags);
   visit({"device_pull_off_force_lower", "N", "2.5 % quantile of device_pull_off_force"},
         verdict.device_pull_off_force_lower);
   visit({"device_pull_off_force_upper", "N", "97.5 % quantile of device_pull_off_force"},
         verdict.device_pull_off_force_upper);
   visit({"governed_by", "",
-         "force or peeling: which of margin and peel number decides whether a beam sticks; empty where one "
+         "force or peeling: which of margin and peel number decides whether a beam sticks; empty "
+         "where one "
          "is all there is"},
         verdict.governed_by);
 }

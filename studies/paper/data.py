@@ -22,7 +22,9 @@ class Sweep:
 
     def values(self, material, series, field):
         """adhesion parameters x seeds"""
-        return np.array([[number(one[field]) for one in row] for row in self._rows(material, series)])
+        return np.array(
+            [[number(one[field]) for one in row] for row in self._rows(material, series)]
+        )
 
     def status(self, material, series):
         """adhesion parameters x seeds, words"""
@@ -32,8 +34,13 @@ class Sweep:
         return np.mean(self.status(material, series) == "BONDED", axis=1)
 
     def _rows(self, material, series):
-        return [[self._results["sweep/%s/%s/%d/%d" % (material.name, series, place, seed)]
-                 for seed in range(1, self._study.seeds + 1)] for place in range(len(self.parameters))]
+        return [
+            [
+                self._results["sweep/%s/%s/%d/%d" % (material.name, series, place, seed)]
+                for seed in range(1, self._study.seeds + 1)
+            ]
+            for place in range(len(self.parameters))
+        ]
 
 
 class HalfSpaceFrames:
@@ -48,25 +55,55 @@ class HalfSpaceFrames:
 
     def half_space(self, material, field):
         """NaN where it was not solved."""
-        return np.array([[number(one["half_space_" + field]) if one["half_space_status"] == "SOLVED" else math.nan for one in row]
-                         for row in self._rows(material)])
+        return np.array(
+            [
+                [
+                    number(one["half_space_" + field])
+                    if one["half_space_status"] == "SOLVED"
+                    else math.nan
+                    for one in row
+                ]
+                for row in self._rows(material)
+            ]
+        )
 
     def _rows(self, material):
-        return [[self._results["half_space/%s/%d/%d" % (material.name, place, seed)]
-                 for seed in range(1, self._study.half_space_seeds + 1)] for place in range(len(self.parameters))]
+        return [
+            [
+                self._results["half_space/%s/%d/%d" % (material.name, place, seed)]
+                for seed in range(1, self._study.half_space_seeds + 1)
+            ]
+            for place in range(len(self.parameters))
+        ]
 
 
 class PressedFrames:
-    """The small frames under a load: arrays of flow and of the elastic case, parameters x presses x seeds."""
+    """The small frames under a load: arrays of flow and of the elastic case, parameters x presses x
+    seeds."""
 
     def __init__(self, study, results):
         self._study, self._results = study, results
 
     def with_and_without_flow(self, material, field):
-        """A pair of arrays. `field` of the default; "half_space_..." of the half-space, NaN where it was not solved."""
-        return tuple(np.array([[[self._value(cases.pressed_name(material, is_flowing, number, press, seed), field)
-                                 for seed in range(1, self._study.half_space_seeds + 1)] for press in self._study.presses]
-                               for number in range(len(self._study.pressed_parameters))]) for is_flowing in (True, False))
+        """A pair of arrays. `field` of the default; "half_space_..." of the half-space, NaN where
+        it was not solved."""
+        return tuple(
+            np.array(
+                [
+                    [
+                        [
+                            self._value(
+                                cases.pressed_name(material, is_flowing, number, press, seed), field
+                            )
+                            for seed in range(1, self._study.half_space_seeds + 1)
+                        ]
+                        for press in self._study.presses
+                    ]
+                    for number in range(len(self._study.pressed_parameters))
+                ]
+            )
+            for is_flowing in (True, False)
+        )
 
     def _value(self, name, field):
         one = self._results[name]
@@ -80,17 +117,21 @@ BAND = (16, 84)  # percentiles of the seeds: one standard deviation to either si
 
 def band(values):
     """Mean over the seeds and the two ends of its band, for each adhesion parameter."""
-    return np.mean(values, axis=1), np.percentile(values, BAND[0], axis=1), np.percentile(values, BAND[1], axis=1)
+    return (
+        np.mean(values, axis=1),
+        np.percentile(values, BAND[0], axis=1),
+        np.percentile(values, BAND[1], axis=1),
+    )
 
 
 def crossing(parameters, values, level, scale=math.log):
-    """The adhesion parameter at which values fall through the level for the last time, interpolated on a logarithmic axis of
-    parameters and the given scale of values; nan if they do not."""
+    """The adhesion parameter at which values fall through the level for the last time, interpolated
+    on a logarithmic axis of parameters and the given scale of values; nan if they do not."""
     found = math.nan
     for left, right, before, after in zip(parameters, parameters[1:], values, values[1:]):
         if before >= level > after:
             part = (scale(before) - scale(level)) / (scale(before) - scale(after))
-            found = left * (right / left)**part
+            found = left * (right / left) ** part
     return found
 
 

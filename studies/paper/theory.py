@@ -1,12 +1,16 @@
-"""Adhesion of Gaussian surfaces by their summits' statistics alone: the theory that the model is drawn beside.
+"""Adhesion of Gaussian surfaces by their summits' statistics alone: the theory that the model is
+drawn beside.
 
-Independent of the core: quadrature over summits of one radius with Gaussian heights (Greenwood and Williamson, Proc. R.
-Soc. A 295 (1966) 300), each a JKR sphere on a plane (Fuller and Tabor, Proc. R. Soc. A 345 (1975) 327; Gui et al., J.
+Independent of the core: quadrature over summits of one radius with Gaussian heights (Greenwood and
+Williamson, Proc. R.
+Soc. A 295 (1966) 300), each a JKR sphere on a plane (Fuller and Tabor, Proc. R. Soc. A 345 (1975)
+327; Gui et al., J.
 Appl. Phys. 85 (1999) 7448 for area and bonding energy at zero load).
 
-One sphere is written in Maugis' units: radius of contact (pi w R^2/K)^(1/3), approach its square over R, load pi w R,
-energy pi w (radius of contact)^2; K = 4E/3. Heights are in units of the rms height sigma of the composite surface, the
-adhesion parameter is theta = (E/w) sqrt(sigma^3/R) with R the summits' mean radius.
+One sphere is written in Maugis' units: radius of contact (pi w R^2/K)^(1/3), approach its square
+over R, load pi w R, energy pi w (radius of contact)^2; K = 4E/3. Heights are in units of the rms
+height sigma of the composite surface, the adhesion parameter is theta = (E/w) sqrt(sigma^3/R) with
+R the summits' mean radius.
 """
 
 import functools
@@ -14,7 +18,9 @@ import math
 
 from scipy import integrate, optimize
 
-BIGGEST_HEIGHT = 12.0  # [sigma of the summits]: higher ones are left out; beyond it the density is below 1e-31
+BIGGEST_HEIGHT = (
+    12.0  # [sigma of the summits]: higher ones are left out; beyond it the density is below 1e-31
+)
 
 
 # ---------------------------------------------------------------- one sphere
@@ -33,21 +39,27 @@ def jkr_approach_slope(radius):
 
 
 def jkr_energy(radius):
-    """Energy that coming to this radius of contact set free: surface energy less what is stored elastically."""
-    return radius**2 - (radius**5 / 15 + jkr_load(radius)**2 / (3 * radius))
+    """Energy that coming to this radius of contact set free: surface energy less what is stored
+    elastically."""
+    return radius**2 - (radius**5 / 15 + jkr_load(radius) ** 2 / (3 * radius))
 
 
-FIRST_RADIUS = (8 / 3)**(1 / 3)  # approach 0: the sphere has just jumped into contact
-UNLOADED_RADIUS = 6**(1 / 3)  # load 0
-LAST_RADIUS = 6**(-1 / 3)  # fixed grips: the approach has its minimum here, and the contact breaks
+FIRST_RADIUS = (8 / 3) ** (1 / 3)  # approach 0: the sphere has just jumped into contact
+UNLOADED_RADIUS = 6 ** (1 / 3)  # load 0
+LAST_RADIUS = 6 ** (
+    -1 / 3
+)  # fixed grips: the approach has its minimum here, and the contact breaks
 
 
 # ---------------------------------------------------------------- summits of a Gaussian surface
 class SummitStatistics:
-    """Of a surface with the autocorrelation sigma^2 exp(-r^2/l^2); lengths in units of sigma (heights) and l (lateral).
+    """Of a surface with the autocorrelation sigma^2 exp(-r^2/l^2); lengths in units of sigma
+    (heights) and l (lateral).
 
-    radius: 1/mean curvature of the summits [l^2/sigma]; density [1/l^2]; rms: of the summits' heights [sigma].
-    Nayak 1971 and McCool, Wear 107 (1986) 37 for density and curvature; Bush, Gibson, Keogh, Mech. Res. Comm. 3 (1976)
+    radius: 1/mean curvature of the summits [l^2/sigma]; density [1/l^2]; rms: of the summits'
+    heights [sigma].
+    Nayak 1971 and McCool, Wear 107 (1986) 37 for density and curvature; Bush, Gibson, Keogh, Mech.
+    Res. Comm. 3 (1976)
     169 for the heights.
     """
 
@@ -64,7 +76,7 @@ SUMMITS = SummitStatistics()
 
 def unit_approach(theta):
     """Maugis' unit of approach [sigma] at an adhesion parameter."""
-    return (0.75 * math.pi / theta)**(2 / 3)
+    return (0.75 * math.pi / theta) ** (2 / 3)
 
 
 def normal_density(height):
@@ -72,26 +84,40 @@ def normal_density(height):
 
 
 def greenwood_williamson(exponent, separation, density=normal_density, highest=BIGGEST_HEIGHT):
-    """Integral of (s - h)^n times the density of heights, from h = separation up; in units of the summits' rms."""
-    value, _ = integrate.quad(lambda s: (s - separation)**exponent * density(s), separation, max(highest, separation + highest),
-                              limit=200, epsabs=0)
+    """Integral of (s - h)^n times the density of heights, from h = separation up; in units of the
+    summits' rms."""
+    value, _ = integrate.quad(
+        lambda s: (s - separation) ** exponent * density(s),
+        separation,
+        max(highest, separation + highest),
+        limit=200,
+        epsabs=0,
+    )
     return value
 
 
 def pieces(lower, upper, rms, separation, unit):
-    """Ends of the pieces between which the quadrature runs, so that it misses no peak and no piece has both signs: where the
-    density of heights is largest and where it has fallen off, and where a sphere in contact carries nothing."""
+    """Ends of the pieces between which the quadrature runs, so that it misses no peak and no piece
+    has both signs: where the density of heights is largest and where it has fallen off, and where a
+    sphere in contact carries nothing."""
     inner = [k * rms for k in (-6, -3, -1, 0, 1, 3, 6)] + [lower + k * rms for k in (0.1, 0.3, 1)]
-    inner += [separation + unit * approach for approach in (jkr_approach(UNLOADED_RADIUS), UNLOADED_RADIUS**2 / 2)]
+    inner += [
+        separation + unit * approach
+        for approach in (jkr_approach(UNLOADED_RADIUS), UNLOADED_RADIUS**2 / 2)
+    ]
     return sorted({lower, upper} | {height for height in inner if lower < height < upper})
 
 
 def quadrature(function, ends):
-    return sum(integrate.quad(function, a, b, limit=200, epsabs=0, epsrel=1e-9)[0] for a, b in zip(ends, ends[1:]))
+    return sum(
+        integrate.quad(function, a, b, limit=200, epsabs=0, epsrel=1e-9)[0]
+        for a, b in zip(ends, ends[1:])
+    )
 
 
 def over_contacts(of_radius, separation, unit, smallest_radius, rms):
-    """Integral of of_radius over the summits in contact, per summit. separation, unit, rms in one unit of height."""
+    """Integral of of_radius over the summits in contact, per summit. separation, unit, rms in one
+    unit of height."""
     highest = max(separation + BIGGEST_HEIGHT * rms, (BIGGEST_HEIGHT + 1) * rms)
     lowest = separation + unit * jkr_approach(smallest_radius)
     lower = max(lowest, -BIGGEST_HEIGHT * rms)
@@ -101,34 +127,52 @@ def over_contacts(of_radius, separation, unit, smallest_radius, rms):
         wanted = (height - separation) / unit
         if wanted <= jkr_approach(smallest_radius):
             return smallest_radius
-        return optimize.brentq(lambda a: jkr_approach(a) - wanted, smallest_radius, 3 + 2 * math.sqrt(abs(wanted)) + wanted)
+        return optimize.brentq(
+            lambda a: jkr_approach(a) - wanted,
+            smallest_radius,
+            3 + 2 * math.sqrt(abs(wanted)) + wanted,
+        )
 
     def integrand(radius):
         height = separation + unit * jkr_approach(radius)
-        return of_radius(radius) * normal_density(height / rms) * unit / rms * jkr_approach_slope(radius)
+        return (
+            of_radius(radius)
+            * normal_density(height / rms)
+            * unit
+            / rms
+            * jkr_approach_slope(radius)
+        )
 
-    return quadrature(integrand, [radius_at(height) for height in pieces(lower, upper, rms, separation, unit)])
+    return quadrature(
+        integrand, [radius_at(height) for height in pieces(lower, upper, rms, separation, unit)]
+    )
 
 
 # ---------------------------------------------------------------- pull-off: Fuller and Tabor
 def fuller_tabor(theta):
-    """Largest tension over that of all summits at once, N (3/2) pi w R; theta with the rms of the *summits*."""
+    """Largest tension over that of all summits at once, N (3/2) pi w R; theta with the rms of the
+    *summits*."""
     unit = unit_approach(theta)
 
     def tension(separation):
         return -over_contacts(jkr_load, separation, unit, LAST_RADIUS, 1.0)
 
-    # Under tension the plane is about where the summits' mean would pull: a few units or a few rms around it.
-    best = optimize.minimize_scalar(lambda d: -tension(d), bounds=(-3.0 * unit - 2.0, 3.0 * unit + 5.0), method="bounded",
-                                    options={"xatol": 1e-7})
+    # Under tension the plane is about where the summits' mean would pull: a few units or a few rms
+    # around it.
+    best = optimize.minimize_scalar(
+        lambda d: -tension(d),
+        bounds=(-3.0 * unit - 2.0, 3.0 * unit + 5.0),
+        method="bounded",
+        options={"xatol": 1e-7},
+    )
     return -best.fun / 1.5
 
 
 # ---------------------------------------------------------------- at rest under no load: Gui et al.
 class Rest:
-    """separation of the planes above the summits' mean [sigma]; share of summits in contact; area over nominal area;
-    bonding energy over w times nominal area. Area and energy beyond 1 mean that contacts would overlap: the theory has
-    ended."""
+    """separation of the planes above the summits' mean [sigma]; share of summits in contact; area
+    over nominal area; bonding energy over w times nominal area. Area and energy beyond 1 mean that
+    contacts would overlap: the theory has ended."""
 
     def __init__(self, separation, share, area, energy):
         self.separation, self.share, self.area, self.energy = separation, share, area, energy
@@ -153,25 +197,43 @@ def rest_of_jkr_summits(theta):
         return over_contacts(of_radius, separation, unit, FIRST_RADIUS, SUMMITS.rms)
 
     separation = _zero(lambda d: contacts(jkr_load, d) / normal_density(max(d, 0.0) / SUMMITS.rms))
-    area_unit = math.pi * SUMMITS.density * SUMMITS.radius * unit  # pi (radius of contact)^2 per nominal area
-    return Rest(separation, contacts(lambda a: 1.0, separation), area_unit * contacts(lambda a: a * a, separation),
-                area_unit * contacts(jkr_energy, separation))
+    area_unit = (
+        math.pi * SUMMITS.density * SUMMITS.radius * unit
+    )  # pi (radius of contact)^2 per nominal area
+    return Rest(
+        separation,
+        contacts(lambda a: 1.0, separation),
+        area_unit * contacts(lambda a: a * a, separation),
+        area_unit * contacts(jkr_energy, separation),
+    )
 
 
 @functools.lru_cache(maxsize=None)
 def rest_of_cap_summits(theta):
-    """The same summits under the paper's approach: the undeformed sphere is cut, radius^2 = 2 x approach, and the energy
-    has its extremum where the sum of r = -(P1 - 6)/3 (units of pi w R) is zero, P1 = radius^3."""
+    """The same summits under the paper's approach: the undeformed sphere is cut, radius^2 = 2 x
+    approach, and the energy has its extremum where the sum of r = -(P1 - 6)/3 (units of pi w R) is
+    zero, P1 = radius^3."""
     unit = unit_approach(theta)
 
     def contacts(of_radius, separation):
         lower = max(separation, -BIGGEST_HEIGHT * SUMMITS.rms)
         upper = max(lower, 0.0) + BIGGEST_HEIGHT * SUMMITS.rms
         return quadrature(
-            lambda z: of_radius(math.sqrt(2 * (z - separation) / unit)) * normal_density(z / SUMMITS.rms) / SUMMITS.rms,
-            pieces(lower, upper, SUMMITS.rms, separation, unit))
+            lambda z: (
+                of_radius(math.sqrt(2 * (z - separation) / unit))
+                * normal_density(z / SUMMITS.rms)
+                / SUMMITS.rms
+            ),
+            pieces(lower, upper, SUMMITS.rms, separation, unit),
+        )
 
-    separation = _zero(lambda d: contacts(lambda a: a**3 - 6, d) / normal_density(max(d, 0.0) / SUMMITS.rms))
+    separation = _zero(
+        lambda d: contacts(lambda a: a**3 - 6, d) / normal_density(max(d, 0.0) / SUMMITS.rms)
+    )
     area_unit = math.pi * SUMMITS.density * SUMMITS.radius * unit
-    return Rest(separation, contacts(lambda a: 1.0, separation), area_unit * contacts(lambda a: a * a, separation),
-                area_unit * contacts(lambda a: a * a - a**5 / 15, separation))
+    return Rest(
+        separation,
+        contacts(lambda a: 1.0, separation),
+        area_unit * contacts(lambda a: a * a, separation),
+        area_unit * contacts(lambda a: a * a - a**5 / 15, separation),
+    )

@@ -7,17 +7,23 @@ from paper import cases
 
 
 def git(*arguments):
-    """What git says about the repository; None where there is no git, or where it knows nothing of it (an unpacked archive)."""
+    """What git says about the repository; None where there is no git, or where it knows nothing of
+    it (an unpacked archive)."""
     try:
-        done = subprocess.run(["git", "-C", str(cases.REPOSITORY), *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              universal_newlines=True)
+        done = subprocess.run(
+            ["git", "-C", str(cases.REPOSITORY), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            universal_newlines=True,
+        )
     except OSError:
         return None
     return None if done.returncode else done.stdout.strip()
 
 
 def version():
-    """Of the package, and of the sources if this is a clone: an archive unpacked inside another repository is none."""
+    """Of the package, and of the sources if this is a clone: an archive unpacked inside another
+    repository is none."""
     package = ElementTree.parse(cases.REPOSITORY / "package.xml").findtext("version")
     top = git("rev-parse", "--show-toplevel")
     commit = git("rev-parse", "--short=10", "HEAD")

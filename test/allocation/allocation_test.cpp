@@ -35,7 +35,8 @@ TEST(Allocation, IsSeenByTheCount) {
   const cv::Mat map = cv::Mat::zeros(100, 100, CV_64FC1);
   const AllocationCount count = stopCountingAllocations();
   EXPECT_GE(count.calls, 3);
-  EXPECT_GE(count.peak, static_cast<std::ptrdiff_t>(1000 * sizeof(double) + 100 * 100 * sizeof(double)));
+  EXPECT_GE(count.peak,
+            static_cast<std::ptrdiff_t>(1000 * sizeof(double) + 100 * 100 * sizeof(double)));
 }
 
 class RepeatedFrame : public testing::TestWithParam<bool> {};
@@ -51,7 +52,8 @@ TEST_P(RepeatedFrame, AllocatesNothing) {
   EXPECT_EQ(count.calls, 0);
 }
 
-/// Places that flow are found by transforms, and those of OpenCV allocate; nothing is allocated for each cell.
+/// Places that flow are found by transforms, and those of OpenCV allocate; nothing is allocated for
+/// each cell.
 TEST_P(RepeatedFrame, ThatFlowsAllocatesForItsTransforms) {
   const HeightMap scan = frame(1);
   Options options = optionsWith(GetParam());
@@ -119,7 +121,8 @@ TEST(Memory, OfAPredictionStaysBelow64BytesAPixelBeyondTheInput) {
     }
     const AllocationCount count = stopCountingAllocations();
     EXPECT_LE(count.peak, 64 * kSize * kSize) << "contact fraction " << max_contact_fraction;
-    EXPECT_GE(count.peak, 8 * kSize * kSize) << "the gap alone takes 8 bytes a pixel: the count must see it";
+    EXPECT_GE(count.peak, 8 * kSize * kSize)
+        << "the gap alone takes 8 bytes a pixel: the count must see it";
   }
 }
 

@@ -1,4 +1,5 @@
-/// malloc and its kin, in front of glibc's own, for one test executable: shared libraries find these first.
+/// malloc and its kin, in front of glibc's own, for one test executable: shared libraries find
+/// these first.
 
 #include <malloc.h>
 
@@ -34,7 +35,8 @@ void* counted(void* memory) {
 }
 
 void released(void* memory) {
-  if (is_counting && memory != nullptr) held -= static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+  if (is_counting && memory != nullptr)
+    held -= static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
 }
 
 }  // namespace
@@ -47,8 +49,12 @@ void* realloc(void* memory, std::size_t size) {
   released(memory);
   return counted(__libc_realloc(memory, size));
 }
-void* memalign(std::size_t alignment, std::size_t size) { return counted(__libc_memalign(alignment, size)); }
-void* aligned_alloc(std::size_t alignment, std::size_t size) { return counted(__libc_memalign(alignment, size)); }
+void* memalign(std::size_t alignment, std::size_t size) {
+  return counted(__libc_memalign(alignment, size));
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return counted(__libc_memalign(alignment, size));
+}
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   *memory = counted(__libc_memalign(alignment, size));
   return *memory == nullptr ? ENOMEM : 0;

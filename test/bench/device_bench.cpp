@@ -1,8 +1,8 @@
-/// How long does a surface of the size of a device take? A few rows of tiles of one seed, beside the Fourier transform of a frame in
-/// the same run on the same core; both by pixel, so that the ratio depends neither on the machine nor on the size.
-/// And from scans to the force of one surface of 10^8 pixels, and to the whole answer for devices of several areas, with time and
-/// memory, in processes of their own.
-/// scripts/bench makes the table of ratios from its JSON.
+/// How long does a surface of the size of a device take? A few rows of tiles of one seed, beside
+/// the Fourier transform of a frame in the same run on the same core; both by pixel, so that the
+/// ratio depends neither on the machine nor on the size. And from scans to the force of one surface
+/// of 10^8 pixels, and to the whole answer for devices of several areas, with time and memory, in
+/// processes of their own. scripts/bench makes the table of ratios from its JSON.
 
 #include <benchmark/benchmark.h>
 
@@ -57,7 +57,8 @@ void makeTiles(benchmark::State& state, const SurfaceSpectrum& spectrum,
 }
 
 void makeKernels(benchmark::State& state, const SurfaceSpectrum& spectrum) {
-  for (auto _ : state) benchmark::DoNotOptimize(TiledSurface(spectrum, kSide, kSide, kPitch, kPitch, 1).variance());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(TiledSurface(spectrum, kSide, kSide, kPitch, kPitch, 1).variance());
 }
 
 void transform(benchmark::State& state) {
@@ -107,7 +108,8 @@ DeviceSurfaces scansOfOneSurface(std::uint64_t count, int side, double pitch) {
 }
 
 /// What a user waits for: the force of a device with its interval.
-/// - @p area [m^2]; 0: a hundredth more than the scans' own, so that it is made and not cut from them
+/// - @p area [m^2]; 0: a hundredth more than the scans' own, so that it is made and not cut from
+/// them
 void answer(benchmark::State& state, std::uint64_t scans, int side, double area) {
   const DeviceSurfaces surfaces = scansOfOneSurface(scans, side, kPitch);
   const double asked = area > 0.0 ? area : 1.01 * side * kPitch * side * kPitch;
@@ -163,15 +165,24 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("tiles/stretched", makeTiles, stretched, std::nullopt)
       ->Unit(benchmark::kMillisecond)
       ->MinTime(2.0);
-  benchmark::RegisterBenchmark("kernels/self_affine", makeKernels, round)->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("kernels/stretched", makeKernels, stretched)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("kernels/self_affine", makeKernels, round)
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("kernels/stretched", makeKernels, stretched)
+      ->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("whole/transform", transformWhole)->Iterations(1)->Repetitions(1);
-  benchmark::RegisterBenchmark("whole/1 mm at 100 nm", findForce, 100e-9)->Iterations(1)->Repetitions(1);
-  benchmark::RegisterBenchmark("whole/100 um at 10 nm", findForce, 10e-9)->Iterations(1)->Repetitions(1);
+  benchmark::RegisterBenchmark("whole/1 mm at 100 nm", findForce, 100e-9)
+      ->Iterations(1)
+      ->Repetitions(1);
+  benchmark::RegisterBenchmark("whole/100 um at 10 nm", findForce, 10e-9)
+      ->Iterations(1)
+      ->Repetitions(1);
   benchmark::RegisterBenchmark("answer/own area, 192 x 192", answer, 1, 192, 0.0)->Iterations(1);
-  benchmark::RegisterBenchmark("answer/1e-10 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-10)->Iterations(1);
-  benchmark::RegisterBenchmark("answer/1e-9 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-9)->Iterations(1);
-  benchmark::RegisterBenchmark("answer/1e-8 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-8)->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-10 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-10)
+      ->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-9 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-9)
+      ->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-8 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-8)
+      ->Iterations(1);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The frames that the benchmarks run on: rough surfaces from smooth to jagged, and the worst cases.
+/// The frames that the benchmarks run on: rough surfaces from smooth to jagged, and the worst
+/// cases.
 
 #include <string>
 

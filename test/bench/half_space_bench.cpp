@@ -1,11 +1,13 @@
-/// How fast is the half-space? Times in pairs, one forward and one inverse real transform of the frame in double
-/// precision by FFTW in the same run on the same core, so that the figures do not depend on the machine.
+/// How fast is the half-space? Times in pairs, one forward and one inverse real transform of the
+/// frame in double precision by FFTW in the same run on the same core, so that the figures do not
+/// depend on the machine.
 ///
 ///     half_space_bench [SEED [FILE.json [FRAME.f64]]]
 ///
-/// prints one row per piece of work, with the limit that it must keep, and writes the rows to the file; the exit status
-/// is 1 when one does not keep it. The heights of the frame that is pressed go to the second file, row by row in doubles [m]:
-/// scripts/lib/bench_tamaas.py has it solved by another program.
+/// prints one row per piece of work, with the limit that it must keep, and writes the rows to the
+/// file; the exit status is 1 when one does not keep it. The heights of the frame that is pressed
+/// go to the second file, row by row in doubles [m]: scripts/lib/bench_tamaas.py has it solved by
+/// another program.
 
 #include <algorithm>
 #include <chrono>
@@ -28,7 +30,9 @@
 namespace mems_stiction {
 namespace {
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// What this process has worked, so that others on the same core do not count [s].
 double worked() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -40,8 +44,10 @@ double pairTime(int size) {
   std::vector<double> heights(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 1.0);
   std::vector<double> spectrum(2 * half * static_cast<std::size_t>(size));
   auto* const complex = reinterpret_cast<fftw_complex*>(spectrum.data());
-  const fftw_plan forward = fftw_plan_dft_r2c_2d(size, size, heights.data(), complex, FFTW_ESTIMATE);
-  const fftw_plan inverse = fftw_plan_dft_c2r_2d(size, size, complex, heights.data(), FFTW_ESTIMATE);
+  const fftw_plan forward =
+      fftw_plan_dft_r2c_2d(size, size, heights.data(), complex, FFTW_ESTIMATE);
+  const fftw_plan inverse =
+      fftw_plan_dft_c2r_2d(size, size, complex, heights.data(), FFTW_ESTIMATE);
   std::vector<double> times;
   for (int i = 0; i < kRepetitions; ++i) {
     std::fill(heights.begin(), heights.end(), static_cast<double>(i));
@@ -57,7 +63,8 @@ double pairTime(int size) {
 }
 
 constexpr double kPitch = 5e-9;
-/// Frames over which the ratio of two sizes is taken: they have contacts of their own, one to dozens.
+/// Frames over which the ratio of two sizes is taken: they have contacts of their own, one to
+/// dozens.
 constexpr int kFrames = 5;
 /// Turns of one thread and two.
 constexpr int kTurns = 5;
@@ -67,7 +74,8 @@ constexpr int kPressedTurns = 3;
 constexpr double kWholeOfTamaas = 1.0;
 constexpr double kRestOfTamaas = 1.0 / 3.0;
 
-HalfSpaceProblem silicon(int size, double correlation_length, double rms_height, int seed, double pitch = kPitch) {
+HalfSpaceProblem silicon(int size, double correlation_length, double rms_height, int seed,
+                         double pitch = kPitch) {
   GaussianSurfaceOptions surface;
   surface.rows = surface.cols = size;
   surface.pitch_x = surface.pitch_y = pitch;
@@ -109,9 +117,11 @@ Run run(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const double seconds = now() - begin;
   const double worked_seconds = worked() - begin_worked;
   const double pair = 0.5 * (pair_before + pairTime(problem.surfaces.lower.rows()));
-  std::printf("  %d x %d: %.2f s, %d states, %d Newton steps, %d products, %d jumps; a pair takes %.2f ms\n",
-              problem.surfaces.lower.rows(), problem.surfaces.lower.cols(), worked_seconds, solution.state_count,
-              solution.newton_steps, solution.products, solution.jumps, 1e3 * pair);
+  std::printf(
+      "  %d x %d: %.2f s, %d states, %d Newton steps, %d products, %d jumps; a pair takes %.2f "
+      "ms\n",
+      problem.surfaces.lower.rows(), problem.surfaces.lower.cols(), worked_seconds,
+      solution.state_count, solution.newton_steps, solution.products, solution.jumps, 1e3 * pair);
   return {seconds, worked_seconds, worked_seconds / pair, std::move(solution)};
 }
 
@@ -121,7 +131,8 @@ Run run(const HalfSpaceProblem& problem, int threads) {
   return run(problem, options);
 }
 
-/// One thread and two in turns, the fastest of each: whoever else runs on this machine takes from both.
+/// One thread and two in turns, the fastest of each: whoever else runs on this machine takes from
+/// both.
 class TwoThreads {
  public:
   TwoThreads(const HalfSpaceProblem& problem, HalfSpaceOptions options, const Run& one, int turns)
@@ -162,9 +173,13 @@ struct Sizes {
 };
 
 /// Prints a row and adds it to `rows`. @return whether it keeps its limit
-bool addRow(const std::string& work, double figure, const std::string& unit, double limit, bool is_upper_limit,
-            nlohmann::json& rows) {
-  rows.push_back({{"work", work}, {"figure", figure}, {"unit", unit}, {"limit", limit}, {"at_least", !is_upper_limit}});
+bool addRow(const std::string& work, double figure, const std::string& unit, double limit,
+            bool is_upper_limit, nlohmann::json& rows) {
+  rows.push_back({{"work", work},
+                  {"figure", figure},
+                  {"unit", unit},
+                  {"limit", limit},
+                  {"at_least", !is_upper_limit}});
   const bool holds = is_upper_limit ? figure <= limit : figure >= limit;
   std::printf("%-62s %8.2f %-6s %s %6.1f  %s\n", work.c_str(), figure, unit.c_str(),
               is_upper_limit ? "<=" : ">=", limit, holds ? "ok" : "MISSED");
@@ -172,7 +187,8 @@ bool addRow(const std::string& work, double figure, const std::string& unit, dou
 }
 
 /// The same for a figure that nothing limits.
-void addFigure(const std::string& work, double figure, const std::string& unit, nlohmann::json& rows) {
+void addFigure(const std::string& work, double figure, const std::string& unit,
+               nlohmann::json& rows) {
   rows.push_back({{"work", work}, {"figure", figure}, {"unit", unit}, {"limit", nullptr}});
   std::printf("%-62s %8.2f %-6s\n", work.c_str(), figure, unit.c_str());
 }
@@ -180,7 +196,8 @@ void addFigure(const std::string& work, double figure, const std::string& unit, 
 /// A megapixel of which much touches.
 HalfSpaceProblem pressedFrame(int seed) { return silicon(1024, 120e-9, 5e-9, seed, 10e-9); }
 
-/// Work on the pressed frame. Nothing flows at these pressures, but what cannot flow is a steeper wall on the way.
+/// Work on the pressed frame. Nothing flows at these pressures, but what cannot flow is a steeper
+/// wall on the way.
 struct PressedWork {
   const char* name;
   double pressure;  ///< [Pa]
@@ -194,15 +211,18 @@ constexpr PressedWork kPressedWork[] = {
     {"1024 x 1024 under 100 MPa, whole path", 100e6, true, true, HalfSpacePath::kWhole},
     {"1024 x 1024 under 10 MPa, rest alone", 10e6, true, true, HalfSpacePath::kRest},
     {"1024 x 1024 under 100 MPa, rest alone", 100e6, true, true, HalfSpacePath::kRest},
-    {"1024 x 1024 under 10 MPa, without attraction, whole path", 10e6, false, true, HalfSpacePath::kWhole},
-    {"1024 x 1024 under 100 MPa, without attraction, whole path", 100e6, false, true, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 10 MPa, without attraction, whole path", 10e6, false, true,
+     HalfSpacePath::kWhole},
+    {"1024 x 1024 under 100 MPa, without attraction, whole path", 100e6, false, true,
+     HalfSpacePath::kWhole},
     {"1024 x 1024 under 10 MPa, elastic, whole path", 10e6, true, false, HalfSpacePath::kWhole},
     {"1024 x 1024 under 100 MPa, elastic, whole path", 100e6, true, false, HalfSpacePath::kWhole},
     {"1024 x 1024 under 10 MPa, elastic, rest alone", 10e6, true, false, HalfSpacePath::kRest},
     {"1024 x 1024 under 100 MPa, elastic, rest alone", 100e6, true, false, HalfSpacePath::kRest},
 };
 
-/// Adds a row for each piece of work, with what bench_tamaas.py compares. @return whether two threads keep their limit
+/// Adds a row for each piece of work, with what bench_tamaas.py compares. @return whether two
+/// threads keep their limit
 bool measurePressed(int seed, nlohmann::json& rows) {
   bool holds = true;
   HalfSpaceProblem problem = pressedFrame(seed);
@@ -216,10 +236,11 @@ bool measurePressed(int seed, nlohmann::json& rows) {
     options.path = work.path;
     const Run done = run(problem, options);
     addFigure(work.name, done.pairs, "pairs", rows);
-    rows.back().update({{"seconds", done.worked_seconds},
-                        {"pressure", work.pressure},
-                        {"contact_fraction", done.solution.contact_fraction},
-                        {"limit_of_tamaas", work.path == HalfSpacePath::kRest ? kRestOfTamaas : kWholeOfTamaas}});
+    rows.back().update(
+        {{"seconds", done.worked_seconds},
+         {"pressure", work.pressure},
+         {"contact_fraction", done.solution.contact_fraction},
+         {"limit_of_tamaas", work.path == HalfSpacePath::kRest ? kRestOfTamaas : kWholeOfTamaas}});
     if (&work == kPressedWork) {
       const double gain = TwoThreads(problem, options, done, kPressedTurns).gain();
       holds = addRow("the same with two threads", gain, "times", 1.5, false, rows);
@@ -242,7 +263,8 @@ bool writeHeights(const HeightMap& map, const std::string& file) {
   for (int row = 0; row < map.rows(); ++row) {
     for (int col = 0; col < map.cols(); ++col) heights.push_back(map.height(row, col));
   }
-  return write(file, reinterpret_cast<const char*>(heights.data()), heights.size() * sizeof(double));
+  return write(file, reinterpret_cast<const char*>(heights.data()),
+               heights.size() * sizeof(double));
 }
 
 int measure(int seed, const std::string& file, const std::string& heights_file) {
@@ -265,18 +287,22 @@ int measure(int seed, const std::string& file, const std::string& heights_file) 
   for (int frame = seed; frame < seed + kFrames; ++frame) {
     const HalfSpaceProblem fine = silicon(1024, 100e-9, 3e-9, frame, 0.5 * kPitch);
     same_surface.add(run(onHalfThePixels(fine), 1), run(fine, 1));
-    same_pitch.add(run(silicon(512, 100e-9, 3e-9, frame), 1), run(silicon(1024, 100e-9, 3e-9, frame), 1));
+    same_pitch.add(run(silicon(512, 100e-9, 3e-9, frame), 1),
+                   run(silicon(1024, 100e-9, 3e-9, frame), 1));
   }
-  atMost("1024 x 1024 over 512 x 512, the same surfaces, five frames", same_surface.ratio(), "times", 5.0);
+  atMost("1024 x 1024 over 512 x 512, the same surfaces, five frames", same_surface.ratio(),
+         "times", 5.0);
   // other surfaces, with contacts of their own
-  addFigure("1024 x 1024 over 512 x 512, four times the area, five frames", same_pitch.ratio(), "times", rows);
+  addFigure("1024 x 1024 over 512 x 512, four times the area, five frames", same_pitch.ratio(),
+            "times", rows);
   addFigure("  Newton steps of the same", same_pitch.stepRatio(), "times", rows);
   const Run smooth = run(silicon(512, 300e-9, 1e-9, seed), 1);
   atMost("512 x 512, l 300 nm, sigma 1 nm, near bonding", smooth.pairs, "pairs", 6000.0);
   holds &= measurePressed(seed, rows);
   const std::string text = rows.dump(2) + "\n";
   if (!file.empty() && !write(file, text.data(), text.size())) return 2;
-  if (!heights_file.empty() && !writeHeights(pressedFrame(seed).surfaces.lower, heights_file)) return 2;
+  if (!heights_file.empty() && !writeHeights(pressedFrame(seed).surfaces.lower, heights_file))
+    return 2;
   return holds ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
@@ -284,5 +310,6 @@ int measure(int seed, const std::string& file, const std::string& heights_file) 
 }  // namespace mems_stiction
 
 int main(int argc, char** argv) {
-  return mems_stiction::measure(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
+  return mems_stiction::measure(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? argv[2] : "",
+                                argc > 3 ? argv[3] : "");
 }

@@ -1,6 +1,7 @@
-/// How fast is a prediction, and what comes before it? Every case runs in one process on one core beside its baselines: the labelling that a
-/// frame-by-frame approach would spend in connectedComponentsWithStats alone, and one pass over the frame's memory.
-/// scripts/bench makes the table of ratios from its JSON.
+/// How fast is a prediction, and what comes before it? Every case runs in one process on one core
+/// beside its baselines: the labelling that a frame-by-frame approach would spend in
+/// connectedComponentsWithStats alone, and one pass over the frame's memory. scripts/bench makes
+/// the table of ratios from its JSON.
 
 #include <benchmark/benchmark.h>
 
@@ -35,7 +36,8 @@ void predict(benchmark::State& state, const Case& setting, const Options& option
   state.counters["contact_fraction"] = prediction.contact_fraction;
 }
 
-/// Cleaning and prediction of scan after scan, as they arrive; by the paper's formulation, whose time is the yardstick.
+/// Cleaning and prediction of scan after scan, as they arrive; by the paper's formulation, whose
+/// time is the yardstick.
 void cleanAndPredict(benchmark::State& state, const Recipe& recipe) {
   cv::setNumThreads(1);
   const Case setting{Frame::kGaussian, 1024, 200};
@@ -72,7 +74,8 @@ void label(benchmark::State& state, const Case& setting) {
       state.PauseTiming();
       const cv::Mat mask = gaps < full_approach * step / setting.steps;
       state.ResumeTiming();
-      benchmark::DoNotOptimize(cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4, CV_32S));
+      benchmark::DoNotOptimize(
+          cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4, CV_32S));
     }
   }
 }
@@ -91,7 +94,8 @@ void inFlight(benchmark::State& state, int models) {
   std::vector<Prediction> predictions(static_cast<std::size_t>(models));
   for (int i = 0; i < models; ++i) {
     pool.emplace_back(optionsFor(setting, kDefaultFormulation, Pressing::kAdhesion, false));
-    pool.back().predict(frameOf(setting.frame, setting.size), predictions[static_cast<std::size_t>(i)]);
+    pool.back().predict(frameOf(setting.frame, setting.size),
+                        predictions[static_cast<std::size_t>(i)]);
   }
   for (auto _ : state) {
     std::vector<std::thread> threads;
@@ -104,11 +108,12 @@ void inFlight(benchmark::State& state, int models) {
     }
     for (std::thread& thread : threads) thread.join();
   }
-  state.counters["frames_per_second"] =
-      benchmark::Counter(static_cast<double>(kFramesEach * models), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["frames_per_second"] = benchmark::Counter(
+      static_cast<double>(kFramesEach * models), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void registerCase(const std::string& name, const std::function<void(benchmark::State&)>& run, double min_time) {
+void registerCase(const std::string& name, const std::function<void(benchmark::State&)>& run,
+                  double min_time) {
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->MinTime(min_time);
 }
 
@@ -116,11 +121,13 @@ void registerAll() {
   std::vector<Case> cases;
   for (const int size : {256, 512, 1024, 2048}) cases.push_back({Frame::kGaussian, size, 200});
   for (const int steps : {50, 1000}) cases.push_back({Frame::kGaussian, 1024, steps});
-  for (const Frame frame : {Frame::kSmooth, Frame::kRough, Frame::kSpheres, Frame::kWhiteNoise, Frame::kPlane}) {
+  for (const Frame frame :
+       {Frame::kSmooth, Frame::kRough, Frame::kSpheres, Frame::kWhiteNoise, Frame::kPlane}) {
     cases.push_back({frame, 1024, 200});
   }
   for (const Case& setting : cases) {
-    const auto add = [&setting](const std::string& name, const std::string& formulation, Pressing pressing, bool all) {
+    const auto add = [&setting](const std::string& name, const std::string& formulation,
+                                Pressing pressing, bool all) {
       const auto run = [=](benchmark::State& state) {
         predict(state, setting, optionsFor(setting, formulation, pressing, all));
       };
@@ -148,12 +155,14 @@ void registerAll() {
   }
   for (const Recipe& recipe : cleaningRecipes()) {
     registerCase(
-        "clean/" + recipe.name, [recipe](benchmark::State& state) { cleanAndPredict(state, recipe); }, 0.3);
+        "clean/" + recipe.name,
+        [recipe](benchmark::State& state) { cleanAndPredict(state, recipe); }, 0.3);
   }
   registerCase("spatial_roughness", describeRoughness, 0.3);
   for (const int size : {256, 512, 1024, 2048}) {
     registerCase(
-        "pass/" + std::to_string(size), [size](benchmark::State& state) { pass(state, size); }, 0.1);
+        "pass/" + std::to_string(size), [size](benchmark::State& state) { pass(state, size); },
+        0.1);
   }
   for (const int models : {1, 2}) {
     benchmark::RegisterBenchmark(("in_flight/" + std::to_string(models)).c_str(),

@@ -20,7 +20,8 @@ double fullApproach(const HeightMap& frame) {
   return order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
 }
 
-Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing, bool all_outputs) {
+Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing,
+                   bool all_outputs) {
   Options options;
   options.formulation = formulation;
   if (pressing == Pressing::kOverload) {
@@ -29,7 +30,8 @@ Options optionsFor(const Case& setting, const std::string& formulation, Pressing
     options.interface.insulator_thickness = 100e-9;
   }
   options.approach.max_contact_fraction = kContactFraction;
-  options.solver.of<PaperOptions>().step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
+  options.solver.of<PaperOptions>().step =
+      fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
   options.output = {all_outputs, all_outputs, all_outputs, false, false};
   return options;
 }
@@ -37,7 +39,8 @@ Options optionsFor(const Case& setting, const std::string& formulation, Pressing
 Options optionsUnder(const Case& setting, double pressure) {
   Options options = optionsFor(setting, kDefaultFormulation, Pressing::kAdhesion, false);
   const HeightMap& frame = frameOf(setting.frame, setting.size);
-  options.load.mechanical_load = pressure * frame.cols() * frame.pitchX() * frame.rows() * frame.pitchY();
+  options.load.mechanical_load =
+      pressure * frame.cols() * frame.pitchX() * frame.rows() * frame.pitchY();
   return options;
 }
 

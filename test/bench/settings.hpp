@@ -23,7 +23,9 @@ struct Case {
   int size;   ///< rows and columns
   int steps;  ///< of labelling, and of the paper's approach, up to 30 % contact
 
-  std::string name() const { return frameName(frame) + "/" + std::to_string(size) + "/" + std::to_string(steps); }
+  std::string name() const {
+    return frameName(frame) + "/" + std::to_string(size) + "/" + std::to_string(steps);
+  }
 };
 
 /// Approach at which the frame reaches 30 % contact [m].
@@ -31,7 +33,8 @@ double fullApproach(const HeightMap& frame);
 
 /// The paper's steps end at fullApproach().
 /// - @p formulation which solver
-Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing, bool all_outputs);
+Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing,
+                   bool all_outputs);
 
 /// The default formulation under a pressure on the whole frame [Pa].
 Options optionsUnder(const Case& setting, double pressure);

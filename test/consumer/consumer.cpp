@@ -1,4 +1,5 @@
-/// A program outside the package: a rough scan is predicted, its device judged, and its half-space solved.
+/// A program outside the package: a rough scan is predicted, its device judged, and its half-space
+/// solved.
 
 #include <cmath>
 #include <cstdio>
@@ -30,12 +31,15 @@ int main() {
   ms::ScanPredictor predictor(configuration);
   const ms::PreparedScan prepared = predictor.preparer().prepare(summits());
   const ms::Prediction prediction = predictor.predict(prepared);
-  const ms::Verdict verdict = ms::verdictOf(prediction, configuration.device, configuration.uncertainty,
-                                            predictor.options(), prepared.surfaces.lower.cellArea());
+  const ms::Verdict verdict =
+      ms::verdictOf(prediction, configuration.device, configuration.uncertainty,
+                    predictor.options(), prepared.surfaces.lower.cellArea());
   const ms::SolvedHalfSpace solved =
-      ms::HalfSpaceSolver(configuration.half_space).solve(ms::halfSpaceProblem(prepared, predictor.options()));
+      ms::HalfSpaceSolver(configuration.half_space)
+          .solve(ms::halfSpaceProblem(prepared, predictor.options()));
 
-  std::printf("pull-off force %.3g N, of the half-space %.3g N\n", prediction.pull_off_force, solved.pull_off_force);
+  std::printf("pull-off force %.3g N, of the half-space %.3g N\n", prediction.pull_off_force,
+              solved.pull_off_force);
   std::printf("does it stick? %s: %s\n", ms::sticksText(verdict.sticks), verdict.reason.c_str());
   try {
     ms::readScanFile("no such file.tiff");
@@ -44,7 +48,8 @@ int main() {
     std::printf("%s\n", error.what());
   }
   const double ratio = prediction.pull_off_force / solved.pull_off_force;
-  return solved.status == ms::HalfSpaceStatus::kSolved && ratio > 0.5 && ratio < 2.0 && std::isfinite(verdict.margin)
+  return solved.status == ms::HalfSpaceStatus::kSolved && ratio > 0.5 && ratio < 2.0 &&
+                 std::isfinite(verdict.margin)
              ? 0
              : 1;
 }

@@ -1,4 +1,5 @@
-/// The bytes of a bag. What compressed chunks hold is not looked at: decompressing and reading them is rosbag's.
+/// The bytes of a bag. What compressed chunks hold is not looked at: decompressing and reading them
+/// is rosbag's.
 
 #include "fuzz/fuzzing.hpp"
 #include "support/scratch_folder.hpp"
@@ -12,7 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const ScratchFolder folder;
   const std::string path = folder.write("scans.bag", bytes);
   fuzzing::accepted([&] {
-    if (checkBag(path) == BagEnd::kCutOff) return;  // another program mends it: this is about what is in it
+    if (checkBag(path) == BagEnd::kCutOff)
+      return;  // another program mends it: this is about what is in it
     const ScanBagReader reader(path, "height", {});
     for (std::size_t scan = 0; scan < reader.count(); ++scan) {
       fuzzing::accepted([&] {

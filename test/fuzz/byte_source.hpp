@@ -1,7 +1,8 @@
 #pragma once
 
-/// Choices out of the bytes of an input, until they are used up: then zeros. libFuzzer's own FuzzedDataProvider comes with
-/// clang only, and the inputs of the corpora are read by every compiler's build.
+/// Choices out of the bytes of an input, until they are used up: then zeros. libFuzzer's own
+/// FuzzedDataProvider comes with clang only, and the inputs of the corpora are read by every
+/// compiler's build.
 
 #include <cstddef>
 #include <cstdint>

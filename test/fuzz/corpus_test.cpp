@@ -1,4 +1,5 @@
-/// The inputs of the corpus through the functions that scripts/fuzz feeds, in the build of the other tests.
+/// The inputs of the corpus through the functions that scripts/fuzz feeds, in the build of the
+/// other tests.
 
 #include <gtest/gtest.h>
 
@@ -30,16 +31,20 @@ void PrintTo(const Reader& reader, std::ostream* stream) { *stream << reader.nam
 class Corpus : public testing::TestWithParam<Reader> {};
 
 TEST_P(Corpus, holdsNothingThatIsAFinding) {
-  const std::filesystem::path folder = std::filesystem::path(MEMS_STICTION_CORPUS) / GetParam().name;
+  const std::filesystem::path folder =
+      std::filesystem::path(MEMS_STICTION_CORPUS) / GetParam().name;
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   ASSERT_GE(files.size(), 10u) << folder;
   for (const std::filesystem::path& file : files) {
     SCOPED_TRACE(file);
     std::ifstream stream(file, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    EXPECT_NO_THROW(GetParam().feed(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(stream),
+                                  std::istreambuf_iterator<char>()};
+    EXPECT_NO_THROW(
+        GetParam().feed(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
   }
   EXPECT_NO_THROW(GetParam().feed(nullptr, 0)) << "nothing at all";
 }

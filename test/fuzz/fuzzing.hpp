@@ -1,8 +1,8 @@
 #pragma once
 
-/// What the programs of this folder share. Each has one input, which somebody else wrote, and asks the code that reads
-/// it: under clang's libFuzzer (scripts/fuzz) with inputs without end, in the tests with those of corpus.tar.gz, where CMake
-/// gives the function of each a name of its own.
+/// What the programs of this folder share. Each has one input, which somebody else wrote, and asks
+/// the code that reads it: under clang's libFuzzer (scripts/fuzz) with inputs without end, in the
+/// tests with those of corpus.tar.gz, where CMake gives the function of each a name of its own.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace mems_stiction::fuzzing {
 
-/// A statement that holds whatever the input is. @throw std::logic_error that becomes a finding, if it does not
+/// A statement that holds whatever the input is. @throw std::logic_error that becomes a finding, if
+/// it does not
 inline void require(bool holds, const char* statement) {
   if (!holds) throw std::logic_error(std::string("does not hold: ") + statement);
 }

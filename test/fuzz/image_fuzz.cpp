@@ -1,5 +1,5 @@
-/// A scan as two messages on the wire: scan_info, then the image. First a byte: whether the pixels are made as long as
-/// the image states, so that not every input ends there.
+/// A scan as two messages on the wire: scan_info, then the image. First a byte: whether the pixels
+/// are made as long as the image states, so that not every input ends there.
 
 #include <ros/serialization.h>
 #include <boost/make_shared.hpp>
@@ -15,8 +15,10 @@ using namespace mems_stiction;
 
 constexpr std::uint64_t kMostPixelBytes = 1 << 16;
 
-/// All of the image but its length: roscpp makes room for what a message states before it looks how much there is.
-void readImage(ros::serialization::IStream& stream, bool is_made_to_fit, sensor_msgs::Image& image) {
+/// All of the image but its length: roscpp makes room for what a message states before it looks how
+/// much there is.
+void readImage(ros::serialization::IStream& stream, bool is_made_to_fit,
+               sensor_msgs::Image& image) {
   stream.next(image.header);
   stream.next(image.height);
   stream.next(image.width);
@@ -51,10 +53,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ScanIdentity identity = identityOf(image->header, &info);
     fuzzing::require(identity.part_id == info.part_id, "the part is the message's");
     fuzzing::require(scan.surface.rows() == static_cast<int>(image->height), "a row for each row");
-    fuzzing::require(scan.surface.pitchX() > 0.0 && scan.surface.pitchY() > 0.0, "a scan has a pitch");
+    fuzzing::require(scan.surface.pitchX() > 0.0 && scan.surface.pitchY() > 0.0,
+                     "a scan has a pitch");
     scanWarnings(scan.surface);
     const sensor_msgs::ImagePtr shown = heightImage(scan.surface.heights(), image->header);
-    fuzzing::require(shown->data.size() == std::size_t{shown->step} * image->height, "the picture is whole");
+    fuzzing::require(shown->data.size() == std::size_t{shown->step} * image->height,
+                     "the picture is whole");
   });
   return 0;
 }

@@ -1,5 +1,6 @@
-/// The bytes of a file of an instrument maker, an image or an array, behind the signature of its format, which the first byte of
-/// the input chooses: by the readers here that need no other program.
+/// The bytes of a file of an instrument maker, an image or an array, behind the signature of its
+/// format, which the first byte of the input chooses: by the readers here that need no other
+/// program.
 
 #include <array>
 #include <functional>
@@ -71,8 +72,10 @@ const std::array<Reader, 17>& readers() {
       {std::string("MM\0*", 4), parseTiff},
       {"\x89PNG", [](const std::string& bytes) { return Channels{parsePng(bytes)}; }},
       {"\x76\x2f\x31\x01", [](const std::string& bytes) { return Channels{parseExr(bytes)}; }},
-      {"Gwyddion Simple Field 1.", [](const std::string& bytes) { return Channels{parseGsf(bytes)}; }},
-      {"Binary TrueMap Data File v2.0", [](const std::string& bytes) { return Channels{parseTmd(bytes)}; }},
+      {"Gwyddion Simple Field 1.",
+       [](const std::string& bytes) { return Channels{parseGsf(bytes)}; }},
+      {"Binary TrueMap Data File v2.0",
+       [](const std::string& bytes) { return Channels{parseTmd(bytes)}; }},
   }};
   return readers;
 }

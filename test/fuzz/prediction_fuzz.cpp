@@ -1,4 +1,5 @@
-/// A small rough pair under any settings: bytes choose size, heights and each setting, within its range or anywhere.
+/// A small rough pair under any settings: bytes choose size, heights and each setting, within its
+/// range or anywhere.
 
 #include <cmath>
 #include <limits>
@@ -18,8 +19,8 @@ class SettingChooser : public OptionVisitor {
  public:
   explicit SettingChooser(fuzzing::ByteSource& bytes) : bytes_(bytes) {}
 
-  void number(const std::string& /*key*/, double& value, const std::string& /*unit*/, const Range& range,
-              const std::string& /*meaning*/) override {
+  void number(const std::string& /*key*/, double& value, const std::string& /*unit*/,
+              const Range& range, const std::string& /*meaning*/) override {
     switch (bytes_.below(16)) {
       case 1:
         value *= std::pow(10.0, 20.0 * bytes_.share() - 10.0);
@@ -65,7 +66,8 @@ class SettingChooser : public OptionVisitor {
   void flag(const std::string& /*key*/, bool& value, const std::string& /*meaning*/) override {
     if (bytes_.below(8) == 1) value = !value;
   }
-  void text(const std::string& /*key*/, std::string& /*value*/, const std::string& /*meaning*/) override {}
+  void text(const std::string& /*key*/, std::string& /*value*/,
+            const std::string& /*meaning*/) override {}
   void choice(const std::string& /*key*/, std::string& value, const std::vector<std::string>& names,
               const std::string& /*meaning*/) override {
     if (bytes_.below(4) == 1) value = names[bytes_.below(names.size())];
@@ -85,7 +87,8 @@ HeightMap chosenSurface(fuzzing::ByteSource& bytes) {
   for (int row = 0; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
       const int level = bytes.take<std::int8_t>();
-      heights.at<double>(row, col) = level == -128 ? std::numeric_limits<double>::quiet_NaN() : scale * level / 127.0;
+      heights.at<double>(row, col) =
+          level == -128 ? std::numeric_limits<double>::quiet_NaN() : scale * level / 127.0;
     }
   }
   return {heights, pitch, pitch};
@@ -99,7 +102,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Configuration configuration;
   SettingChooser chooser(bytes);
   configuration.describe(chooser);
-  if (configuration.preprocessing.refine.factor > 4) configuration.preprocessing.refine.factor = 4;  // cost alone
+  if (configuration.preprocessing.refine.factor > 4)
+    configuration.preprocessing.refine.factor = 4;  // cost alone
 
   fuzzing::accepted([&] {
     ScanPredictor predictor(configuration);

@@ -1,5 +1,5 @@
-/// The files that a batch finds when it goes on: its rows, and the settings that they were made with. A first byte chooses
-/// the kind of rows, a zero byte parts the two files.
+/// The files that a batch finds when it goes on: its rows, and the settings that they were made
+/// with. A first byte chooses the kind of rows, a zero byte parts the two files.
 
 #include "fuzz/byte_source.hpp"
 #include "fuzz/fuzzing.hpp"
@@ -22,14 +22,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::accepted([&] { totalOf(path, settings); });
   const RowFormat format = rowFormatOf(path);
   const std::string heading = headingText(format, {"number", "status"});
-  fuzzing::accepted([&] { mergeRows({path}, folder.file(is_csv ? "whole.csv" : "whole.jsonl"), 3); });
+  fuzzing::accepted(
+      [&] { mergeRows({path}, folder.file(is_csv ? "whole.csv" : "whole.jsonl"), 3); });
   fuzzing::accepted([&] {
     std::size_t done = 0;
     {
       RowFile rows(path, format, heading, {1, 2, 3});
       done = rows.done();
       fuzzing::require(done <= 3, "no more rows than the shard has");
-      rows.append(rowText({{"number", done + 1}, {"status", "bonded"}}, format, {"number", "status"}));
+      rows.append(
+          rowText({{"number", done + 1}, {"status", "bonded"}}, format, {"number", "status"}));
     }
     if (done == 3) return;
     const RowFile again(path, format, heading, {1, 2, 3});

@@ -16,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const double pitch = file.surface.pitchX();
     fuzzing::require(pitch > 0.0 && std::isfinite(pitch), "a scan that was read has a pitch");
   });
-  fuzzing::accepted([&] { fuzzing::require(listScanChannels(scan).size() == 1, "one grid is one channel"); });
+  fuzzing::accepted(
+      [&] { fuzzing::require(listScanChannels(scan).size() == 1, "one grid is one channel"); });
   return 0;
 }

@@ -32,20 +32,24 @@ GapField fieldOf(const SurfacePair& pair) {
   return field;
 }
 
-RC_GTEST_PROP(Monotony, moreWorkOfAdhesionTouchesMore, (const PairCase& pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(Monotony, moreWorkOfAdhesionTouchesMore,
+              (const PairCase& pair_case, const SettingCase& setting)) {
   const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction less = predict(options, pair);
   options.interface.work_of_adhesion *= 1.0 + 0.01 * *rc::evenly(1, 300);
   const Prediction more = predict(options, pair);
-  // each generalized force grows with the work of adhesion at every approach, so none is zero earlier
+  // each generalized force grows with the work of adhesion at every approach, so none is zero
+  // earlier
   RC_ASSERT(more.approach >= less.approach);
   RC_ASSERT(more.contact_area >= less.contact_area);
 }
 
-RC_GTEST_PROP(Monotony, moreWorkOfAdhesionHoldsMore, (PairCase pair_case, const SettingCase& setting)) {
-  // of one surface it may hold less: contacts merge, and the radius of a small one scatters with its pixels (2 of 1000
-  // surfaces at 1.5 times the work of adhesion). So: of six surfaces of one kind together
+RC_GTEST_PROP(Monotony, moreWorkOfAdhesionHoldsMore,
+              (PairCase pair_case, const SettingCase& setting)) {
+  // of one surface it may hold less: contacts merge, and the radius of a small one scatters with
+  // its pixels (2 of 1000 surfaces at 1.5 times the work of adhesion). So: of six surfaces of one
+  // kind together
   Options options = optionsOf(setting);
   const double work = options.interface.work_of_adhesion;
   const double factor = 1.5 + 0.01 * *rc::evenly(0, 300);
@@ -61,7 +65,8 @@ RC_GTEST_PROP(Monotony, moreWorkOfAdhesionHoldsMore, (PairCase pair_case, const 
   RC_ASSERT(more > less);
 }
 
-/// Does an asperity press so hard that more load makes it resist the more? dr/dP0 = (2/3) [1 - (2 - chi) P0/P1].
+/// Does an asperity press so hard that more load makes it resist the more? dr/dP0 = (2/3) [1 - (2 -
+/// chi) P0/P1].
 bool hasOverloadedAsperity(const Prediction& prediction, const Options& options) {
   const double stiffness = 4.0 / 3.0 * ContactPair(options.lower, options.upper).contact_modulus;
   for (const Asperity& asperity : prediction.asperities) {
@@ -72,9 +77,10 @@ bool hasOverloadedAsperity(const Prediction& prediction, const Options& options)
   return false;
 }
 
-RC_GTEST_PROP(Monotony, moreLoadTouchesMore, (const PairCase& pair_case, const SettingCase& setting)) {
-  // a load pulls an asperity together as long as P0 < P1/(2 - chi). One that carries more by (6) resists the more, and
-  // then a larger load may rest on less area
+RC_GTEST_PROP(Monotony, moreLoadTouchesMore,
+              (const PairCase& pair_case, const SettingCase& setting)) {
+  // a load pulls an asperity together as long as P0 < P1/(2 - chi). One that carries more by (6)
+  // resists the more, and then a larger load may rest on less area
   const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction less = predict(options, pair);
@@ -114,7 +120,8 @@ TEST(RoughPairs, coverEveryOutcome) {
   EXPECT_GT(several, kCases / 5);
 }
 
-RC_GTEST_PROP(Conservation, contactsShareLoadAndArea, (const PairCase& pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(Conservation, contactsShareLoadAndArea,
+              (const PairCase& pair_case, const SettingCase& setting)) {
   const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const Prediction found = predict(options, pair);
@@ -131,12 +138,14 @@ RC_GTEST_PROP(Conservation, contactsShareLoadAndArea, (const PairCase& pair_case
   }
   RC_ASSERT(isNear(load, found.normal_load, kReordered));
   RC_ASSERT(isNear(area, found.contact_area, kReordered));
-  RC_ASSERT(isNear(1.5 * kPi * options.interface.work_of_adhesion * radii, found.pull_off_force_jkr, kReordered));
+  RC_ASSERT(isNear(1.5 * kPi * options.interface.work_of_adhesion * radii, found.pull_off_force_jkr,
+                   kReordered));
   RC_ASSERT(isNear(circles, found.contact_area_jkr, kReordered));
   RC_ASSERT(counts[1] == found.elastic_count);
   RC_ASSERT(counts[2] == found.elasto_plastic_count);
   RC_ASSERT(counts[3] == found.plastic_count);
-  RC_ASSERT(isNear(cv::countNonZero(found.contact_map) * fieldOf(pair).cellArea(), found.contact_area, kReordered));
+  RC_ASSERT(isNear(cv::countNonZero(found.contact_map) * fieldOf(pair).cellArea(),
+                   found.contact_area, kReordered));
 }
 
 RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const SettingCase& setting)) {
@@ -145,24 +154,32 @@ RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const Sett
   const Prediction found = predict(options, pair);
   const GapField field = fieldOf(pair);
   const double area = field.cellArea();
-  const double insulator = options.interface.insulator_thickness / options.interface.insulator_relative_permittivity;
-  const double field_factor = 0.5 * 8.8541878128e-12 * area * options.load.voltage * options.load.voltage;
+  const double insulator =
+      options.interface.insulator_thickness / options.interface.insulator_relative_permittivity;
+  const double field_factor =
+      0.5 * 8.8541878128e-12 * area * options.load.voltage * options.load.voltage;
   double van_der_waals = 0.0, electrostatic = 0.0;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
     if (!isValid(field, cell)) continue;
-    const bool touches = found.contact_map.at<std::uint8_t>(cell / field.cols(), cell % field.cols()) != 0;
+    const bool touches =
+        found.contact_map.at<std::uint8_t>(cell / field.cols(), cell % field.cols()) != 0;
     const double gap = touches ? 0.0 : field.gap(cell) - found.approach;
     const double distance = std::max(gap, options.solver.of<PaperOptions>().cutoff_distance);
-    if (!touches) van_der_waals += options.interface.hamaker_constant * area / (6.0 * kPi * std::pow(distance, 3));
+    if (!touches)
+      van_der_waals +=
+          options.interface.hamaker_constant * area / (6.0 * kPi * std::pow(distance, 3));
     electrostatic += field_factor / ((gap + insulator) * (gap + insulator));
   }
   RC_ASSERT(isNear(found.van_der_waals_force, van_der_waals, kHistogram));
   RC_ASSERT(isNear(found.electrostatic_force, electrostatic, kHistogram));
-  RC_ASSERT(isNear(found.normal_load,
-                   found.van_der_waals_force + found.electrostatic_force + options.load.mechanical_load, kReordered));
+  RC_ASSERT(
+      isNear(found.normal_load,
+             found.van_der_waals_force + found.electrostatic_force + options.load.mechanical_load,
+             kReordered));
 }
 
-RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched,
+              (const PairCase& pair_case, const SettingCase& setting)) {
   const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const Prediction found = predict(options, pair);
@@ -172,8 +189,8 @@ RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& p
       const double height = pair.lower.height(row, col);
       if (!isValid(field, row * field.cols() + col)) continue;
       const double lost = height - found.deformed_lower.at<double>(row, col);
-      const double raised =
-          found.deformed_upper.at<double>(row, col) - (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
+      const double raised = found.deformed_upper.at<double>(row, col) -
+                            (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
       if (found.contact_map.at<std::uint8_t>(row, col) == 0) {
         RC_ASSERT(lost == 0.0);
         RC_ASSERT(raised == 0.0);
@@ -189,7 +206,8 @@ RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& p
   }
 }
 
-RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness, (const PairCase& pair_case, SettingCase setting)) {
+RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness,
+              (const PairCase& pair_case, SettingCase setting)) {
   setting.is_elastic = setting.is_printed = false;
   const double ratio = 0.8 + 0.01 * *rc::evenly(0, 45);  // of hardness, upper over lower
   const SurfacePair pair = pairOf(pair_case);
@@ -202,14 +220,16 @@ RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness, (const PairCase& pair_
     for (int col = 0; col < pair.lower.cols(); ++col) {
       if (found.contact_map.at<std::uint8_t>(row, col) == 0) continue;
       lost += pair.lower.height(row, col) - found.deformed_lower.at<double>(row, col);
-      raised += found.deformed_upper.at<double>(row, col) - (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
+      raised += found.deformed_upper.at<double>(row, col) -
+                (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
     }
   }
   RC_CLASSIFY(lost + raised > 0.0, "flowed");
   double share = 0.5 + 0.5 * std::log(ratio) / std::abs(std::log(limit));  // s of (12) as corrected
   if (ratio < limit) share = 0.0;
   if (ratio > 1.0 / limit) share = 1.0;
-  // depths of 1e-12 m and more are differences of heights of some 1e-8 m; cells with none add only round-off
+  // depths of 1e-12 m and more are differences of heights of some 1e-8 m; cells with none add only
+  // round-off
   const double round_off = 1e-24 * cv::countNonZero(found.contact_map);
   RC_ASSERT(std::abs(lost - share * (lost + raised)) <= round_off + 1e-9 * (lost + raised));
 }
@@ -219,7 +239,8 @@ RC_GTEST_PROP(SecondPath, findsTheSameState, (PairCase pair_case, const SettingC
   pair_case.cols = 24 + pair_case.cols % 16;
   const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
-  // forces across the gap differ by kHistogram between both paths, which may move the place by a cell
+  // forces across the gap differ by kHistogram between both paths, which may move the place by a
+  // cell
   options.interface.hamaker_constant = 0.0;
   options.load.voltage = 0.0;
   const Prediction found = predict(options, pair);
@@ -235,7 +256,8 @@ RC_GTEST_PROP(SecondPath, findsTheSameState, (PairCase pair_case, const SettingC
   RC_ASSERT(isNear(found.elastic_energy, expected.elastic_energy, kReordered));
 }
 
-RC_GTEST_PROP(ScanPredictor, isTheModelWhereNothingIsPrepared, (PairCase pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(ScanPredictor, isTheModelWhereNothingIsPrepared,
+              (PairCase pair_case, const SettingCase& setting)) {
   const SurfacePair pair = pairOf(pair_case);
   Configuration configuration;
   configuration.model = optionsOf(setting);

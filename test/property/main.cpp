@@ -1,8 +1,10 @@
-/// Runs properties with a fixed seed, so that a test that passed passes again. Other cases, or more of them:
+/// Runs properties with a fixed seed, so that a test that passed passes again. Other cases, or more
+/// of them:
 ///
 ///     RC_PARAMS="seed=42 max_success=5000" symmetry_property_test
 ///
-/// A failure prints its case and, as `reproduce=...`, what RC_PARAMS must hold to run just that case.
+/// A failure prints its case and, as `reproduce=...`, what RC_PARAMS must hold to run just that
+/// case.
 
 #include <cstdlib>
 

@@ -2,8 +2,8 @@
 
 /// Random rough surfaces and settings for properties of whole predictions.
 ///
-/// A case is a handful of whole numbers, so that a failing one shrinks to a small frame with plain settings, and prints
-/// as a line that can be typed in again.
+/// A case is a handful of whole numbers, so that a failing one shrinks to a small frame with plain
+/// settings, and prints as a line that can be typed in again.
 
 #include <cmath>
 #include <ostream>
@@ -29,22 +29,28 @@ struct PairCase {
   int holes = 0;  ///< invalid pixels [%]
 
   friend std::ostream& operator<<(std::ostream& stream, const PairCase& c) {
-    return stream << "PairCase{" << c.rows << ", " << c.cols << ", " << c.pitch_x << ", " << c.pitch_y << ", "
-                  << c.rms_height << ", " << c.correlation << ", " << c.seed << ", " << c.has_counter_surface << ", "
-                  << c.holes << "}";
+    return stream << "PairCase{" << c.rows << ", " << c.cols << ", " << c.pitch_x << ", "
+                  << c.pitch_y << ", " << c.rms_height << ", " << c.correlation << ", " << c.seed
+                  << ", " << c.has_counter_surface << ", " << c.holes << "}";
   }
 };
 
-/// Heights on whole multiples of 2^-60 m, a billionth of a nanometre: sums with an offset of 2^-20 m are then exact.
-inline HeightMap withExactSums(const HeightMap& surface) { return samples::quantized(surface, std::ldexp(1.0, -60)); }
+/// Heights on whole multiples of 2^-60 m, a billionth of a nanometre: sums with an offset of 2^-20
+/// m are then exact.
+inline HeightMap withExactSums(const HeightMap& surface) {
+  return samples::quantized(surface, std::ldexp(1.0, -60));
+}
 
 inline SurfacePair pairOf(const PairCase& c) {
   const auto frame = [&](int seed, double rms_height) {
-    const double longest = 0.49 * std::min(c.rows * c.pitch_y, c.cols * c.pitch_x);  // the generator's limit: half
-    const double correlation = std::min(longest, 1.0 * c.correlation * std::max(c.pitch_x, c.pitch_y));
-    const HeightMap rough =
-        samples::gaussian(c.rows, c.cols, c.pitch_x * kNm, c.pitch_y * kNm, rms_height, correlation * kNm, seed);
-    return withExactSums(c.holes > 0 ? samples::withHoles(rough, 0.01 * c.holes, seed + 1000) : rough);
+    const double longest =
+        0.49 * std::min(c.rows * c.pitch_y, c.cols * c.pitch_x);  // the generator's limit: half
+    const double correlation =
+        std::min(longest, 1.0 * c.correlation * std::max(c.pitch_x, c.pitch_y));
+    const HeightMap rough = samples::gaussian(c.rows, c.cols, c.pitch_x * kNm, c.pitch_y * kNm,
+                                              rms_height, correlation * kNm, seed);
+    return withExactSums(c.holes > 0 ? samples::withHoles(rough, 0.01 * c.holes, seed + 1000)
+                                     : rough);
   };
   SurfacePair pair{frame(c.seed, 0.1 * c.rms_height * kNm), {}};
   if (c.has_counter_surface) pair.upper = frame(c.seed + 500, 0.07 * c.rms_height * kNm);
@@ -67,9 +73,9 @@ struct SettingCase {
   bool is_printed = false, is_elastic = false, joins_corners = false;
 
   friend std::ostream& operator<<(std::ostream& stream, const SettingCase& c) {
-    return stream << "SettingCase{" << c.work << ", " << c.lower_hardness << ", " << c.upper_hardness << ", " << c.load
-                  << ", " << c.hamaker << ", " << c.voltage << ", " << c.is_printed << ", " << c.is_elastic << ", "
-                  << c.joins_corners << "}";
+    return stream << "SettingCase{" << c.work << ", " << c.lower_hardness << ", "
+                  << c.upper_hardness << ", " << c.load << ", " << c.hamaker << ", " << c.voltage
+                  << ", " << c.is_printed << ", " << c.is_elastic << ", " << c.joins_corners << "}";
   }
 };
 
@@ -96,17 +102,20 @@ inline Options optionsOf(const SettingCase& c) {
 namespace rc {
 
 /// Whole numbers of [low, high) from the first case on: RapidCheck's own begin near `low`.
-inline Gen<int> evenly(int low, int high) { return gen::resize(kNominalSize, gen::inRange(low, high)); }
+inline Gen<int> evenly(int low, int high) {
+  return gen::resize(kNominalSize, gen::inRange(low, high));
+}
 
 template <>
 struct Arbitrary<mems_stiction::property::PairCase> {
   static Gen<mems_stiction::property::PairCase> arbitrary() {
     using Case = mems_stiction::property::PairCase;
-    return gen::build<Case>(gen::set(&Case::rows, evenly(24, 72)), gen::set(&Case::cols, evenly(24, 72)),
-                            gen::set(&Case::pitch_x, evenly(5, 20)), gen::set(&Case::pitch_y, evenly(5, 20)),
-                            gen::set(&Case::rms_height, evenly(2, 60)), gen::set(&Case::correlation, evenly(3, 9)),
-                            gen::set(&Case::seed, evenly(1, 400)), gen::set(&Case::has_counter_surface),
-                            gen::set(&Case::holes, gen::weightedElement<int>({{3, 0}, {1, 2}, {1, 15}})));
+    return gen::build<Case>(
+        gen::set(&Case::rows, evenly(24, 72)), gen::set(&Case::cols, evenly(24, 72)),
+        gen::set(&Case::pitch_x, evenly(5, 20)), gen::set(&Case::pitch_y, evenly(5, 20)),
+        gen::set(&Case::rms_height, evenly(2, 60)), gen::set(&Case::correlation, evenly(3, 9)),
+        gen::set(&Case::seed, evenly(1, 400)), gen::set(&Case::has_counter_surface),
+        gen::set(&Case::holes, gen::weightedElement<int>({{3, 0}, {1, 2}, {1, 15}})));
   }
 };
 
@@ -114,10 +123,11 @@ template <>
 struct Arbitrary<mems_stiction::property::SettingCase> {
   static Gen<mems_stiction::property::SettingCase> arbitrary() {
     using Case = mems_stiction::property::SettingCase;
-    return gen::build<Case>(gen::set(&Case::work, evenly(1, 200)), gen::set(&Case::lower_hardness, evenly(5, 150)),
-                            gen::set(&Case::upper_hardness, evenly(5, 150)), gen::set(&Case::load, evenly(0, 60)),
-                            gen::set(&Case::hamaker, evenly(0, 100)), gen::set(&Case::voltage, evenly(0, 20)),
-                            gen::set(&Case::is_printed), gen::set(&Case::is_elastic), gen::set(&Case::joins_corners));
+    return gen::build<Case>(
+        gen::set(&Case::work, evenly(1, 200)), gen::set(&Case::lower_hardness, evenly(5, 150)),
+        gen::set(&Case::upper_hardness, evenly(5, 150)), gen::set(&Case::load, evenly(0, 60)),
+        gen::set(&Case::hamaker, evenly(0, 100)), gen::set(&Case::voltage, evenly(0, 20)),
+        gen::set(&Case::is_printed), gen::set(&Case::is_elastic), gen::set(&Case::joins_corners));
   }
 };
 

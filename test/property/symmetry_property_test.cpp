@@ -23,13 +23,13 @@ constexpr double kScaled = 1e-11;
 void checkNear(double value, double expected, double tolerance, const char* name) {
   if (std::isnan(expected) && std::isnan(value)) return;
   if (std::abs(value - expected) <= tolerance * std::abs(expected)) return;
-  RC_FAIL(std::string(name) + ": " + std::to_string(value / expected) + " times what was expected, " +
-          std::to_string(expected));
+  RC_FAIL(std::string(name) + ": " + std::to_string(value / expected) +
+          " times what was expected, " + std::to_string(expected));
 }
 
 /// Forces, areas and energies of a prediction, over those of another scaled by the given factors.
-void checkSame(const Prediction& found, const Prediction& expected, double tolerance, double area = 1.0,
-               double force = 1.0, double length = 1.0) {
+void checkSame(const Prediction& found, const Prediction& expected, double tolerance,
+               double area = 1.0, double force = 1.0, double length = 1.0) {
   RC_ASSERT(found.status == expected.status);
   RC_ASSERT(found.asperity_count == expected.asperity_count);
   RC_ASSERT(found.elastic_count == expected.elastic_count);
@@ -56,11 +56,13 @@ void checkSame(const Prediction& found, const Prediction& expected, double toler
   check(&Prediction::adhesion_parameter, 1.0, "adhesion_parameter");
   check(&Prediction::median_tabor_parameter, 1.0, "median_tabor_parameter");
   check(&Prediction::composite_rms_height, length, "composite_rms_height");
-  checkNear(found.mean_gap, length * expected.mean_gap, std::max(tolerance, kRestOfSums), "mean_gap");
+  checkNear(found.mean_gap, length * expected.mean_gap, std::max(tolerance, kRestOfSums),
+            "mean_gap");
 }
 
 HeightMap scaled(const HeightMap& surface, double factor) {
-  return {cv::Mat(surface.heights() * factor), surface.pitchX() * factor, surface.pitchY() * factor};
+  return {cv::Mat(surface.heights() * factor), surface.pitchX() * factor,
+          surface.pitchY() * factor};
 }
 
 template <typename Change>
@@ -70,7 +72,8 @@ SurfacePair changed(const SurfacePair& pair, Change&& change) {
 
 RC_GTEST_PROP(Scaling, lengthsByCAndStiffnessBySScaleForcesBySCSquared,
               (const PairCase& pair_case, const SettingCase& setting)) {
-  // powers of two and of four keep every product, quotient and square root exact: the same cells touch
+  // powers of two and of four keep every product, quotient and square root exact: the same cells
+  // touch
   const double c = std::ldexp(1.0, *rc::evenly(-8, 9));
   const double s = std::ldexp(1.0, 2 * *rc::evenly(-4, 5));
   const SurfacePair pair = pairOf(pair_case);
@@ -89,7 +92,8 @@ RC_GTEST_PROP(Scaling, lengthsByCAndStiffnessBySScaleForcesBySCSquared,
   options.interface.insulator_thickness *= c;
   options.load.mechanical_load *= s * c * c;
   options.load.voltage *= c * std::sqrt(s);  // eps0 U^2 is a force
-  const Prediction after = predict(options, changed(pair, [c](const HeightMap& map) { return scaled(map, c); }));
+  const Prediction after =
+      predict(options, changed(pair, [c](const HeightMap& map) { return scaled(map, c); }));
   checkSame(after, before, kScaled, c * c, s * c * c, c);
 }
 
@@ -99,7 +103,8 @@ HeightMap turned(const HeightMap& surface) {
   return {heights, surface.pitchY(), surface.pitchX()};
 }
 
-RC_GTEST_PROP(Frame, canBeTurnedByNinetyDegrees, (const PairCase& pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(Frame, canBeTurnedByNinetyDegrees,
+              (const PairCase& pair_case, const SettingCase& setting)) {
   const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   checkSame(predict(options, changed(pair, turned)), predict(options, pair), kReordered);
@@ -117,7 +122,8 @@ RC_GTEST_PROP(Frame, canBeFlipped, (const PairCase& pair_case, const SettingCase
   checkSame(predict(options, changed(pair, flipped)), predict(options, pair), kReordered);
 }
 
-RC_GTEST_PROP(Frame, canHaveABorderOfInvalidPixels, (PairCase pair_case, const SettingCase& setting)) {
+RC_GTEST_PROP(Frame, canHaveABorderOfInvalidPixels,
+              (PairCase pair_case, const SettingCase& setting)) {
   const int width = *rc::evenly(1, 5);
   const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
@@ -153,7 +159,8 @@ RC_GTEST_PROP(Bodies, canBeExchanged, (PairCase pair_case, const SettingCase& se
 }
 
 RC_GTEST_PROP(Bodies, canBeMovedAlongZ, (const PairCase& pair_case, const SettingCase& setting)) {
-  // whole multiples of 2^-20 m: sums with the heights of withExactSums() are exact, so nothing at all may change
+  // whole multiples of 2^-20 m: sums with the heights of withExactSums() are exact, so nothing at
+  // all may change
   const double lower_offset = std::ldexp(1.0, -20) * *rc::evenly(-5, 6);
   const double upper_offset = std::ldexp(1.0, -20) * *rc::evenly(-5, 6);
   const auto moved = [](const HeightMap& surface, double offset) {
@@ -169,12 +176,14 @@ RC_GTEST_PROP(Bodies, canBeMovedAlongZ, (const PairCase& pair_case, const Settin
 /// A scan whose border lies so low that no contact reaches it.
 HeightMap withLowBorder(const HeightMap& surface) {
   cv::Mat heights;
-  cv::copyMakeBorder(surface.heights(), heights, 2, 2, 2, 2, cv::BORDER_CONSTANT, cv::Scalar(-1e-6));
+  cv::copyMakeBorder(surface.heights(), heights, 2, 2, 2, 2, cv::BORDER_CONSTANT,
+                     cv::Scalar(-1e-6));
   return {heights, surface.pitchX(), surface.pitchY()};
 }
 
 RC_GTEST_PROP(Tiles, twoOfAScanHaveTwiceItsForce, (PairCase pair_case, SettingCase setting)) {
-  // without forces across the gap, whose histograms differ: twice the load, then, is exactly twice the load
+  // without forces across the gap, whose histograms differ: twice the load, then, is exactly twice
+  // the load
   setting.hamaker = setting.voltage = 0;
   pair_case.has_counter_surface = false;
   Options options = optionsOf(setting);

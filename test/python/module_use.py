@@ -9,7 +9,10 @@ import numpy as np
 
 def forces(frames: List[np.ndarray]) -> List[float]:
     settings = mems_stiction.Settings("part.yaml", load={"mechanical_load": 1e-6})
-    return [prediction.pull_off_force for prediction in mems_stiction.predict_many(frames, 20e-9, settings)]
+    return [
+        prediction.pull_off_force
+        for prediction in mems_stiction.predict_many(frames, 20e-9, settings)
+    ]
 
 
 def report(path: Path) -> str:
@@ -18,4 +21,10 @@ def report(path: Path) -> str:
     verdict = prediction.verdict
     sticks = verdict.sticks if verdict is not None else "no device"
     solved: mems_stiction.HalfSpace = mems_stiction.half_space(scan)
-    return "%s %s %g %g %s" % (prediction.status, sticks, prediction.roughness.sq, solved.pull_off_force, prediction.flags)
+    return "%s %s %g %g %s" % (
+        prediction.status,
+        sticks,
+        prediction.roughness.sq,
+        solved.pull_off_force,
+        prediction.flags,
+    )

@@ -1,5 +1,5 @@
-"""The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, only one file knows a solver. Numbers as text
-do not follow the locale."""
+"""The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, only
+one file knows a solver. Numbers as text do not follow the locale."""
 
 import pathlib
 import re
@@ -11,18 +11,26 @@ FIRST_ROOM_WITH_ROS = "ros"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:mems_stiction/)?(\w+)/\w+\.hpp"')
 PUBLIC = REPOSITORY / "include"
 ONE_FOR_ALL = "mems_stiction/mems_stiction.hpp"
-ROS = re.compile(r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|nodelet|image_transport)")
+ROS = re.compile(
+    r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|nodelet|image_transport)"
+)
 
 
 def rooms_of_the_page():
     """The part of the page that has the picture and the table."""
-    return re.search(r"^## Rooms\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL).group(1)
+    return re.search(
+        r"^## Rooms\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    ).group(1)
 
 
 def rooms():
-    """{room: who may use it, besides itself} in the order of the page; None for every later room."""
+    """{room: who may use it, besides itself} in the order of the page; None for every later
+    room."""
     table = re.findall(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|$", rooms_of_the_page(), re.MULTILINE)
-    return {room: None if users == "later rooms" else re.findall(r"`([^`]+)`", users) for room, users in table}
+    return {
+        room: None if users == "later rooms" else re.findall(r"`([^`]+)`", users)
+        for room, users in table
+    }
 
 
 def sources():
@@ -47,14 +55,21 @@ def backward_includes(order, files):
             if names.index(used) > names.index(room):
                 found.append("%s:%d: %s comes before %s" % (path, number, room, used))
             elif allowed is not None and room not in allowed and path not in allowed:
-                found.append("%s:%d: %s is for %s alone" % (path, number, used, ", ".join(allowed) or "nobody"))
+                found.append(
+                    "%s:%d: %s is for %s alone"
+                    % (path, number, used, ", ".join(allowed) or "nobody")
+                )
     return found
 
 
 def by_locale(code):
-    """What writes or reads numbers, or turns letters, as the locale of the process has them; "%.0f" has no decimal sign."""
+    """What writes or reads numbers, or turns letters, as the locale of the process has them; "%.0f"
+    has no decimal sign."""
     plain = re.sub(r"//[^\n]*", "", code)
-    found = re.findall(r"\b(?:strto(?:f|d|ld)|atof|sto(?:f|d|ld)|v?f?s?scanf|o?stringstream|tolower|toupper)\b", plain)
+    found = re.findall(
+        r"\b(?:strto(?:f|d|ld)|atof|sto(?:f|d|ld)|v?f?s?scanf|o?stringstream|tolower|toupper)\b",
+        plain,
+    )
     for call in re.findall(r"\bv?f?s?n?printf\([^;]*", plain):
         found += re.findall(r"%(?!\.0f)[-+ #0-9.*]*[aefgAEFG]", call)
     return found
@@ -75,38 +90,75 @@ class ArchitectureTest(unittest.TestCase):
             header = waiting.pop()
             if header not in reached:
                 reached.add(header)
-                waiting += re.findall(r'^#include "(mems_stiction/[^"]+\.hpp)"', (PUBLIC / header).read_text(encoding="utf-8"), re.MULTILINE)
-        self.assertEqual({path.relative_to(PUBLIC).as_posix() for path in PUBLIC.rglob("*.hpp")}, reached)
+                waiting += re.findall(
+                    r'^#include "(mems_stiction/[^"]+\.hpp)"',
+                    (PUBLIC / header).read_text(encoding="utf-8"),
+                    re.MULTILINE,
+                )
+        self.assertEqual(
+            {path.relative_to(PUBLIC).as_posix() for path in PUBLIC.rglob("*.hpp")}, reached
+        )
 
     def test_the_picture_shows_the_rooms_in_this_order(self):
-        picture = re.search(r"^```text\n(.*?)^```", rooms_of_the_page(), re.MULTILINE | re.DOTALL).group(1)
-        self.assertEqual(re.findall(r"^[ \w]{12}\|  (\w+)", picture, re.MULTILINE), list(reversed(list(rooms()))))
+        picture = re.search(
+            r"^```text\n(.*?)^```", rooms_of_the_page(), re.MULTILINE | re.DOTALL
+        ).group(1)
+        self.assertEqual(
+            re.findall(r"^[ \w]{12}\|  (\w+)", picture, re.MULTILINE), list(reversed(list(rooms())))
+        )
 
     def test_the_core_knows_no_ros(self):
         names = list(rooms())
-        core = set(names[:names.index(FIRST_ROOM_WITH_ROS)])
-        found = ["%s:%d: %s" % (path, number, line) for room, path, lines in sources() if room in core
-                 for number, line in enumerate(lines, 1) if ROS.search(line.partition("//")[0])]
+        core = set(names[: names.index(FIRST_ROOM_WITH_ROS)])
+        found = [
+            "%s:%d: %s" % (path, number, line)
+            for room, path, lines in sources()
+            if room in core
+            for number, line in enumerate(lines, 1)
+            if ROS.search(line.partition("//")[0])
+        ]
         self.assertEqual(found, [])
 
     def test_numbers_do_not_follow_the_locale(self):
-        found = [(path, by_locale("\n".join(lines))) for _, path, lines in sources() if not path.startswith("errors/plain_format.")]
+        found = [
+            (path, by_locale("\n".join(lines)))
+            for _, path, lines in sources()
+            if not path.startswith("errors/plain_format.")
+        ]
         self.assertEqual([one for one in found if one[1]], [])
 
     def test_the_check_sees_what_follows_the_locale(self):
-        for wrong in ("x = std::strtod(a, nullptr);", 'std::snprintf(text, sizeof text,\n  "%s %.3g", a, b);', "std::stod(text)", "std::ostringstream out;"):
+        for wrong in (
+            "x = std::strtod(a, nullptr);",
+            'std::snprintf(text, sizeof text,\n  "%s %.3g", a, b);',
+            "std::stod(text)",
+            "std::ostringstream out;",
+        ):
             self.assertTrue(by_locale(wrong), wrong)
-        for right in ('std::snprintf(text, 3, "%02x", a);', "plainStrtod(a)", 'plainFormat("%g", a)', '// printf shows "%g"', 'std::snprintf(t, 3, "%.0f s", a);'):
+        for right in (
+            'std::snprintf(text, 3, "%02x", a);',
+            "plainStrtod(a)",
+            'plainFormat("%g", a)',
+            '// printf shows "%g"',
+            'std::snprintf(t, 3, "%.0f s", a);',
+        ):
             self.assertFalse(by_locale(right), right)
 
     def test_the_check_sees_what_is_wrong(self):
         order = {"low": None, "hidden": ["high", "middle/door.cpp"], "middle": None, "high": None}
         use = '#include "mems_stiction/%s/a.hpp"'
-        for room, path, used, is_allowed in (("low", "low/a.cpp", "high", False), ("high", "high/a.cpp", "low", True),
-                                             ("low", "low/a.cpp", "low", True), ("high", "high/a.cpp", "hidden", True),
-                                             ("middle", "middle/a.cpp", "hidden", False), ("middle", "middle/door.cpp", "hidden", True)):
+        for room, path, used, is_allowed in (
+            ("low", "low/a.cpp", "high", False),
+            ("high", "high/a.cpp", "low", True),
+            ("low", "low/a.cpp", "low", True),
+            ("high", "high/a.cpp", "hidden", True),
+            ("middle", "middle/a.cpp", "hidden", False),
+            ("middle", "middle/door.cpp", "hidden", True),
+        ):
             for line in (use % used, '#include "%s/a.hpp"' % used):
-                self.assertEqual(backward_includes(order, [(room, path, [line])]) == [], is_allowed, (path, used))
+                self.assertEqual(
+                    backward_includes(order, [(room, path, [line])]) == [], is_allowed, (path, used)
+                )
 
 
 if __name__ == "__main__":

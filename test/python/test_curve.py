@@ -26,8 +26,9 @@ def points(jump_at=None):
     retraction = attraction(heights)
     if jump_at is not None:
         retraction = np.where(heights > jump_at, 0.1 * retraction, retraction)
-    return ([(h, f, "APPROACH") for h, f in zip(heights[::-1], attraction(heights)[::-1])]
-            + [(h, f, "RETRACTION") for h, f in zip(heights, retraction)])
+    return [(h, f, "APPROACH") for h, f in zip(heights[::-1], attraction(heights)[::-1])] + [
+        (h, f, "RETRACTION") for h, f in zip(heights, retraction)
+    ]
 
 
 class CurveTest(unittest.TestCase):
@@ -57,7 +58,9 @@ class CurveTest(unittest.TestCase):
 
     def test_two_jumps_one_after_the_other_are_two(self):
         forces = [10.0, 9.9, 9.8, 9.7, 5.0, 4.9, 1.0, 0.9, 0.8, 0.7]
-        way = Curve("a", [(height, force, "RETRACTION") for height, force in enumerate(forces)]).retraction
+        way = Curve(
+            "a", [(height, force, "RETRACTION") for height, force in enumerate(forces)]
+        ).retraction
         self.assertEqual(way.jumps(), [3, 5])
 
 
@@ -81,18 +84,30 @@ class PictureTest(unittest.TestCase):
     def test_a_jump_is_dotted_and_interrupts_the_line(self):
         axes, legend = self.picture(Curve("a", points(jump_at=4e-10)))
         self.assertIn("jump", legend)
-        self.assertTrue(any(np.isnan(line.get_ydata()).any() for line in axes.lines if line.get_linestyle() == "-"))
+        self.assertTrue(
+            any(
+                np.isnan(line.get_ydata()).any()
+                for line in axes.lines
+                if line.get_linestyle() == "-"
+            )
+        )
 
     def test_several_are_told_apart_by_their_names(self):
-        _, legend = self.picture(Curve("first", points()), Curve("second", points(jump_at=4e-10)[:60]))
+        _, legend = self.picture(
+            Curve("first", points()), Curve("second", points(jump_at=4e-10)[:60])
+        )
         self.assertTrue({"first, approach", "second, retraction"} <= set(legend))
 
     def test_deep_repulsion_leaves_the_picture_and_is_named(self):
         pressed = points() + [(-1e-9, -1e-3, "RETRACTION")]
         axes, _ = self.picture(Curve("a", pressed))
-        self.assertGreater(axes.get_ylim()[0], -1000.0)  # nN; else a millinewton hides a hundred nanonewtons
+        self.assertGreater(
+            axes.get_ylim()[0], -1000.0
+        )  # nN; else a millinewton hides a hundred nanonewtons
         self.assertGreater(axes.get_xlim()[0], 0.05)  # nm: what is not shown needs no room
-        self.assertIn("-1.00 mN", " ".join(text.get_text() for text in axes.get_legend().get_texts()))
+        self.assertIn(
+            "-1.00 mN", " ".join(text.get_text() for text in axes.get_legend().get_texts())
+        )
 
 
 class PlotCurveTest(unittest.TestCase):
@@ -106,8 +121,14 @@ class PlotCurveTest(unittest.TestCase):
         return self.folder / name
 
     def run_it(self, *arguments):
-        return subprocess.run([sys.executable, str(PLOT_CURVE)] + [str(part) for part in arguments], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+        return subprocess.run(
+            [sys.executable, str(PLOT_CURVE)] + [str(part) for part in arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            universal_newlines=True,
+            timeout=120,
+        )
 
     def curve_file(self, name="curve.csv"):
         return self.write(name, HEAD + "".join("%.17g,%.17g,%s\n" % point for point in points()))
@@ -121,20 +142,39 @@ class PlotCurveTest(unittest.TestCase):
         self.assertEqual((self.folder / "p.pdf").read_bytes()[:5], b"%PDF-")
 
     def test_columns_of_another_model_are_left_out_and_may_stand_anywhere(self):
-        path = self.write("a.csv", "gap,direction,force,height\n3,APPROACH,-2e-9,1e-9\n4,RETRACTION,5e-9,2e-9\n")
+        path = self.write(
+            "a.csv", "gap,direction,force,height\n3,APPROACH,-2e-9,1e-9\n4,RETRACTION,5e-9,2e-9\n"
+        )
         curve = read_curve(path, "a")
-        self.assertEqual((list(curve.approach.heights), list(curve.approach.forces)), ([1e-9], [-2e-9]))
+        self.assertEqual(
+            (list(curve.approach.heights), list(curve.approach.forces)), ([1e-9], [-2e-9])
+        )
         self.assertEqual(curve.pull_off(), (2e-9, 5e-9))
         self.assertEqual(self.run_it(path).returncode, 0)
 
     def test_bad_input_is_one_line_with_file_place_and_what_is_allowed(self):
         good = self.curve_file()
         cases = [
-            ([self.write("a.csv", HEAD + "1e-9,2e-9,APPROACH\n1e-9,much,APPROACH\n")], ("a.csv: line 3: force: 'much'", "a finite number")),
-            ([self.write("b.csv", HEAD + "nan,2e-9,APPROACH\n")], ("b.csv: line 2: height: 'nan'", "a finite number")),
-            ([self.write("c.csv", HEAD + "1e-9\n")], ("c.csv: line 2: direction: ''", "APPROACH, RETRACTION")),
-            ([self.write("d.csv", HEAD + "1e-9,2e-9,DOWN\n")], ("d.csv: line 2: direction: 'DOWN'", "APPROACH, RETRACTION")),
-            ([self.write("e.csv", "height,load\n1,2\n")], ("e.csv: line 1: ", "'force', 'direction'", "height, force, direction")),
+            (
+                [self.write("a.csv", HEAD + "1e-9,2e-9,APPROACH\n1e-9,much,APPROACH\n")],
+                ("a.csv: line 3: force: 'much'", "a finite number"),
+            ),
+            (
+                [self.write("b.csv", HEAD + "nan,2e-9,APPROACH\n")],
+                ("b.csv: line 2: height: 'nan'", "a finite number"),
+            ),
+            (
+                [self.write("c.csv", HEAD + "1e-9\n")],
+                ("c.csv: line 2: direction: ''", "APPROACH, RETRACTION"),
+            ),
+            (
+                [self.write("d.csv", HEAD + "1e-9,2e-9,DOWN\n")],
+                ("d.csv: line 2: direction: 'DOWN'", "APPROACH, RETRACTION"),
+            ),
+            (
+                [self.write("e.csv", "height,load\n1,2\n")],
+                ("e.csv: line 1: ", "'force', 'direction'", "height, force, direction"),
+            ),
             ([self.write("f.csv", "")], ("f.csv: line 1: ", "height, force, direction")),
             ([self.write("g.csv", HEAD)], ("g.csv: has no point",)),
             ([self.folder / "none.csv"], ("none.csv: cannot be read",)),

@@ -1,4 +1,5 @@
-"""design_sweep: its margins are those of predict_device, its limits where they cross 1, its rows go on after an interruption."""
+"""design_sweep: its margins are those of predict_device, its limits where they cross 1, its rows go
+on after an interruption."""
 
 import concurrent.futures
 import contextlib
@@ -38,7 +39,10 @@ from tiers import times  # noqa: E402
 
 PITCH = 10e-9
 SCAN = rough(64, 64, 3e-9, 1, 12)  # its contacts have pixels enough
-PART = {"device": {"spring_stiffness": 0.1, "travel": 1e-6, "contact_area": 2.5e-13}, "device_force": {"realisations": 3, "max_cells": 1e4}}
+PART = {
+    "device": {"spring_stiffness": 0.1, "travel": 1e-6, "contact_area": 2.5e-13},
+    "device_force": {"realisations": 3, "max_cells": 1e4},
+}
 STIFFNESS, TRAVEL, WORK = "device/spring_stiffness", "device/travel", "interface/work_of_adhesion"
 DESIGN_SWEEP = str(REPOSITORY / "scripts" / "design_sweep")
 MOST_WAITED = 120.0  # for a program under way [s]
@@ -47,7 +51,14 @@ MOST_WAITED = 120.0  # for a program under way [s]
 def swept(axes, scans=SCAN, workers=1, **others):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return mems_stiction.design_sweep(scans, axes, PART, PITCH if isinstance(scans, np.ndarray) else None, workers=workers, **others)
+        return mems_stiction.design_sweep(
+            scans,
+            axes,
+            PART,
+            PITCH if isinstance(scans, np.ndarray) else None,
+            workers=workers,
+            **others,
+        )
 
 
 def verdict_of(heights=SCAN, **settings):
@@ -62,12 +73,20 @@ def held(force=1e-7, lower=0.5, upper=2.0, doubt="", is_bound=False):
 
 def as_if(force_of):
     """Instead of the device's force: a made one, of each point. Counts the points."""
-    return mock.patch.object(Holding, "at", autospec=True, side_effect=lambda _, point: (held(force_of(point)), ()))
+    return mock.patch.object(
+        Holding, "at", autospec=True, side_effect=lambda _, point: (held(force_of(point)), ())
+    )
 
 
 class MarginTest(unittest.TestCase):
     def assertIsOf(self, row, verdict):
-        for name in ("margin", "margin_lower", "margin_upper", "margin_transition", "restoring_force"):
+        for name in (
+            "margin",
+            "margin_lower",
+            "margin_upper",
+            "margin_transition",
+            "restoring_force",
+        ):
             self.assertAlmostEqual(row[name] / getattr(verdict, name), 1.0, delta=1e-12, msg=name)
         self.assertEqual(row["sticks"], verdict.sticks)
 
@@ -77,12 +96,22 @@ class MarginTest(unittest.TestCase):
         self.assertGreater(force[0, 1], 1.5 * force[0, 0])
         self.assertGreater(force[0, 1], 1.2 * force[1, 1])
         self.assertEqual(found.to_dict()["units"]["hardness"], "Pa")
-        self.assertIsOf(found.rows[1], verdict_of(lower={"hardness": 0.5e9}, upper={"hardness": 0.5e9}, load={"pressure": 50e6}))
+        self.assertIsOf(
+            found.rows[1],
+            verdict_of(
+                lower={"hardness": 0.5e9}, upper={"hardness": 0.5e9}, load={"pressure": 50e6}
+            ),
+        )
 
     def test_springs_have_the_verdicts_of_predict_device_and_one_force(self):
         forces = []
         at = Holding.at
-        with mock.patch.object(Holding, "at", autospec=True, side_effect=lambda self, point: forces.append(point) or at(self, point)):
+        with mock.patch.object(
+            Holding,
+            "at",
+            autospec=True,
+            side_effect=lambda self, point: forces.append(point) or at(self, point),
+        ):
             found = swept({STIFFNESS: [1e-4, 0.04, 10.0], TRAVEL: [1e-6, 2e-6]})
         self.assertEqual(forces, [{}])
         self.assertEqual(found.margin.shape, (3, 2))
@@ -91,30 +120,52 @@ class MarginTest(unittest.TestCase):
             row = found.rows[place]
             self.assertIsOf(row, verdict_of(**{STIFFNESS: row[STIFFNESS], TRAVEL: row[TRAVEL]}))
             words.add(row["sticks"])
-        # the pad is cut from one scan in which two contacts hold: too few for a plain no, whatever the spring
+        # the pad is cut from one scan in which two contacts hold: too few for a plain no, whatever
+        # the spring
         self.assertEqual(words, {"yes", "marginal", "unknown"})
         self.assertGreater(found.rows[5]["margin_lower"], 1.0)
 
     def test_the_surface_may_be_scaled_polished_and_etched(self):
-        for axes, heights, settings in (({"roughness/scale": [1.5]}, 1.5 * SCAN, {}),
-                                        ({"roughness/polish": [100e-9]}, SCAN, {"preprocessing/low_pass/cutoff_wavelength": 100e-9})):
+        for axes, heights, settings in (
+            ({"roughness/scale": [1.5]}, 1.5 * SCAN, {}),
+            (
+                {"roughness/polish": [100e-9]},
+                SCAN,
+                {"preprocessing/low_pass/cutoff_wavelength": 100e-9},
+            ),
+        ):
             self.assertIsOf(swept(axes).rows[0], verdict_of(heights, **settings))
         x = np.arange(256) * PITCH
-        long_waves, short_waves = (np.tile(height * np.cos(2 * math.pi * x / wave), (256, 1)) for height, wave in ((3e-9, 1280e-9), (1e-9, 40e-9)))
-        lower, above, settings = scans_of_device(long_waves + short_waves + rough(256, 256, 1e-12), None, PITCH, None, PART, None, {}, {})
-        etched = Holding(lower, above, settings, 200e-9)._changed(mems_stiction.Scan(lower[0]), {ETCH: 3.0}).heights
+        long_waves, short_waves = (
+            np.tile(height * np.cos(2 * math.pi * x / wave), (256, 1))
+            for height, wave in ((3e-9, 1280e-9), (1e-9, 40e-9))
+        )
+        lower, above, settings = scans_of_device(
+            long_waves + short_waves + rough(256, 256, 1e-12), None, PITCH, None, PART, None, {}, {}
+        )
+        etched = (
+            Holding(lower, above, settings, 200e-9)
+            ._changed(mems_stiction.Scan(lower[0]), {ETCH: 3.0})
+            .heights
+        )
         inside = slice(64, -64)
-        np.testing.assert_allclose(etched[inside, inside], (long_waves + 3.0 * short_waves)[inside, inside], atol=0.15e-9)
+        np.testing.assert_allclose(
+            etched[inside, inside], (long_waves + 3.0 * short_waves)[inside, inside], atol=0.15e-9
+        )
 
     def test_a_force_that_is_at_least_so_large_or_doubted_is_no_plain_no(self):
-        for hold, words in ((held(), ["yes", "marginal", "no"]), (held(doubt="one pixel"), ["yes", "marginal", "unknown"]),
-                            (held(doubt="they bond", is_bound=True), ["yes", "unknown", "unknown"]),
-                            (held(lower=math.nan, upper=math.nan), ["unknown"] * 3)):
+        for hold, words in (
+            (held(), ["yes", "marginal", "no"]),
+            (held(doubt="one pixel"), ["yes", "marginal", "unknown"]),
+            (held(doubt="they bond", is_bound=True), ["yes", "unknown", "unknown"]),
+            (held(lower=math.nan, upper=math.nan), ["unknown"] * 3),
+        ):
             self.assertEqual([hold.word(force) for force in (4e-8, 1e-7, 3e-7)], words)
         self.assertEqual(held(0.0).word(1e-9), "no")
 
     def test_a_sure_spring_tells_a_doubt_that_the_verdict_has(self):
-        """Contacts of one pixel: the verdict of a strong spring is unknown, that of a weak one is what it is."""
+        """Contacts of one pixel: the verdict of a strong spring is unknown, that of a weak one is
+        what it is."""
         coarse = rough(64, 64, 20e-9, 1, 10)
         row = swept({STIFFNESS: [100.0]}, coarse).rows[0]
         verdict = verdict_of(coarse, **{STIFFNESS: 100.0})
@@ -124,8 +175,9 @@ class MarginTest(unittest.TestCase):
 
 
 class CoverageTest(unittest.TestCase):
-    """Devices that are made after the design: pads cut from other surfaces of the same process, each with a work of adhesion and a modulus of its own, as
-    far off as uncertainty/... says of them. Takes so long because each design finds the force of a device."""
+    """Devices that are made after the design: pads cut from other surfaces of the same process,
+    each with a work of adhesion and a modulus of its own, as far off as uncertainty/... says of
+    them. Takes so long because each design finds the force of a device."""
 
     SIDE = 256  # of the pads [pixels]
     DEVICES = 24  # of each design
@@ -133,18 +185,40 @@ class CoverageTest(unittest.TestCase):
     def places(self, seed, side):
         """Four of one wafer, far apart."""
         wafer = rough(1024, 1024, 3e-9, seed, 12)
-        return [np.ascontiguousarray(wafer[row:row + side, column:column + side]) for row in (0, 512) for column in (0, 512)]
+        return [
+            np.ascontiguousarray(wafer[row : row + side, column : column + side])
+            for row in (0, 512)
+            for column in (0, 512)
+        ]
 
     def forces_of_devices(self, number):
         random = np.random.RandomState(number)
-        pads = [pad for wafer in range(self.DEVICES // 4) for pad in self.places(1000 * (number + 1) + wafer, self.SIDE)]
+        pads = [
+            pad
+            for wafer in range(self.DEVICES // 4)
+            for pad in self.places(1000 * (number + 1) + wafer, self.SIDE)
+        ]
         settings = values_of(Settings())
-        spread = {name: math.sqrt(math.log1p(settings["uncertainty/" + name] ** 2)) for name in ("work_of_adhesion", "youngs_modulus")}
+        spread = {
+            name: math.sqrt(math.log1p(settings["uncertainty/" + name] ** 2))
+            for name in ("work_of_adhesion", "youngs_modulus")
+        }
         forces = []
         for pad in pads:
-            factors = {name: math.exp(deviation * random.standard_normal()) for name, deviation in spread.items()}
-            bodies = {"%s/youngs_modulus" % body: factors["youngs_modulus"] * settings["%s/youngs_modulus" % body] for body in ("lower", "upper")}
-            forces.append(mems_stiction.predict(pad, PITCH, **{WORK: factors["work_of_adhesion"] * settings[WORK]}, **bodies).pull_off_force)
+            factors = {
+                name: math.exp(deviation * random.standard_normal())
+                for name, deviation in spread.items()
+            }
+            bodies = {
+                "%s/youngs_modulus" % body: factors["youngs_modulus"]
+                * settings["%s/youngs_modulus" % body]
+                for body in ("lower", "upper")
+            }
+            forces.append(
+                mems_stiction.predict(
+                    pad, PITCH, **{WORK: factors["work_of_adhesion"] * settings[WORK]}, **bodies
+                ).pull_off_force
+            )
         return np.array(forces)
 
     def test_a_stiffness_that_is_called_sure_opens_95_of_100_devices(self):
@@ -155,12 +229,25 @@ class CoverageTest(unittest.TestCase):
             device = {"travel": 1e-6, "contact_area": (self.SIDE * PITCH) ** 2}
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                found = mems_stiction.design_sweep(scans, {STIFFNESS: (1e-4, 1e3, 1000)}, {"device": device, "device_force": {"realisations": 4}}, PITCH,
-                                                   workers=1)
+                found = mems_stiction.design_sweep(
+                    scans,
+                    {STIFFNESS: (1e-4, 1e3, 1000)},
+                    {"device": device, "device_force": {"realisations": 4}},
+                    PITCH,
+                    workers=1,
+                )
                 forces = self.forces_of_devices(number)
             row = found.rows[0]
-            self.assertAlmostEqual(row.margin_lower * row.pull_off_force_upper, row.restoring_force, delta=1e-9 * row.restoring_force)
-            sure = min(row[STIFFNESS] for row in found.rows if min(row.margin_lower, row.margin_transition) > 1.0)
+            self.assertAlmostEqual(
+                row.margin_lower * row.pull_off_force_upper,
+                row.restoring_force,
+                delta=1e-9 * row.restoring_force,
+            )
+            sure = min(
+                row[STIFFNESS]
+                for row in found.rows
+                if min(row.margin_lower, row.margin_transition) > 1.0
+            )
             even = min(row[STIFFNESS] for row in found.rows if row.margin > 1.0)
             held["sure"] += int((forces >= sure * 1e-6).sum())
             held["even"] += int((forces >= even * 1e-6).sum())
@@ -171,33 +258,65 @@ class CoverageTest(unittest.TestCase):
 
 class SentenceTest(unittest.TestCase):
     def sentence(self, values, lowest, name=STIFFNESS, doubts=None):
-        rows = [{name: value, "margin": 2.0 * low, "margin_lower": low, "margin_transition": 2.0 * low, "doubt": doubt}
-                for value, low, doubt in zip(values, lowest, doubts or [""] * len(values))]
-        sentence, = statements_of([Axis(name, "N/m" if name == STIFFNESS else "J/m^2", tuple(values))], rows)
+        rows = [
+            {
+                name: value,
+                "margin": 2.0 * low,
+                "margin_lower": low,
+                "margin_transition": 2.0 * low,
+                "doubt": doubt,
+            }
+            for value, low, doubt in zip(values, lowest, doubts or [""] * len(values))
+        ]
+        (sentence,) = statements_of(
+            [Axis(name, "N/m" if name == STIFFNESS else "J/m^2", tuple(values))], rows
+        )
         return sentence
 
     def test_the_limit_is_where_the_lower_end_is_1(self):
-        self.assertEqual(self.sentence([1.0, 100.0], [0.237, 23.7]), "smallest spring stiffness that releases surely: 4.22 N/m (the margin is 1 at 2.11 N/m)")
-        self.assertEqual(self.sentence([0.01, 0.1], [4.0, 0.4], WORK),
-                         "largest work of adhesion that releases surely: 40 mJ/m^2 (the margin is 1 at 80 mJ/m^2; interpolated between 10 mJ/m^2 and 100 mJ/m^2)")
+        self.assertEqual(
+            self.sentence([1.0, 100.0], [0.237, 23.7]),
+            "smallest spring stiffness that releases surely: 4.22 N/m (the margin is 1 at 2.11 "
+            "N/m)",
+        )
+        self.assertEqual(
+            self.sentence([0.01, 0.1], [4.0, 0.4], WORK),
+            "largest work of adhesion that releases surely: 40 mJ/m^2 (the margin is 1 at 80 "
+            "mJ/m^2; interpolated between 10 mJ/m^2 and 100 mJ/m^2)",
+        )
 
     def test_there_may_be_no_limit(self):
-        self.assertEqual(self.sentence([1.0, 2.0], [0.2, 0.4]), "no spring stiffness of 1 N/m to 2 N/m releases surely: the lower end of the margin is "
-                         "at most 0.4, at 2 N/m; the margin goes in proportion, so 5 N/m would")
+        self.assertEqual(
+            self.sentence([1.0, 2.0], [0.2, 0.4]),
+            "no spring stiffness of 1 N/m to 2 N/m releases surely: the lower end of the margin is "
+            "at most 0.4, at 2 N/m; the margin goes in proportion, so 5 N/m would",
+        )
         self.assertNotIn("proportion", self.sentence([0.01, 0.02], [0.4, 0.2], WORK))
-        self.assertEqual(self.sentence([1.0, 2.0], [1.2, 2.4]), "every spring stiffness of 1 N/m to 2 N/m releases surely")
+        self.assertEqual(
+            self.sentence([1.0, 2.0], [1.2, 2.4]),
+            "every spring stiffness of 1 N/m to 2 N/m releases surely",
+        )
         self.assertIn("no margin is known for some", self.sentence([1.0, 2.0], [math.nan, 2.4]))
 
     def test_several_stretches(self):
-        self.assertEqual(self.sentence([0.01, 0.02, 0.04, 0.08], [2.0, 0.5, 2.0, 0.5], WORK),
-                         "work of adhesion releases surely from 10 mJ/m^2 to 14.1 mJ/m^2 and from 28.3 mJ/m^2 to 56.5 mJ/m^2")
+        self.assertEqual(
+            self.sentence([0.01, 0.02, 0.04, 0.08], [2.0, 0.5, 2.0, 0.5], WORK),
+            "work of adhesion releases surely from 10 mJ/m^2 to 14.1 mJ/m^2 and from 28.3 mJ/m^2 "
+            "to 56.5 mJ/m^2",
+        )
 
     def test_warnings_of_many_points_are_told_once(self):
-        self.assertEqual(told_once(["6.2 times as large", "no unit", "1e-07 times as large", "no unit"]),
-                         ["6.2 times as large (the figures of other points differ)", "no unit"])
+        self.assertEqual(
+            told_once(["6.2 times as large", "no unit", "1e-07 times as large", "no unit"]),
+            ["6.2 times as large (the figures of other points differ)", "no unit"],
+        )
 
     def test_what_stands_against_a_no_is_said(self):
-        self.assertTrue(self.sentence([1.0, 2.0], [0.9, 1.8], doubts=["one pixel: scan finer ones"] * 2).endswith("; but at 2 N/m the verdict stays unknown: one pixel"))
+        self.assertTrue(
+            self.sentence(
+                [1.0, 2.0], [0.9, 1.8], doubts=["one pixel: scan finer ones"] * 2
+            ).endswith("; but at 2 N/m the verdict stays unknown: one pixel")
+        )
 
 
 class RowsTest(unittest.TestCase):
@@ -242,14 +361,22 @@ class RowsTest(unittest.TestCase):
         with as_if(self.force):
             swept(self.AXES, output=rows)
             before = rows.read_text()
-            for changed in ({"interface": {"hamaker_constant": 5e-20}}, {"scans": 1.01 * SCAN}, {"axes": {WORK: (0.01, 0.1, 5), STIFFNESS: [0.05, 0.5]}},
-                            {"axes": {WORK: [0.01, 0.02]}}):
-                with self.assertRaisesRegex(mems_stiction.OptionsError, r"rows\.csv: holds rows of another sweep"):
+            for changed in (
+                {"interface": {"hamaker_constant": 5e-20}},
+                {"scans": 1.01 * SCAN},
+                {"axes": {WORK: (0.01, 0.1, 5), STIFFNESS: [0.05, 0.5]}},
+                {"axes": {WORK: [0.01, 0.02]}},
+            ):
+                with self.assertRaisesRegex(
+                    mems_stiction.OptionsError, r"rows\.csv: holds rows of another sweep"
+                ):
                     swept(**dict({"axes": self.AXES, "output": rows}, **changed))
             self.assertEqual(rows.read_text(), before)
             for text in ("a,b\n1,2\n", "notes"):
                 rows.write_text(text)
-                with self.assertRaisesRegex(mems_stiction.OptionsError, r"rows\.csv: holds no rows of a sweep"):
+                with self.assertRaisesRegex(
+                    mems_stiction.OptionsError, r"rows\.csv: holds no rows of a sweep"
+                ):
                     swept(self.AXES, output=rows)
                 self.assertEqual(rows.read_text(), text)
             with self.assertRaisesRegex(mems_stiction.OptionsError, "must end in .csv"):
@@ -258,8 +385,15 @@ class RowsTest(unittest.TestCase):
     def test_the_limit_of_each_value_of_the_other_axis(self):
         with as_if(self.force):
             statements = swept({WORK: [0.01, 0.02], STIFFNESS: [0.01, 1.0]}).statements
-        self.assertEqual(statements, ("at work of adhesion 10 mJ/m^2: smallest spring stiffness that releases surely: 34 mN/m (the margin is 1 at 17 mN/m)",
-                                      "at work of adhesion 20 mJ/m^2: smallest spring stiffness that releases surely: 68 mN/m (the margin is 1 at 34 mN/m)"))
+        self.assertEqual(
+            statements,
+            (
+                "at work of adhesion 10 mJ/m^2: smallest spring stiffness that releases surely: 34 "
+                "mN/m (the margin is 1 at 17 mN/m)",
+                "at work of adhesion 20 mJ/m^2: smallest spring stiffness that releases surely: 68 "
+                "mN/m (the margin is 1 at 34 mN/m)",
+            ),
+        )
 
     def test_processes_find_what_one_finds(self):
         axes = {WORK: [0.02, 0.08]}
@@ -268,14 +402,19 @@ class RowsTest(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(1) as executor:
             self.assertEqual(swept(axes, executor=executor).json(), alone)
 
-
     def test_no_thread_waits_for_what_an_interruption_left_locked(self):
         threads = []
-        swept({WORK: [0.02, 0.04, 0.06, 0.08]}, workers=2, on_progress=lambda share: threads.append(threading.active_count()))
+        swept(
+            {WORK: [0.02, 0.04, 0.06, 0.08]},
+            workers=2,
+            on_progress=lambda share: threads.append(threading.active_count()),
+        )
         self.assertEqual(threads, [threading.active_count()] * 5)
 
     def test_an_error_or_the_end_of_a_process_ends_the_sweep(self):
-        with self.assertRaisesRegex(mems_stiction.SurfaceError, "its measured pixels lie within 0 x 0"):
+        with self.assertRaisesRegex(
+            mems_stiction.SurfaceError, "its measured pixels lie within 0 x 0"
+        ):
             swept({WORK: [0.02, 0.08]}, np.full((64, 64), np.nan), workers=2)
 
         def kill(share):
@@ -290,29 +429,53 @@ class RowsTest(unittest.TestCase):
 class AxesTest(unittest.TestCase):
     def test_ranges_are_filled_evenly_or_by_ratio(self):
         settings = mems_stiction.Settings(PART)
-        for given, values in (((1, 5, 3), (1, 3, 5)), ((1, 100, 3), (1, 10, 100)), ([3, 1, 2, 1], (1, 2, 3)), (2, (2,))):
-            axis, = axes_of({STIFFNESS: given}, settings)
+        for given, values in (
+            ((1, 5, 3), (1, 3, 5)),
+            ((1, 100, 3), (1, 10, 100)),
+            ([3, 1, 2, 1], (1, 2, 3)),
+            (2, (2,)),
+        ):
+            (axis,) = axes_of({STIFFNESS: given}, settings)
             np.testing.assert_allclose(axis.values, values)
             self.assertEqual(axis.unit, "N/m")
-        axis, = axes_of({"device/contacts": (1, 8, 4)}, settings)
+        (axis,) = axes_of({"device/contacts": (1, 8, 4)}, settings)
         self.assertEqual(axis.values, (1.0, 3.0, 6.0, 8.0))
 
     def test_each_wrong_axis_is_named(self):
-        for axes, words in (({}, "must be a dictionary with one or two names"), ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
-                            ({"device/spring": [1]}, "there is no setting 'device/spring'"), ({"device/guidance": [1]}, "device/guidance is no number"),
-                            ({STIFFNESS: "1"}, "must be numbers"), ({STIFFNESS: []}, "must be numbers"), ({STIFFNESS: (3, 1, 5)}, "with from < to"),
-                            ({"device/contacts": [1.5, 3]}, "device/contacts: 1.5 is not allowed, must be whole numbers"), ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
-                            ({"interface/relative_humidity": [0.5, 1.5]}, "interface/relative_humidity"),
-                            ({"roughness/scale": [0.0]}, "roughness/scale: 0 is not allowed"), ({ETCH: [2.0]}, "etch_wavelength: None is not allowed")):
+        for axes, words in (
+            ({}, "must be a dictionary with one or two names"),
+            ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
+            ({"device/spring": [1]}, "there is no setting 'device/spring'"),
+            ({"device/guidance": [1]}, "device/guidance is no number"),
+            ({STIFFNESS: "1"}, "must be numbers"),
+            ({STIFFNESS: []}, "must be numbers"),
+            ({STIFFNESS: (3, 1, 5)}, "with from < to"),
+            (
+                {"device/contacts": [1.5, 3]},
+                "device/contacts: 1.5 is not allowed, must be whole numbers",
+            ),
+            ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
+            ({"interface/relative_humidity": [0.5, 1.5]}, "interface/relative_humidity"),
+            ({"roughness/scale": [0.0]}, "roughness/scale: 0 is not allowed"),
+            ({ETCH: [2.0]}, "etch_wavelength: None is not allowed"),
+        ):
             with self.assertRaisesRegex(mems_stiction.OptionsError, re.escape(words)):
                 swept(axes)
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "etch_wavelength: is not allowed without"):
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError, "etch_wavelength: is not allowed without"
+        ):
             swept({STIFFNESS: [1.0]}, etch_wavelength=1e-7)
         with self.assertRaisesRegex(mems_stiction.OptionsError, "workers: 0 is not allowed"):
             swept({STIFFNESS: [1.0]}, workers=0)
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "device/travel: is not stated; must be > 0, or one of the axes"):
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError,
+            "device/travel: is not stated; must be > 0, or one of the axes",
+        ):
             swept({STIFFNESS: [1.0]}, device={"travel": 0.0})
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "roughness/scale is not allowed with preprocessing/tip/radius"):
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError,
+            "roughness/scale is not allowed with preprocessing/tip/radius",
+        ):
             swept({"roughness/scale": [1.5]}, preprocessing={"tip/radius": 5e-9})
 
 
@@ -325,10 +488,24 @@ class ProgramTest(unittest.TestCase):
         (self.path / "part.yaml").write_text(json.dumps(PART))
 
     def command(self, *arguments):
-        return [sys.executable, DESIGN_SWEEP, "--config", str(self.path / "part.yaml"), "--pitch", str(PITCH), *map(str, arguments), str(self.path / "scan.npy")]
+        return [
+            sys.executable,
+            DESIGN_SWEEP,
+            "--config",
+            str(self.path / "part.yaml"),
+            "--pitch",
+            str(PITCH),
+            *map(str, arguments),
+            str(self.path / "scan.npy"),
+        ]
 
     def run_program(self, *arguments):
-        return subprocess.run(self.command(*arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        return subprocess.run(
+            self.command(*arguments),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+        )
 
     @staticmethod
     def kill(program):
@@ -338,13 +515,28 @@ class ProgramTest(unittest.TestCase):
 
     def test_it_writes_rows_a_record_and_a_picture(self):
         rows, picture = self.path / "rows.csv", self.path / "map.png"
-        run = self.run_program("--axis", STIFFNESS + "=0.01:10:4", "--axis", WORK + "=0.02,0.05", "--workers", 1, "-o", rows, "--picture", picture, "--json")
+        run = self.run_program(
+            "--axis",
+            STIFFNESS + "=0.01:10:4",
+            "--axis",
+            WORK + "=0.02,0.05",
+            "--workers",
+            1,
+            "-o",
+            rows,
+            "--picture",
+            picture,
+            "--json",
+        )
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertNotIn("%", re.sub(r"95 %", "", run.stderr))  # progress is for terminals
         record = json.loads(run.stdout)
         self.assertEqual(len(record["rows"]), 8)
         self.assertEqual(rows.read_text().count("\n"), 9)
-        self.assertRegex(record["statements"][0], "^at work of adhesion 20 mJ/m.2: smallest spring stiffness that releases surely: ")
+        self.assertRegex(
+            record["statements"][0],
+            "^at work of adhesion 20 mJ/m.2: smallest spring stiffness that releases surely: ",
+        )
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
     def test_workers_of_dask_find_the_same_rows(self):
@@ -357,19 +549,34 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(self.run_program(*options, "-o", here).returncode, 0)
         command = self.command(*options, "-o", there)
         command[1] = str(REPOSITORY / "scripts" / "examples" / "design_on_dask.py")
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(there.read_text(), here.read_text())
         self.assertRegex(done.stderr, r"(?m)^100 %$")
         command[command.index(WORK + "=0.02:0.05:2")] = "device/spring=1:2:2"
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True
+        )
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, "(?m)^design_on_dask: axes: there is no setting 'device/spring'")
+        self.assertRegex(
+            done.stderr, "(?m)^design_on_dask: axes: there is no setting 'device/spring'"
+        )
 
     def test_it_names_what_is_wrong(self):
-        for arguments, words in ((("--axis", "device/spring=1:2:3"), r"^design_sweep: axes: there is no setting 'device/spring'[^\n]*\n$"),
-                                 (("--axis", STIFFNESS), "must be NAME=FROM:TO:COUNT"), (("--axis", STIFFNESS + "=1", "--axis", STIFFNESS + "=2"), "twice"),
-                                 (("--axis", STIFFNESS + "=1,2", "-o", self.path / "none" / "rows.csv"), r"^design_sweep: [^\n]*none[^\n]*\n$")):
+        for arguments, words in (
+            (
+                ("--axis", "device/spring=1:2:3"),
+                r"^design_sweep: axes: there is no setting 'device/spring'[^\n]*\n$",
+            ),
+            (("--axis", STIFFNESS), "must be NAME=FROM:TO:COUNT"),
+            (("--axis", STIFFNESS + "=1", "--axis", STIFFNESS + "=2"), "twice"),
+            (
+                ("--axis", STIFFNESS + "=1,2", "-o", self.path / "none" / "rows.csv"),
+                r"^design_sweep: [^\n]*none[^\n]*\n$",
+            ),
+        ):
             run = self.run_program(*arguments)
             self.assertEqual(run.returncode, 2)
             self.assertRegex(run.stderr, words)
@@ -377,17 +584,26 @@ class ProgramTest(unittest.TestCase):
     def test_ctrl_c_keeps_rows_and_leaves_no_process(self):
         rows = self.path / "rows.csv"
         axis, count = "0.01:0.1:5000", 5000  # more than anybody waits for
-        program = subprocess.Popen(self.command("--axis", WORK + "=" + axis, "--workers", 2, "-o", rows), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   universal_newlines=True, start_new_session=True)
+        program = subprocess.Popen(
+            self.command("--axis", WORK + "=" + axis, "--workers", 2, "-o", rows),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            start_new_session=True,
+        )
         self.addCleanup(self.kill, program)
         end = time.monotonic() + MOST_WAITED
         while not (rows.exists() and rows.read_text().count("\n") > 1):
-            self.assertIsNone(program.poll(), program.stderr.read() if program.poll() is not None else "")
+            self.assertIsNone(
+                program.poll(), program.stderr.read() if program.poll() is not None else ""
+            )
             self.assertLess(time.monotonic(), end)
             time.sleep(0.1)
         os.killpg(program.pid, signal.SIGINT)  # as a terminal does
         _, told = program.communicate(timeout=MOST_WAITED)
-        self.assertEqual((program.returncode, told), (-signal.SIGINT, "design_sweep: interrupted\n"))
+        self.assertEqual(
+            (program.returncode, told), (-signal.SIGINT, "design_sweep: interrupted\n")
+        )
         while True:  # its processes are of its group
             try:
                 os.killpg(program.pid, 0)
@@ -399,7 +615,14 @@ class ProgramTest(unittest.TestCase):
         self.assertGreater(done, 0)
         with as_if(lambda point: 1e-7) as at, warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = mems_stiction.design_sweep([str(self.path / "scan.npy")], {WORK: (0.01, 0.1, count)}, self.path / "part.yaml", PITCH, rows, 1)
+            found = mems_stiction.design_sweep(
+                [str(self.path / "scan.npy")],
+                {WORK: (0.01, 0.1, count)},
+                self.path / "part.yaml",
+                PITCH,
+                rows,
+                1,
+            )
         self.assertEqual(at.call_count, count - done)
         self.assertEqual(len(found.rows), count)
 

@@ -1,4 +1,5 @@
-"""The pages say what the code says: links lead somewhere, names of topics, services and diagnostics are those of the sources."""
+"""The pages say what the code says: links lead somewhere, names of topics, services and diagnostics
+are those of the sources."""
 
 import importlib.util
 import pathlib
@@ -7,7 +8,9 @@ import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
-PAGES = [REPOSITORY / "README.md", REPOSITORY / "CONTRIBUTING.md"] + sorted((REPOSITORY / "doc").glob("*.md"))
+PAGES = [REPOSITORY / "README.md", REPOSITORY / "CONTRIBUTING.md"] + sorted(
+    (REPOSITORY / "doc").glob("*.md")
+)
 API = (REPOSITORY / "doc" / "ros_api.md").read_text(encoding="utf-8")
 
 
@@ -28,9 +31,9 @@ def source(path):
 def section(title):
     """The text below a heading of the API page, up to the next of the same or a higher rank."""
     match = re.search(r"^(#+) %s$" % re.escape(title), API, re.MULTILINE)
-    rest = API[match.end():]
+    rest = API[match.end() :]
     end = re.search(r"^#{1,%d} " % len(match.group(1)), rest, re.MULTILINE)
-    return rest[:end.start()] if end else rest
+    return rest[: end.start()] if end else rest
 
 
 def rows(title):
@@ -42,7 +45,9 @@ def rows(title):
 class LinkTest(unittest.TestCase):
     def test_every_link_leads_somewhere(self):
         for page in PAGES:
-            text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+            text = re.sub(
+                r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+            )
             for target in re.findall(r"\]\(([^)\s]+)\)", text):
                 if target.startswith("http"):
                     continue
@@ -56,7 +61,9 @@ class LinkTest(unittest.TestCase):
     def test_every_page_is_linked_from_the_readme(self):
         readme = PAGES[0].read_text(encoding="utf-8")
         for page in PAGES[1:]:
-            self.assertTrue("(%s" % page.relative_to(REPOSITORY).as_posix() in readme, "%s is not" % page.name)
+            self.assertTrue(
+                "(%s" % page.relative_to(REPOSITORY).as_posix() in readme, "%s is not" % page.name
+            )
 
     def test_every_picture_is_shown(self):
         text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
@@ -71,35 +78,61 @@ class RosApiTest(unittest.TestCase):
     def test_topics(self):
         listed = dict(rows("Subscribed"))
         listed.update(rows("Published"))
-        self.assertEqual(set(self.names("Topic")), {name for name in listed if not name.startswith("/")})
+        self.assertEqual(
+            set(self.names("Topic")), {name for name in listed if not name.startswith("/")}
+        )
         publisher = source("src/ros/result_publisher.cpp") + source("src/ros/half_space_stream.cpp")
-        constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("src/ros/topic_names.hpp")))
-        advertised = re.findall(r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher)
+        constants = dict(
+            re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("src/ros/topic_names.hpp"))
+        )
+        advertised = re.findall(
+            r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher
+        )
         self.assertGreaterEqual(len(advertised), 12)
         for kind, by_transport, constant in advertised:
             expected = "sensor_msgs/Image" if by_transport else kind.replace("::", "/")
-            self.assertEqual(rows("Published")[constants[constant]].split("/")[-1], expected.split("/")[-1])
+            self.assertEqual(
+                rows("Published")[constants[constant]].split("/")[-1], expected.split("/")[-1]
+            )
 
     def test_services_and_actions(self):
-        for title, suffix, folder in (("Services", "Service", "srv"), ("Actions", "Action", "action")):
+        for title, suffix, folder in (
+            ("Services", "Service", "srv"),
+            ("Actions", "Action", "action"),
+        ):
             listed = rows(title)
-            self.assertEqual({"~" + name for name in self.names(suffix)}, {name for name in listed if name.startswith("~")})
+            self.assertEqual(
+                {"~" + name for name in self.names(suffix)},
+                {name for name in listed if name.startswith("~")},
+            )
             for kind in listed.values():
                 package, _, name = kind.partition("/")
                 if package == "mems_stiction":
-                    self.assertTrue((REPOSITORY / folder / ("%s.%s" % (name, folder))).exists(), kind)
+                    self.assertTrue(
+                        (REPOSITORY / folder / ("%s.%s" % (name, folder))).exists(), kind
+                    )
 
     def test_diagnostics(self):
         added = []
-        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp", "src/ros/master_watch.cpp", "src/ros/half_space_stream.cpp",
-                     "src/ros/device_force_stream.cpp"):
+        for path in (
+            "src/ros/scan_accounting.cpp",
+            "src/ros/stiction_server.cpp",
+            "src/ros/master_watch.cpp",
+            "src/ros/half_space_stream.cpp",
+            "src/ros/device_force_stream.cpp",
+        ):
             added += re.findall(r'status\.add\("([^"]+)"', source(path))
         listed = re.findall(r"^\| `([^`]+)` \|", section("Diagnostics"), re.MULTILINE)
         self.assertEqual(listed, added)
 
     def test_encodings(self):
-        for encoding in re.findall(r"enc::(?:TYPE_)?(\w+),", source("src/ros/image_conversion.cpp")):
-            self.assertIn("`%s`" % (encoding if encoding[0].isdigit() else encoding.lower()), section("Subscribed"))
+        for encoding in re.findall(
+            r"enc::(?:TYPE_)?(\w+),", source("src/ros/image_conversion.cpp")
+        ):
+            self.assertIn(
+                "`%s`" % (encoding if encoding[0].isdigit() else encoding.lower()),
+                section("Subscribed"),
+            )
 
     def test_every_definition_is_linked(self):
         for folder in ("msg", "srv", "action"):
@@ -108,14 +141,22 @@ class RosApiTest(unittest.TestCase):
 
     def test_settings_that_change_are_whole_sections(self):
         cfg = set(re.findall(r'^(\w+)\.add\("(\w+)"', source("cfg/Stiction.cfg"), re.MULTILINE))
-        keys = re.findall(r"^\| `(\w+)/(\w+)` \|", (REPOSITORY / "doc" / "parameters.md").read_text(encoding="utf-8"), re.MULTILINE)
-        self.assertEqual(cfg, {(part, name) for part, name in keys if part in {part for part, _ in cfg}})
+        keys = re.findall(
+            r"^\| `(\w+)/(\w+)` \|",
+            (REPOSITORY / "doc" / "parameters.md").read_text(encoding="utf-8"),
+            re.MULTILINE,
+        )
+        self.assertEqual(
+            cfg, {(part, name) for part, name in keys if part in {part for part, _ in cfg}}
+        )
 
 
 class ValidityTest(unittest.TestCase):
     def test_every_flag_is_explained(self):
         page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
-        flags = re.findall(r"^uint32 (FLAG_\w+) = (\d+)", source("msg/StictionPrediction.msg"), re.MULTILINE)
+        flags = re.findall(
+            r"^uint32 (FLAG_\w+) = (\d+)", source("msg/StictionPrediction.msg"), re.MULTILINE
+        )
         self.assertEqual(len(flags), 10)
         for name, value in flags:
             self.assertIn("`%s` (%s)" % (name, value), page)
@@ -123,26 +164,46 @@ class ValidityTest(unittest.TestCase):
     def test_limits_are_those_of_the_code(self):
         page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
         flags = source("src/verdict/regime_flags.hpp")
-        self.assertIn("fewer than %g pixels" % float(re.search(r"kFewestCellsPerContact = ([\d.]+)", flags).group(1)), page)
-        self.assertIn("fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page)
+        self.assertIn(
+            "fewer than %g pixels"
+            % float(re.search(r"kFewestCellsPerContact = ([\d.]+)", flags).group(1)),
+            page,
+        )
+        self.assertIn(
+            "fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page
+        )
         summary = source("src/prediction/contact_summary.cpp")
-        self.assertIn("not above %g" % float(re.search(r"kJkrLimit = ([\d.]+)", summary).group(1)), page)
+        self.assertIn(
+            "not above %g" % float(re.search(r"kJkrLimit = ([\d.]+)", summary).group(1)), page
+        )
         resolution = source("include/mems_stiction/verdict/resolution.hpp")
-        self.assertIn("fewer than %g pixels) and" % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)), page)
+        self.assertIn(
+            "fewer than %g pixels) and"
+            % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)),
+            page,
+        )
 
 
 class ReleaseTest(unittest.TestCase):
     def test_versions_agree(self):
-        released = re.search(r"^(\d+\.\d+\.\d+) \((\S+)\)$", source("CHANGELOG.rst"), re.MULTILINE).groups()
+        released = re.search(
+            r"^(\d+\.\d+\.\d+) \((\S+)\)$", source("CHANGELOG.rst"), re.MULTILINE
+        ).groups()
         citation = source("CITATION.cff")
-        self.assertEqual(re.search(r"^version: (\S+)$\n^date-released: (\S+)$", citation, re.MULTILINE).groups(), released)
-        self.assertIn("<version>%s</version>" % released[0], source("package.xml"))  # setup.py reads it there
+        self.assertEqual(
+            re.search(r"^version: (\S+)$\n^date-released: (\S+)$", citation, re.MULTILINE).groups(),
+            released,
+        )
+        self.assertIn(
+            "<version>%s</version>" % released[0], source("package.xml")
+        )  # setup.py reads it there
         self.assertIn("project(mems_stiction VERSION %s " % released[0], source("CMakeLists.txt"))
 
 
 class HeaderTest(unittest.TestCase):
     def test_opening_comments_belong_to_their_files(self):
-        """Without @file doxygen takes the comment that opens a header for one on whatever follows."""
+        """Without @file doxygen takes the comment that opens a header for one on whatever
+        follows."""
         for path in sorted((REPOSITORY / "include").rglob("*.hpp")):
             lines = path.read_text().splitlines()
             with self.subTest(header=path.name):

@@ -1,4 +1,5 @@
-"""What others read: rows as Parquet, maps as HDF5 and NetCDF-4, recordings as MCAP with ROS 2 messages; read back by the libraries of those."""
+"""What others read: rows as Parquet, maps as HDF5 and NetCDF-4, recordings as MCAP with ROS 2
+messages; read back by the libraries of those."""
 
 import csv
 import hashlib
@@ -19,7 +20,13 @@ import rosbag
 import roslib.message
 import rospy
 from mems_stiction.long_run import write_points
-from mems_stiction.msg import DeviceAdhesion, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint
+from mems_stiction.msg import (
+    DeviceAdhesion,
+    SeparationPoint,
+    StictionPrediction,
+    SweepLoadResult,
+    SweepPoint,
+)
 from mems_stiction.provenance import FIELDS
 from mems_stiction.ros2_messages import as_ros2, schema_name, schema_of
 from mems_stiction.row_table import Stamp, units_of
@@ -27,8 +34,11 @@ from roslib.packages import find_node
 from rospkg import RosPack
 from std_msgs.msg import Empty, String
 
-SETTINGS = {"load": {"mechanical_load": 1e-6}, "device": {"spring_stiffness": 2.0, "travel": 1e-6, "contact_area": 1e-11, "contacts": 8},
-            "device_force": {"enabled": False}}
+SETTINGS = {
+    "load": {"mechanical_load": 1e-6},
+    "device": {"spring_stiffness": 2.0, "travel": 1e-6, "contact_area": 1e-11, "contacts": 8},
+    "device_force": {"enabled": False},
+}
 MAPS = {"output": {"deformed_surfaces": True, "contact_map": True}}
 
 
@@ -44,8 +54,14 @@ def needs(*modules):
 
 
 def run(name, *arguments):
-    return subprocess.run([find_node("mems_stiction", name)[0]] + [str(part) for part in arguments], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+    return subprocess.run(
+        [find_node("mems_stiction", name)[0]] + [str(part) for part in arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        stdin=subprocess.DEVNULL,
+        universal_newlines=True,
+        timeout=120,
+    )
 
 
 class InFolder(unittest.TestCase):
@@ -83,9 +99,21 @@ class ParquetTest(InFolder):
 
     def rows_of_batch(self, ending):
         (self.folder / "part.yaml").write_text(json.dumps(SETTINGS))
-        self.done("stiction_batch", "--config", self.folder / "part.yaml", "-o", self.folder / ("rows." + ending), self.scan_bag(),
-                  self.folder / "missing.bag")
-        self.done("rows_to_parquet", "-o", self.folder / (ending + ".parquet"), self.folder / ("rows." + ending))
+        self.done(
+            "stiction_batch",
+            "--config",
+            self.folder / "part.yaml",
+            "-o",
+            self.folder / ("rows." + ending),
+            self.scan_bag(),
+            self.folder / "missing.bag",
+        )
+        self.done(
+            "rows_to_parquet",
+            "-o",
+            self.folder / (ending + ".parquet"),
+            self.folder / ("rows." + ending),
+        )
         return self.table(ending + ".parquet")
 
     def test_rows_of_a_batch_keep_every_bit_type_and_unit(self):
@@ -95,23 +123,54 @@ class ParquetTest(InFolder):
         settings = (self.folder / "rows.csv.settings.yaml").read_text()
         for ending, table in tables.items():
             with self.subTest(ending=ending):
-                self.assertEqual(table["pull_off_force"].to_pylist(), [float(row["pull_off_force"]) for row in rows[:-1]] + [None])
-                self.assertEqual(table["asperity_count"].to_pylist(), [int(row["asperity_count"]) for row in rows[:-1]] + [None])
-                self.assertEqual(table["is_conforming"].to_pylist(), [row["is_conforming"] == "true" for row in rows[:-1]] + [None])
+                self.assertEqual(
+                    table["pull_off_force"].to_pylist(),
+                    [float(row["pull_off_force"]) for row in rows[:-1]] + [None],
+                )
+                self.assertEqual(
+                    table["asperity_count"].to_pylist(),
+                    [int(row["asperity_count"]) for row in rows[:-1]] + [None],
+                )
+                self.assertEqual(
+                    table["is_conforming"].to_pylist(),
+                    [row["is_conforming"] == "true" for row in rows[:-1]] + [None],
+                )
                 self.assertIn("no such file", table["reason"].to_pylist()[-1])
-                self.assertEqual([Stamp(stamp) if stamp is not None else None for stamp in table["stamp"].cast("int64").to_pylist()],
-                                 [Stamp.of(row["stamp"]) for row in rows[:-1]] + [None])
-                self.assertEqual([self.unit(table, name) for name in ("pull_off_force", "pitch_x", "asperity_count")], ["N", "m", ""])
+                self.assertEqual(
+                    [
+                        Stamp(stamp) if stamp is not None else None
+                        for stamp in table["stamp"].cast("int64").to_pylist()
+                    ],
+                    [Stamp.of(row["stamp"]) for row in rows[:-1]] + [None],
+                )
+                self.assertEqual(
+                    [
+                        self.unit(table, name)
+                        for name in ("pull_off_force", "pitch_x", "asperity_count")
+                    ],
+                    ["N", "m", ""],
+                )
                 metadata = table.schema.metadata
-                self.assertEqual(metadata[b"mems_stiction.version"].decode(), mems_stiction.__version__)
-                self.assertEqual(metadata[b"mems_stiction.settings"].decode().split("configuration:")[1], settings.split("configuration:")[1])
+                self.assertEqual(
+                    metadata[b"mems_stiction.version"].decode(), mems_stiction.__version__
+                )
+                self.assertEqual(
+                    metadata[b"mems_stiction.settings"].decode().split("configuration:")[1],
+                    settings.split("configuration:")[1],
+                )
         # Whatever is known in a file, a column has one type in all of them.
         for name in tables["jsonl"].column_names:
-            self.assertEqual(tables["jsonl"].schema.field(name).type, tables["csv"].schema.field(name).type, name)
+            self.assertEqual(
+                tables["jsonl"].schema.field(name).type, tables["csv"].schema.field(name).type, name
+            )
 
     def test_a_text_that_looks_like_a_number_or_a_formula_stays_what_it_is(self):
-        (self.folder / "rows.csv").write_text("number,part_id,serial_id,reason,height\n1,0012,12e4,'=no,nan\n2,0013,,,\n")
-        (self.folder / "rows.csv.settings.yaml").write_text("version: 0.1.0\nunits: {height: m}\nconfiguration:\n  scan: {}\n")
+        (self.folder / "rows.csv").write_text(
+            "number,part_id,serial_id,reason,height\n1,0012,12e4,'=no,nan\n2,0013,,,\n"
+        )
+        (self.folder / "rows.csv.settings.yaml").write_text(
+            "version: 0.1.0\nunits: {height: m}\nconfiguration:\n  scan: {}\n"
+        )
         self.done("rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / "rows.csv")
         table = self.table("a.parquet")
         self.assertEqual(table["part_id"].to_pylist(), ["0012", "0013"])
@@ -121,25 +180,72 @@ class ParquetTest(InFolder):
         self.assertTrue(math.isnan(height[0]) and height[1] is None)
 
     def test_what_holds_no_rows_is_refused_in_one_sentence(self):
-        for name, text in (("torn.jsonl", '{"number":1,"fi'), ("ragged.csv", "a,b\n1,2,3\n"), ("empty.csv", ""), ("empty.jsonl", ""), ("number.jsonl", "5\n"), ("dates.csv", "stamp\n2026-01-01\n")):
+        for name, text in (
+            ("torn.jsonl", '{"number":1,"fi'),
+            ("ragged.csv", "a,b\n1,2,3\n"),
+            ("empty.csv", ""),
+            ("empty.jsonl", ""),
+            ("number.jsonl", "5\n"),
+            ("dates.csv", "stamp\n2026-01-01\n"),
+        ):
             (self.folder / name).write_text(text)
-            self.refused("%s: holds no rows" % name, "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / name)
+            self.refused(
+                "%s: holds no rows" % name,
+                "rows_to_parquet",
+                "-o",
+                self.folder / "a.parquet",
+                self.folder / name,
+            )
         (self.folder / "bytes.csv").write_bytes(bytes(range(256)))
-        self.refused("bytes.csv: holds no rows", "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / "bytes.csv")
+        self.refused(
+            "bytes.csv: holds no rows",
+            "rows_to_parquet",
+            "-o",
+            self.folder / "a.parquet",
+            self.folder / "bytes.csv",
+        )
         (self.folder / "rows.csv").write_text("a\n1\n")
-        self.refused("must end in .parquet", "rows_to_parquet", "-o", self.folder / "a.csv", self.folder / "rows.csv")
-        self.refused("must end in .csv", "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / "rows.txt")
-        self.refused("No such file", "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / "none.csv")
+        self.refused(
+            "must end in .parquet",
+            "rows_to_parquet",
+            "-o",
+            self.folder / "a.csv",
+            self.folder / "rows.csv",
+        )
+        self.refused(
+            "must end in .csv",
+            "rows_to_parquet",
+            "-o",
+            self.folder / "a.parquet",
+            self.folder / "rows.txt",
+        )
+        self.refused(
+            "No such file",
+            "rows_to_parquet",
+            "-o",
+            self.folder / "a.parquet",
+            self.folder / "none.csv",
+        )
         (self.folder / "rows.csv.settings.yaml").write_text("[]")
-        self.refused("has no units", "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / "rows.csv")
+        self.refused(
+            "has no units",
+            "rows_to_parquet",
+            "-o",
+            self.folder / "a.parquet",
+            self.folder / "rows.csv",
+        )
         self.assertFalse((self.folder / "a.parquet").exists())
 
     def test_exported_predictions_are_those_of_the_csv(self):
         bag = self.folder / "day.bag"
         with rosbag.Bag(str(bag), "w") as recording:
             for number in range(3):
-                prediction = StictionPrediction(pull_off_force=1e-7 / (number + 3), flags=["border", "one_pixel"], is_conforming=number == 1,
-                                                version="0.1.0")
+                prediction = StictionPrediction(
+                    pull_off_force=1e-7 / (number + 3),
+                    flags=["border", "one_pixel"],
+                    is_conforming=number == 1,
+                    version="0.1.0",
+                )
                 prediction.header.stamp = rospy.Time(1700000000 + number, 123456789)
                 prediction.roughness.sq = 3e-9
                 recording.write("/prediction", prediction, rospy.Time(1700000100 + number, 1))
@@ -150,26 +256,53 @@ class ParquetTest(InFolder):
             rows = list(csv.DictReader(stream))
         table = self.table("day.parquet")
         self.assertEqual(table.column_names, list(rows[0]))
-        self.assertEqual(table["pull_off_force"].to_pylist(), [float(row["pull_off_force"]) for row in rows])
-        self.assertEqual(table["stamp"].cast("int64").to_pylist(), [1700000000123456789 + number * 10**9 for number in range(3)])
+        self.assertEqual(
+            table["pull_off_force"].to_pylist(), [float(row["pull_off_force"]) for row in rows]
+        )
+        self.assertEqual(
+            table["stamp"].cast("int64").to_pylist(),
+            [1700000000123456789 + number * 10**9 for number in range(3)],
+        )
         self.assertEqual(rows[0]["stamp"], "1700000000.123456789")
         self.assertEqual(table["is_conforming"].to_pylist(), [False, True, False])
         self.assertEqual(table["flags"].to_pylist(), ["border; one_pixel"] * 3)
-        self.assertEqual([self.unit(table, name) for name in ("pull_off_force", "roughness/sq", "contact_fraction")], ["N", "m", "-"])
+        self.assertEqual(
+            [
+                self.unit(table, name)
+                for name in ("pull_off_force", "roughness/sq", "contact_fraction")
+            ],
+            ["N", "m", "-"],
+        )
         self.assertEqual(table.schema.metadata[b"mems_stiction.version"], b"0.1.0")
         self.done("export_predictions", "--device-force", "-o", self.folder / "device.parquet", bag)
         self.assertEqual(self.table("device.parquet")["pull_off_force"].to_pylist(), [3e-7])
 
     def test_units_of_messages_are_those_that_the_core_declares(self):
-        declared = {name: unit or "-" for name, (kind, unit, _) in mems_stiction._core.figures["PredictionFigures"].items() if kind == "float"}
+        declared = {
+            name: unit or "-"
+            for name, (kind, unit, _) in mems_stiction._core.figures["PredictionFigures"].items()
+            if kind == "float"
+        }
         stated = units_of(StictionPrediction)
         common = set(declared) & set(stated)
         self.assertGreater(len(common), 30)
-        self.assertEqual({name: stated[name] for name in common}, {name: declared[name] for name in common})
+        self.assertEqual(
+            {name: stated[name] for name in common}, {name: declared[name] for name in common}
+        )
 
     def test_points_of_a_sweep_have_their_units_and_origin(self):
-        result = SweepLoadResult(version="0.1.0", settings_hash="abc", scan_name="die", serial_id="7", site_x=math.nan, site_y=math.nan)
-        points = [SweepPoint(voltage=5.0, pull_off_force=1e-7, is_open=False), SweepPoint(voltage=10.0, pull_off_force=math.nan, is_open=True)]
+        result = SweepLoadResult(
+            version="0.1.0",
+            settings_hash="abc",
+            scan_name="die",
+            serial_id="7",
+            site_x=math.nan,
+            site_y=math.nan,
+        )
+        points = [
+            SweepPoint(voltage=5.0, pull_off_force=1e-7, is_open=False),
+            SweepPoint(voltage=10.0, pull_off_force=math.nan, is_open=True),
+        ]
         for ending in ("csv", "parquet"):
             write_points(points, str(self.folder / ("sweep." + ending)), result)
         table = self.table("sweep.parquet")
@@ -177,22 +310,38 @@ class ParquetTest(InFolder):
             self.assertEqual([row["is_open"] for row in csv.DictReader(stream)], ["0", "1"])
         self.assertEqual(table["voltage"].to_pylist(), [5.0, 10.0])
         self.assertEqual(table["is_open"].to_pylist(), [False, True])
-        self.assertEqual((self.unit(table, "voltage"), self.unit(table, "pull_off_force")), ("V", "N"))
+        self.assertEqual(
+            (self.unit(table, "voltage"), self.unit(table, "pull_off_force")), ("V", "N")
+        )
         self.assertEqual(table["serial_id"].to_pylist(), ["7", "7"])
         self.assertEqual(table["site_x"].to_pylist(), [None, None])  # not stated
-        self.assertEqual((str(table.schema.field("site_x").type), self.unit(table, "site_x")), ("double", "m"))
+        self.assertEqual(
+            (str(table.schema.field("site_x").type), self.unit(table, "site_x")), ("double", "m")
+        )
         self.assertEqual(table.schema.metadata[b"mems_stiction.settings_hash"], b"abc")
 
     def test_a_design_keeps_the_units_of_its_axes(self):
         waves = np.sin(np.arange(64) / 5.0)  # which its pixels show
         heights = np.outer(waves, np.cos(np.arange(64) / 7.0)) * 2e-9
-        found = mems_stiction.design_sweep([heights], {"device/spring_stiffness": [1.0, 2.0]}, pitch=1e-8, workers=1,
-                                           device={"travel": 1e-6, "contact_area": 1e-11}, device_force={"realisations": 3, "max_cells": 1e4})
+        found = mems_stiction.design_sweep(
+            [heights],
+            {"device/spring_stiffness": [1.0, 2.0]},
+            pitch=1e-8,
+            workers=1,
+            device={"travel": 1e-6, "contact_area": 1e-11},
+            device_force={"realisations": 3, "max_cells": 1e4},
+        )
         found.save_rows(self.folder / "design.parquet")
         table = self.table("design.parquet")
         self.assertEqual(table["device/spring_stiffness"].to_pylist(), [1.0, 2.0])
         self.assertEqual(table["margin"].to_pylist(), list(found.margin))
-        self.assertEqual([self.unit(table, name) for name in ("device/spring_stiffness", "pull_off_force", "margin")], ["N/m", "N", ""])
+        self.assertEqual(
+            [
+                self.unit(table, name)
+                for name in ("device/spring_stiffness", "pull_off_force", "margin")
+            ],
+            ["N/m", "N", ""],
+        )
 
 
 @needs("h5py")
@@ -210,16 +359,25 @@ class MapFileTest(InFolder):
         with h5py.File(str(self.folder / "maps.h5"), "r") as file:
             np.testing.assert_array_equal(file["heights"][()], self.prediction.heights)
             np.testing.assert_array_equal(file["contact_map"][()], self.prediction.contact_map)
-            np.testing.assert_array_equal(file["deformed_lower"][()], self.prediction.deformed_lower)
+            np.testing.assert_array_equal(
+                file["deformed_lower"][()], self.prediction.deformed_lower
+            )
             self.assertEqual((file["heights"].attrs["units"], file["x"].attrs["units"]), ("m", "m"))
             self.assertAlmostEqual(file["x"][1], 1e-8)
             self.assertAlmostEqual(file["y"][1], 2e-8)
             np.testing.assert_array_equal(file["curve/force"][()], self.prediction.curve.force)
-            np.testing.assert_array_equal(file["curve/is_separation"][()], self.prediction.curve.is_separation)
+            np.testing.assert_array_equal(
+                file["curve/is_separation"][()], self.prediction.curve.is_separation
+            )
             self.assertEqual(file["curve/force"].attrs["units"], "N")
-            np.testing.assert_array_equal(file["contacts/load"][()], self.prediction.asperities.load)
+            np.testing.assert_array_equal(
+                file["contacts/load"][()], self.prediction.asperities.load
+            )
             self.assertEqual(json.loads(file["record"][()].decode()), self.prediction.to_dict())
-            self.assertEqual((file.attrs["version"], file.attrs["settings_hash"]), (self.prediction.version, self.prediction.settings_hash))
+            self.assertEqual(
+                (file.attrs["version"], file.attrs["settings_hash"]),
+                (self.prediction.version, self.prediction.settings_hash),
+            )
 
     def test_axes_that_fall_and_marks_of_what_is_missing_are_read_as_they_are_meant(self):
         import h5py
@@ -238,7 +396,9 @@ class MapFileTest(InFolder):
                     file["z"].dims[place].attach_scale(file[name])
             scan = mems_stiction.read(self.folder / "map.nc")
             expected = np.where(heights == -999.0, np.nan, 1e-9 * heights)
-            np.testing.assert_allclose(scan.heights, expected if y[0] == 0.0 else expected[::-1], rtol=1e-12)
+            np.testing.assert_allclose(
+                scan.heights, expected if y[0] == 0.0 else expected[::-1], rtol=1e-12
+            )
             np.testing.assert_allclose(scan.pitch, (1e-6, 2e-6), rtol=1e-12)
 
     @needs("xarray", "h5netcdf")
@@ -251,8 +411,12 @@ class MapFileTest(InFolder):
             self.assertEqual(data["deformed_lower"].attrs["units"], "m")
             np.testing.assert_array_equal(data["heights"].values, self.prediction.heights)
             np.testing.assert_allclose(data["y"].values, np.arange(24) * 2e-8)
-        with xarray.open_dataset(str(self.folder / "maps.nc"), engine="h5netcdf", group="curve") as curve:
-            np.testing.assert_array_equal(curve["displacement"].values, self.prediction.curve.displacement)
+        with xarray.open_dataset(
+            str(self.folder / "maps.nc"), engine="h5netcdf", group="curve"
+        ) as curve:
+            np.testing.assert_array_equal(
+                curve["displacement"].values, self.prediction.curve.displacement
+            )
 
     def test_our_own_reader_takes_the_heights_from_it(self):
         self.prediction.save_maps(self.folder / "maps.nc")
@@ -270,7 +434,9 @@ class MapFileTest(InFolder):
             def heights(_):
                 return self.heights
 
-        mems_stiction.predict(Topography(), None, SETTINGS, **MAPS).save_maps(self.folder / "maps.h5")
+        mems_stiction.predict(Topography(), None, SETTINGS, **MAPS).save_maps(
+            self.folder / "maps.h5"
+        )
         with h5py.File(str(self.folder / "maps.h5"), "r") as file:
             self.assertEqual([file["heights"].dims[axis][0].name for axis in (0, 1)], ["/x", "/y"])
             self.assertAlmostEqual(file["y"][1], 2e-8)
@@ -278,13 +444,19 @@ class MapFileTest(InFolder):
     def test_a_half_space_has_gap_and_pressure(self):
         import h5py
 
-        solved = mems_stiction.half_space(np.random.RandomState(3).normal(size=(32, 32)) * 1e-9, 1e-8, SETTINGS)
+        solved = mems_stiction.half_space(
+            np.random.RandomState(3).normal(size=(32, 32)) * 1e-9, 1e-8, SETTINGS
+        )
         solved.save_maps(self.folder / "rest.hdf5")
         with h5py.File(str(self.folder / "rest.hdf5"), "r") as file:
             np.testing.assert_array_equal(file["gap"][()], solved.gap)
-            self.assertEqual((file["pressure"].attrs["units"], file["curve/height"].attrs["units"]), ("Pa", "m"))
+            self.assertEqual(
+                (file["pressure"].attrs["units"], file["curve/height"].attrs["units"]), ("Pa", "m")
+            )
             np.testing.assert_array_equal(file["curve/direction"][()], solved.curve.direction)
-            self.assertEqual(json.loads(file["record"][()].decode())["pull_off_force"], solved.pull_off_force)
+            self.assertEqual(
+                json.loads(file["record"][()].decode())["pull_off_force"], solved.pull_off_force
+            )
             self.assertEqual(file.attrs["status"], solved.status)
 
     def test_maps_of_a_half_space_say_what_was_scanned_as_those_of_a_prediction_do(self):
@@ -292,15 +464,28 @@ class MapFileTest(InFolder):
 
         path = self.folder / "scan.csv"
         np.savetxt(str(path), np.random.RandomState(3).normal(size=(32, 32)) * 1e-9, delimiter=",")
-        (self.folder / "scan.csv.yaml").write_text("part_id: lever\nlot_id: lot 3\nwafer_id: '7'\nsite_x: 1.0e-2\nsite_y: 0.0\n")
+        (self.folder / "scan.csv.yaml").write_text(
+            "part_id: lever\nlot_id: lot 3\nwafer_id: '7'\nsite_x: 1.0e-2\nsite_y: 0.0\n"
+        )
         origins = []
         for run in (mems_stiction.half_space, mems_stiction.predict):
             run(path, 1e-8, SETTINGS).save_maps(self.folder / "maps.h5")
             with h5py.File(str(self.folder / "maps.h5"), "r") as file:
-                origins.append({name: file.attrs[name] for name in FIELDS if name in file.attrs and name != "scan_name"})
+                origins.append(
+                    {
+                        name: file.attrs[name]
+                        for name in FIELDS
+                        if name in file.attrs and name != "scan_name"
+                    }
+                )
         self.assertEqual(origins[0], origins[1])
-        self.assertEqual((origins[0]["lot_id"], origins[0]["wafer_id"], origins[0]["site_x"]), ("lot 3", "7", 1e-2))
-        self.assertEqual(origins[0]["checksum"], "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest())
+        self.assertEqual(
+            (origins[0]["lot_id"], origins[0]["wafer_id"], origins[0]["site_x"]),
+            ("lot 3", "7", 1e-2),
+        )
+        self.assertEqual(
+            origins[0]["checksum"], "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+        )
 
     def test_what_cannot_be_written_is_an_error_and_no_file(self):
         with self.assertRaisesRegex(mems_stiction.Error, r"must end in \.h5"):
@@ -314,7 +499,10 @@ def messages_of_package():
     folder = pathlib.Path(RosPack().get_path("mems_stiction"))
     names = ["mems_stiction/" + path.stem for path in sorted((folder / "msg").glob("*.msg"))]
     for path in sorted((folder / "action").glob("*.action")):
-        names += ["mems_stiction/%s%s" % (path.stem, part) for part in ("ActionGoal", "ActionFeedback", "ActionResult")]
+        names += [
+            "mems_stiction/%s%s" % (path.stem, part)
+            for part in ("ActionGoal", "ActionFeedback", "ActionResult")
+        ]
     return names
 
 
@@ -334,18 +522,28 @@ def filled_field(kind, source):
             return bytes(source.randrange(256) for _ in range(count))
         return [filled_field(base, source) for _ in range(count)]
     if base in ("time", "duration"):
-        return (genpy.Time if base == "time" else genpy.Duration)(source.randrange(2**31), source.randrange(10**9))
+        return (genpy.Time if base == "time" else genpy.Duration)(
+            source.randrange(2**31), source.randrange(10**9)
+        )
     if base == "string":
-        return source.choice(["", "a", "µm = \"nm\"", "two\nlines"])
+        return source.choice(["", "a", 'µm = "nm"', "two\nlines"])
     if base == "bool":
         return source.random() < 0.5
     if base.startswith("float"):
         value = source.choice([0.0, -1.5e-7, math.inf, source.random()])
         return value if base == "float64" else struct.unpack("f", struct.pack("f", value))[0]
     sizes = {"byte": ("int", 8), "char": ("uint", 8)}
-    sign, bits = sizes.get(base) or (base.rstrip("0123456789"), int("".join(filter(str.isdigit, base)) or 0)) if "/" not in base else ("", 0)
+    sign, bits = (
+        sizes.get(base) or (base.rstrip("0123456789"), int("".join(filter(str.isdigit, base)) or 0))
+        if "/" not in base
+        else ("", 0)
+    )
     if bits:
-        return source.randrange(2**bits) if sign == "uint" else source.randrange(-2**(bits - 1), 2**(bits - 1))
+        return (
+            source.randrange(2**bits)
+            if sign == "uint"
+            else source.randrange(-(2 ** (bits - 1)), 2 ** (bits - 1))
+        )
     return filled("std_msgs/Header" if base == "Header" else base, source)
 
 
@@ -367,7 +565,9 @@ class McapTest(InFolder):
             if (message._type, name) == ("std_msgs/Header", "seq"):
                 self.assertFalse(hasattr(found, "seq"))
                 continue
-            self.assert_same_value(getattr(found, name.lower()), getattr(message, name), "%s/%s" % (place, name))
+            self.assert_same_value(
+                getattr(found, name.lower()), getattr(message, name), "%s/%s" % (place, name)
+            )
 
     def assert_same_value(self, found, value, place):
         if isinstance(value, genpy.TVal):
@@ -379,12 +579,23 @@ class McapTest(InFolder):
             for one, other in zip(found, value):
                 self.assert_same_value(one, other, place)
         else:
-            self.assertTrue(found == value or found != found and value != value, "%s: %r, %r" % (place, found, value))
+            self.assertTrue(
+                found == value or found != found and value != value,
+                "%s: %r, %r" % (place, found, value),
+            )
 
     def test_every_message_of_the_package_reads_back(self):
         source = random.Random(5)
-        names = messages_of_package() + ["sensor_msgs/Image", "sensor_msgs/CameraInfo", "diagnostic_msgs/DiagnosticArray", "tf2_msgs/TFMessage",
-                                         "std_msgs/Empty", "std_msgs/Byte", "std_msgs/Char", "std_msgs/Duration"]
+        names = messages_of_package() + [
+            "sensor_msgs/Image",
+            "sensor_msgs/CameraInfo",
+            "diagnostic_msgs/DiagnosticArray",
+            "tf2_msgs/TFMessage",
+            "std_msgs/Empty",
+            "std_msgs/Byte",
+            "std_msgs/Char",
+            "std_msgs/Duration",
+        ]
         written = []
         with rosbag.Bag(str(self.folder / "all.bag"), "w") as bag:
             for number, name in enumerate(names * 3):
@@ -398,8 +609,12 @@ class McapTest(InFolder):
         read = self.read("all.mcap")
         self.assertEqual(len(read), len(written))
         for found, (topic, message, time) in zip(read, written):
-            self.assertEqual((found.channel.topic, found.schema.name), (topic, schema_name(message._type)))
-            self.assertEqual((found.channel.message_encoding, found.schema.encoding), ("cdr", "ros2msg"))
+            self.assertEqual(
+                (found.channel.topic, found.schema.name), (topic, schema_name(message._type))
+            )
+            self.assertEqual(
+                (found.channel.message_encoding, found.schema.encoding), ("cdr", "ros2msg")
+            )
             self.assertEqual(found.log_time_ns, time.to_nsec())
             self.assert_same(found.ros_msg, message, message._type)
 
@@ -423,7 +638,11 @@ class McapTest(InFolder):
             bag.write("/text", String("ab"), rospy.Time(2))
             bag.write("/empty", Empty(), rospy.Time(3))
             prediction = StictionPrediction(status=1, steps=7, voltage=2.5)
-            prediction.header.stamp, prediction.header.frame_id, prediction.header.seq = rospy.Time(5, 6), "die", 99
+            prediction.header.stamp, prediction.header.frame_id, prediction.header.seq = (
+                rospy.Time(5, 6),
+                "die",
+                99,
+            )
             bag.write("/prediction", prediction, rospy.Time(4))
         self.done("bag_to_mcap", "-o", self.folder / "one.mcap", self.folder / "one.bag")
         with open(str(self.folder / "one.mcap"), "rb") as stream:
@@ -433,17 +652,28 @@ class McapTest(InFolder):
         start = b"\0\1\0\0"
         self.assertEqual(found["/text"], start + struct.pack("<I", 3) + b"ab\0")
         self.assertEqual(found["/empty"], start + b"\0")
-        # stamp, frame_id with its end, status at once, steps at the next multiple of 4, voltage of 8
+        # stamp, frame_id with its end, status at once, steps at the next multiple of 4, voltage of
+        # 8
         expected = struct.pack("<iII4sB3xI", 5, 6, 4, b"die\0", 1, 7) + struct.pack("<d", 2.5)
-        self.assertEqual(found["/prediction"][:4 + len(expected)], start + expected)
+        self.assertEqual(found["/prediction"][: 4 + len(expected)], start + expected)
 
     def test_schemas_keep_constants_and_comments(self):
-        text = schema_of("Header header  # of it [-]\nstring WORD=a # b \"c\"\nuint8 UP = 1 # up\nfloat64[9] K # [m]\ntime[] when\nchar letter\nbyte small\n"
-                         + "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n")
-        self.assertEqual(text.split("\n" + "=" * 80 + "\n"), [
-            'std_msgs/Header header  # of it [-]\nstring WORD="a # b \\"c\\""\nuint8 UP = 1 # up\nfloat64[9] k  # [m]\nbuiltin_interfaces/Time[] when\n'
-            'uint8 letter\nint8 small',
-            "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id", "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n"])
+        text = schema_of(
+            'Header header  # of it [-]\nstring WORD=a # b "c"\nuint8 UP = 1 # up\nfloat64[9] K # '
+            "[m]\ntime[] when\nchar letter\nbyte small\n"
+            + "=" * 80
+            + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
+        )
+        self.assertEqual(
+            text.split("\n" + "=" * 80 + "\n"),
+            [
+                'std_msgs/Header header  # of it [-]\nstring WORD="a # b \\"c\\""\nuint8 UP = 1 # '
+                "up\nfloat64[9] k  # [m]\nbuiltin_interfaces/Time[] when\n"
+                "uint8 letter\nint8 small",
+                "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id",
+                "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",
+            ],
+        )
         self.assertEqual(as_ros2(String("a")), {"data": "a"})
 
     def test_a_type_that_ros_2_cannot_have_is_left_out_and_named(self):
@@ -453,22 +683,43 @@ class McapTest(InFolder):
             bag.write("/odd", bad("x"), rospy.Time(2))
             bag.write("/good", String("y"), rospy.Time(3))
         done = self.done("bag_to_mcap", "-o", self.folder / "odd.mcap", self.folder / "odd.bag")
-        self.assertRegex(done.stderr, r"^bag_to_mcap: /odd: left out, ROS 2 has no type such as odd_msgs/Odd_Name: [^\n]*\n$")
+        self.assertRegex(
+            done.stderr,
+            r"^bag_to_mcap: /odd: left out, ROS 2 has no type such as odd_msgs/Odd_Name: [^\n]*\n$",
+        )
         self.assertEqual([found.ros_msg.data for found in self.read("odd.mcap")], ["y"])
 
     def test_slips_are_one_sentence_and_leave_no_file(self):
         bag = self.scan_bag(count=1)
         self.refused("must end in .mcap", "bag_to_mcap", "-o", self.folder / "a.bag", bag)
-        self.refused("no message on /hight", "bag_to_mcap", "-o", self.folder / "a.mcap", "--topic", "/hight", bag)
+        self.refused(
+            "no message on /hight",
+            "bag_to_mcap",
+            "-o",
+            self.folder / "a.mcap",
+            "--topic",
+            "/hight",
+            bag,
+        )
         (self.folder / "text.bag").write_text("no bag")
-        self.refused("is not a bag", "bag_to_mcap", "-o", self.folder / "a.mcap", self.folder / "text.bag")
-        self.refused("no such file", "bag_to_mcap", "-o", self.folder / "a.mcap", self.folder / "none.bag")
+        self.refused(
+            "is not a bag", "bag_to_mcap", "-o", self.folder / "a.mcap", self.folder / "text.bag"
+        )
+        self.refused(
+            "no such file", "bag_to_mcap", "-o", self.folder / "a.mcap", self.folder / "none.bag"
+        )
         torn = self.folder / "torn.bag"
         torn.write_bytes(bag.read_bytes()[:5000])
         self.refused("cannot be read", "bag_to_mcap", "-o", self.folder / "a.mcap", torn)
         self.refused("cannot be written", "bag_to_mcap", "-o", self.folder / "no" / "a.mcap", bag)
         os.symlink("/dev/full", str(self.folder / "full.mcap"))
-        self.refused("cannot be written: No space left on device", "bag_to_mcap", "-o", self.folder / "full.mcap", bag)
+        self.refused(
+            "cannot be written: No space left on device",
+            "bag_to_mcap",
+            "-o",
+            self.folder / "full.mcap",
+            bag,
+        )
         self.assertEqual([path.name for path in self.folder.glob("*a.mcap*")], [])
         self.done("bag_to_mcap", "-o", self.folder / "a.mcap", "--topic", "height", bag)
         self.assertEqual([found.channel.topic for found in self.read("a.mcap")], ["/height"])

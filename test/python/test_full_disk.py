@@ -1,4 +1,5 @@
-"""A disk that fills up while a batch, a report or a curve is written: one line, a status, and nothing that looks whole."""
+"""A disk that fills up while a batch, a report or a curve is written: one line, a status, and
+nothing that looks whole."""
 
 import importlib.util
 import os
@@ -28,13 +29,18 @@ class FullDiskTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.disk = self.folder / "disk"
         self.disk.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=128k", "tmpfs", str(self.disk)], stderr=subprocess.PIPE,
-                                 universal_newlines=True)
+        mounted = subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", "size=128k", "tmpfs", str(self.disk)],
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+        )
         if mounted.returncode:
             self.skipTest("no small disk: " + mounted.stderr.strip())
         self.addCleanup(subprocess.run, ["umount", "--lazy", str(self.disk)], check=True)
         self.config = self.folder / "config.yaml"
-        self.config.write_text("load: {mechanical_load: 1.0e-6}\nscan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\n")
+        self.config.write_text(
+            "load: {mechanical_load: 1.0e-6}\nscan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\n"
+        )
         random = np.random.RandomState(1)
         self.scans = [self.folder / ("%02d.txt" % number) for number in range(SCANS)]
         for scan in self.scans:
@@ -46,14 +52,26 @@ class FullDiskTest(unittest.TestCase):
         (self.disk / "fill").write_bytes(bytes(max(0, status.f_bavail * status.f_frsize - size)))
 
     def run_program(self, *command):
-        done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+        done = subprocess.run(
+            [str(part) for part in command],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            universal_newlines=True,
+            timeout=120,
+        )
         self.assertNotIn("Traceback", done.stderr)
         return done
 
     def batch(self):
-        return self.run_program(find_node("mems_stiction", "stiction_batch")[0], "--config", self.config, "-o",
-                                self.disk / "rows.csv", *self.scans)
+        return self.run_program(
+            find_node("mems_stiction", "stiction_batch")[0],
+            "--config",
+            self.config,
+            "-o",
+            self.disk / "rows.csv",
+            *self.scans,
+        )
 
     def test_a_batch_says_so_and_goes_on_when_there_is_room(self):
         self.leave(32768)
@@ -67,23 +85,39 @@ class FullDiskTest(unittest.TestCase):
         whole = (self.disk / "rows.csv").read_text()
         self.assertEqual(len(whole.splitlines()), 1 + SCANS)
         # What had been written whole was kept.
-        kept = written[:written.rfind("\n") + 1]
+        kept = written[: written.rfind("\n") + 1]
         self.assertTrue(whole.startswith(kept), kept)
 
     def test_a_curve_is_whole_or_absent(self):
         self.leave(4096)
-        done = self.run_program(find_node("mems_stiction", "predict_scan")[0], "--config", self.config, "--curve",
-                                self.disk / "curve.csv", self.scans[0])
+        done = self.run_program(
+            find_node("mems_stiction", "predict_scan")[0],
+            "--config",
+            self.config,
+            "--curve",
+            self.disk / "curve.csv",
+            self.scans[0],
+        )
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"curve\.csv: cannot be written: No space left on device\n$")
         self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"])
 
     def test_a_report_is_whole_or_absent(self):
         self.leave(4096)
-        done = self.run_program(SCRIPTS / "stiction_report", "--config", self.config, "-o", self.disk / "report.html",
-                                self.scans[0])
+        done = self.run_program(
+            SCRIPTS / "stiction_report",
+            "--config",
+            self.config,
+            "-o",
+            self.disk / "report.html",
+            self.scans[0],
+        )
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr.splitlines()[-1], "stiction_report: %s: cannot be written: No space left on device" % (self.disk / "report.html"))
+        self.assertEqual(
+            done.stderr.splitlines()[-1],
+            "stiction_report: %s: cannot be written: No space left on device"
+            % (self.disk / "report.html"),
+        )
         self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"])
 
     def test_a_bag_is_whole_or_absent_wherever_the_disk_is_full(self):
@@ -95,8 +129,15 @@ class FullDiskTest(unittest.TestCase):
         for size in range(0, whole.stat().st_size, page):
             self.leave(size)
             done = self.run_program(*command, self.disk / "scans.bag", *self.scans[:2])
-            self.assertEqual((done.returncode, done.stderr), (
-                2, "make_scan_bag: %s: cannot be written: No space left on device\n" % (self.disk / "scans.bag")), size)
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (
+                    2,
+                    "make_scan_bag: %s: cannot be written: No space left on device\n"
+                    % (self.disk / "scans.bag"),
+                ),
+                size,
+            )
             self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"], size)
             (self.disk / "fill").unlink()
 
@@ -105,22 +146,33 @@ class FullDiskTest(unittest.TestCase):
         from mems_stiction.msg import CycleContactResult, CyclePoint
         from mems_stiction.station_figures import save_cycles
 
-        result = CycleContactResult(cycles=[CyclePoint(cycle=cycle, pull_off_force=cycle / 7) for cycle in range(1000)])
+        result = CycleContactResult(
+            cycles=[CyclePoint(cycle=cycle, pull_off_force=cycle / 7) for cycle in range(1000)]
+        )
         self.leave(4096)
-        writers = {"cycles.csv": lambda path: write_points(result.cycles, path, result), "cycles.png": lambda path: save_cycles(result, path)}
+        writers = {
+            "cycles.csv": lambda path: write_points(result.cycles, path, result),
+            "cycles.png": lambda path: save_cycles(result, path),
+        }
         if has("pyarrow"):
             writers["cycles.parquet"] = writers["cycles.csv"]
         for name, write in writers.items():
             path = str(self.disk / name)
             with self.assertRaises(CannotWrite) as caught:
                 write(path)
-            self.assertEqual(reason_of(caught.exception), path + ": cannot be written: No space left on device")
+            self.assertEqual(
+                reason_of(caught.exception), path + ": cannot be written: No space left on device"
+            )
             self.assertEqual([one.name for one in self.disk.iterdir()], ["fill"])
 
     def test_maps_are_whole_or_absent(self):
         if not has("h5py"):
             self.skipTest("not installed: h5py")
-        prediction = mems_stiction.predict(np.random.RandomState(1).normal(size=(64, 64)) * 1e-9, 1e-8, output={"deformed_surfaces": True})
+        prediction = mems_stiction.predict(
+            np.random.RandomState(1).normal(size=(64, 64)) * 1e-9,
+            1e-8,
+            output={"deformed_surfaces": True},
+        )
         for size in (0, 4096, 32768):
             self.leave(size)
             with self.assertRaises(CannotWrite) as caught:
@@ -133,12 +185,29 @@ class FullDiskTest(unittest.TestCase):
         if not has("mcap_ros2"):
             self.skipTest("not installed: mcap_ros2")
         bag = self.folder / "scans.bag"
-        self.assertEqual(self.run_program(find_node("mems_stiction", "make_scan_bag")[0], "--pitch", "1e-8", "-o", bag, *self.scans).returncode, 0)
+        self.assertEqual(
+            self.run_program(
+                find_node("mems_stiction", "make_scan_bag")[0],
+                "--pitch",
+                "1e-8",
+                "-o",
+                bag,
+                *self.scans,
+            ).returncode,
+            0,
+        )
         for size in (0, 4096, 32768):
             self.leave(size)
             done = self.run_program(SCRIPTS / "bag_to_mcap", "-o", self.disk / "scans.mcap", bag)
-            self.assertEqual((done.returncode, done.stderr), (
-                2, "bag_to_mcap: %s: cannot be written: No space left on device\n" % (self.disk / "scans.mcap")), size)
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (
+                    2,
+                    "bag_to_mcap: %s: cannot be written: No space left on device\n"
+                    % (self.disk / "scans.mcap"),
+                ),
+                size,
+            )
             self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"], size)
             (self.disk / "fill").unlink()
 
@@ -146,7 +215,10 @@ class FullDiskTest(unittest.TestCase):
         with self.assertRaises(OSError) as caught, open("/dev/full", "w") as full:
             full.write("x")
             full.flush()
-        self.assertEqual(reason_of(caught.exception), "what is printed cannot be written: No space left on device")
+        self.assertEqual(
+            reason_of(caught.exception),
+            "what is printed cannot be written: No space left on device",
+        )
 
 
 if __name__ == "__main__":

@@ -14,13 +14,20 @@ LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
 
 
 def nodes(path, *arguments):
-    return subprocess.run(["roslaunch", "--nodes", str(path)] + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=300)
+    return subprocess.run(
+        ["roslaunch", "--nodes", str(path)] + list(arguments),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+        timeout=300,
+    )
 
 
 def command(file, node, *arguments):
     """What roslaunch starts a node by, as a list of words."""
-    loaded = roslaunch.config.load_config_default([(str(LAUNCH / file), list(arguments))], None, verbose=False)
+    loaded = roslaunch.config.load_config_default(
+        [(str(LAUNCH / file), list(arguments))], None, verbose=False
+    )
     found = next(one for one in loaded.nodes if one.name == node)
     return create_local_process_args(found, loaded.machines[found.machine_name or ""])
 
@@ -47,8 +54,13 @@ class LaunchTest(unittest.TestCase):
                 path = os.path.join(folder, name)
                 pathlib.Path(path).touch()
                 self.assertEqual(command("demo.launch", "replay", "bag:=" + path)[-2], path)
-                self.assertEqual(command("view.launch", "stiction_trend", "trend_file:=" + path)[3:5], ["--output", path])
-                self.assertEqual(command("view.launch", "stiction_view", "rviz_config:=" + path)[2], path)
+                self.assertEqual(
+                    command("view.launch", "stiction_trend", "trend_file:=" + path)[3:5],
+                    ["--output", path],
+                )
+                self.assertEqual(
+                    command("view.launch", "stiction_view", "rviz_config:=" + path)[2], path
+                )
         self.assertNotIn("--output", command("view.launch", "stiction_trend"))
 
     def test_a_bag_that_is_not_there_is_refused_at_once(self):
@@ -57,8 +69,13 @@ class LaunchTest(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn("no such.bag", done.stdout + done.stderr)
             pathlib.Path(folder, "there.bag").touch()
-            done = subprocess.run(["roslaunch", "--nodes", str(LAUNCH / "demo.launch"), "bag:=there.bag"], cwd=folder, timeout=300,
-                                  env=dict(os.environ, PWD=folder), stdout=subprocess.DEVNULL)
+            done = subprocess.run(
+                ["roslaunch", "--nodes", str(LAUNCH / "demo.launch"), "bag:=there.bag"],
+                cwd=folder,
+                timeout=300,
+                env=dict(os.environ, PWD=folder),
+                stdout=subprocess.DEVNULL,
+            )
             self.assertEqual(done.returncode, 0)
 
     def test_names_of_ros_itself_pass(self):
@@ -69,8 +86,11 @@ class LaunchTest(unittest.TestCase):
             path = os.path.join(folder, "station.launch")
             for more, status in (("", 1), ('<arg name="other_args" value="taken" />', 0)):
                 with open(path, "w") as stream:
-                    stream.write('<launch><arg name="bench" default="3" /><include file="%s" pass_all_args="true">%s</include></launch>'
-                                 % (LAUNCH / "stiction.launch", more))
+                    stream.write(
+                        '<launch><arg name="bench" default="3" /><include file="%s" '
+                        'pass_all_args="true">%s</include></launch>'
+                        % (LAUNCH / "stiction.launch", more)
+                    )
                 self.assertEqual(nodes(path).returncode, status)
 
 

@@ -1,4 +1,5 @@
-"""compare_lots: known variances and shares come back, a wafer shows its trend and its bad places, and what rows cannot tell is said."""
+"""compare_lots: known variances and shares come back, a wafer shows its trend and its bad places,
+and what rows cannot tell is said."""
 
 import csv
 import importlib.util
@@ -40,11 +41,15 @@ device_force: {enabled: false}
 
 
 def row(lot="A", wafer="1", site=(0.0, 0.0), margin=3.0, **others):
-    return dict({"lot_id": lot, "wafer_id": wafer, "site_x": site[0], "site_y": site[1], "margin": margin}, **others)
+    return dict(
+        {"lot_id": lot, "wafer_id": wafer, "site_x": site[0], "site_y": site[1], "margin": margin},
+        **others,
+    )
 
 
 def made(shape, deviations, seed, lost=0.0, mean=0.0, draw=None):
-    """Places of lots, wafers and sites whose logarithms have these standard deviations; some are lost."""
+    """Places of lots, wafers and sites whose logarithms have these standard deviations; some are
+    lost."""
     random = np.random.RandomState(seed)
     found = []
     for lot in range(shape[0]):
@@ -52,9 +57,26 @@ def made(shape, deviations, seed, lost=0.0, mean=0.0, draw=None):
         for wafer in range(shape[1]):
             of_wafer = of_lot + deviations[1] * random.standard_normal()
             for site in range(shape[2]):
-                value = math.exp(mean + of_wafer + deviations[2] * (random.standard_normal() if draw is None else draw(random)))
+                value = math.exp(
+                    mean
+                    + of_wafer
+                    + deviations[2] * (random.standard_normal() if draw is None else draw(random))
+                )
                 if random.rand() >= lost:
-                    found.append(Place("%d" % lot, "%d" % wafer, "", 1e-3 * site, 0.0, value, *(math.nan,) * 4, 0.0, "", ""))
+                    found.append(
+                        Place(
+                            "%d" % lot,
+                            "%d" % wafer,
+                            "",
+                            1e-3 * site,
+                            0.0,
+                            value,
+                            *(math.nan,) * 4,
+                            0.0,
+                            "",
+                            "",
+                        )
+                    )
     return found
 
 
@@ -70,7 +92,9 @@ class KnownVariancesTest(unittest.TestCase):
             places = made((4, 5, 9), deviations, seed, lost=0.1)
             found = components_of(self.logs(places), hierarchy_of(places), by_likelihood=False)
             self.assertEqual(found.words, ("lots", "wafers", "places"))
-            covered += (found.lower <= np.square(deviations)) & (np.square(deviations) <= found.upper)
+            covered += (found.lower <= np.square(deviations)) & (
+                np.square(deviations) <= found.upper
+            )
         for place, word in enumerate(found.words):
             self.assertGreaterEqual(covered[place] / draws, 0.90, word)
             self.assertLessEqual(covered[place] / draws, 0.98, word)
@@ -101,17 +125,36 @@ class KnownVariancesTest(unittest.TestCase):
     def test_the_interval_of_a_trend_holds_it(self):
         covered = 0
         for seed in range(200):
-            values = np.exp(10.0 * np.array([x for x, _ in SITES]) + 0.2 * np.random.RandomState(seed).standard_normal(49))
-            trend = trend_of([Place("", "", "", x, y, value, *(math.nan,) * 4, 0.0, "", "") for (x, y), value in zip(SITES, values)])
+            values = np.exp(
+                10.0 * np.array([x for x, _ in SITES])
+                + 0.2 * np.random.RandomState(seed).standard_normal(49)
+            )
+            trend = trend_of(
+                [
+                    Place("", "", "", x, y, value, *(math.nan,) * 4, 0.0, "", "")
+                    for (x, y), value in zip(SITES, values)
+                ]
+            )
             covered += trend.gradient_x_lower < 10.0 < trend.gradient_x_upper
         self.assertGreaterEqual(covered, 180)
         self.assertLessEqual(covered, 197)
 
     def test_levels_that_are_one_are_named(self):
-        rows = [row(lot="%d" % lot, wafer="w", part_id="p%d" % part, margin=3.0 + 0.1 * lot + 0.01 * part) for lot in range(3) for part in range(4)]
+        rows = [
+            row(
+                lot="%d" % lot,
+                wafer="w",
+                part_id="p%d" % part,
+                margin=3.0 + 0.1 * lot + 0.01 * part,
+            )
+            for lot in range(3)
+            for part in range(4)
+        ]
         found = mems_stiction.compare_lots(rows)
         self.assertEqual(list(found.components.level), ["lots and their wafers", "parts"])
-        self.assertIn("each of the lots has one of the wafers: they cannot be told apart", found.statements)
+        self.assertIn(
+            "each of the lots has one of the wafers: they cannot be told apart", found.statements
+        )
 
 
 class SharesTest(unittest.TestCase):
@@ -136,8 +179,13 @@ class SharesTest(unittest.TestCase):
 
     def test_where_the_distribution_is_another_places_are_counted(self):
         """One place of ten is bad: no normal distribution."""
-        covered, methods = self.coverage(0.1, (1, 1, 80), (0.0, 0.0, 1.0), mean=1.0,
-                                         draw=lambda random: -1.5 if random.rand() < 0.1 else 0.1 * random.standard_normal())
+        covered, methods = self.coverage(
+            0.1,
+            (1, 1, 80),
+            (0.0, 0.0, 1.0),
+            mean=1.0,
+            draw=lambda random: -1.5 if random.rand() < 0.1 else 0.1 * random.standard_normal(),
+        )
         self.assertEqual(methods, {"counted"})
         self.assertGreaterEqual(covered, 0.93)
 
@@ -145,13 +193,29 @@ class SharesTest(unittest.TestCase):
         """Clopper and Pearson, one-sided: 1 - 0.05^(1/N)."""
         places = made((1, 1, 49), (0.0, 0.0, 0.1), 1, mean=math.log(5.0))
         share = share_of(places, hierarchy_of(places), 0.0)
-        self.assertEqual((share.method, share.sticking, share.share, share.lower), ("bound", 0, 0.0, 0.0))
+        self.assertEqual(
+            (share.method, share.sticking, share.share, share.lower), ("bound", 0, 0.0, 0.0)
+        )
         self.assertAlmostEqual(share.upper, 1.0 - 0.05 ** (1.0 / 49.0), places=9)
         self.assertLess(share.tail, 1e-10)
 
     def test_counts_have_the_interval_of_clopper_and_pearson(self):
         """Two of 20: 1.23 % to 31.70 %, as in their tables."""
-        places = [Place("", "", "", math.nan, math.nan, 0.5 if number < 2 else 5.0, *(math.nan,) * 4, 0.0, "", "%d" % number) for number in range(20)]
+        places = [
+            Place(
+                "",
+                "",
+                "",
+                math.nan,
+                math.nan,
+                0.5 if number < 2 else 5.0,
+                *(math.nan,) * 4,
+                0.0,
+                "",
+                "%d" % number,
+            )
+            for number in range(20)
+        ]
         share = share_of(places, hierarchy_of(places), 0.0)
         self.assertEqual(share.method, "counted")
         self.assertAlmostEqual(share.lower, 0.0123, places=4)
@@ -164,65 +228,122 @@ class SharesTest(unittest.TestCase):
         self.assertGreater(share.upper, 1.0 - 0.05 ** (1.0 / 10.0))
 
     def test_an_error_that_all_margins_share_widens_the_interval(self):
-        rows = [row(site=site, margin=2.0 * math.exp(0.3 * value)) for site, value in zip(SITES, np.random.RandomState(2).standard_normal(49))]
+        rows = [
+            row(site=site, margin=2.0 * math.exp(0.3 * value))
+            for site, value in zip(SITES, np.random.RandomState(2).standard_normal(49))
+        ]
         plain = mems_stiction.compare_lots(rows)
         self.assertTrue(any("margins come without intervals" in text for text in plain.statements))
-        wide = mems_stiction.compare_lots([dict(one, margin_lower=one["margin"] / 3.0, margin_upper=one["margin"] * 3.0) for one in rows])
+        wide = mems_stiction.compare_lots(
+            [
+                dict(one, margin_lower=one["margin"] / 3.0, margin_upper=one["margin"] * 3.0)
+                for one in rows
+            ]
+        )
         self.assertGreater(wide.shares.upper[0], 0.5)
         self.assertLess(plain.shares.upper[0], 0.2)
 
     def test_a_row_without_an_interval_does_not_take_those_of_the_others_away(self):
         values = 2.0 * np.exp(0.3 * np.random.RandomState(2).standard_normal(49))
-        rows = [row(site=site, margin=value, margin_lower=value / 3.0, margin_upper=3.0 * value) for site, value in zip(SITES, values)]
+        rows = [
+            row(site=site, margin=value, margin_lower=value / 3.0, margin_upper=3.0 * value)
+            for site, value in zip(SITES, values)
+        ]
         whole = mems_stiction.compare_lots(rows)
         self.assertEqual(whole.shares.without_interval[0], 0)
-        lacking = mems_stiction.compare_lots([dict(rows[0], margin_lower="", margin_upper="nan")] + rows[1:])
+        lacking = mems_stiction.compare_lots(
+            [dict(rows[0], margin_lower="", margin_upper="nan")] + rows[1:]
+        )
         self.assertEqual(lacking.shares.without_interval[0], 1)
-        self.assertTrue(any(text.startswith("1 of 49 margins come without an interval") for text in lacking.statements), lacking.statements)
+        self.assertTrue(
+            any(
+                text.startswith("1 of 49 margins come without an interval")
+                for text in lacking.statements
+            ),
+            lacking.statements,
+        )
         for end in ("share", "lower", "upper"):
-            self.assertAlmostEqual(getattr(lacking.shares, end)[0], getattr(whole.shares, end)[0], places=9)
+            self.assertAlmostEqual(
+                getattr(lacking.shares, end)[0], getattr(whole.shares, end)[0], places=9
+            )
 
     def test_against_voltage_and_against_times_that_were_measured(self):
         random = np.random.RandomState(5)
-        rows = [row(site=site, voltage=volts, hold_time=60.0, margin=4.0 * math.exp(-0.05 * volts + 0.2 * random.standard_normal()))
-                for volts in (0.0, 20.0, 40.0) for site in SITES]
+        rows = [
+            row(
+                site=site,
+                voltage=volts,
+                hold_time=60.0,
+                margin=4.0 * math.exp(-0.05 * volts + 0.2 * random.standard_normal()),
+            )
+            for volts in (0.0, 20.0, 40.0)
+            for site in SITES
+        ]
         found = mems_stiction.compare_lots(rows)
         self.assertEqual((found.against, list(found.shares["at"])), ("voltage", [0.0, 20.0, 40.0]))
         self.assertEqual(found.shares.sticking[0], 0)
         self.assertLess(found.shares.share[1], 0.1)
         self.assertGreater(found.shares.share[2], 0.9)
-        self.assertTrue(any(text.startswith("at voltage 20.0 V expected to stick: ") for text in found.statements), found.statements)
+        self.assertTrue(
+            any(
+                text.startswith("at voltage 20.0 V expected to stick: ")
+                for text in found.statements
+            ),
+            found.statements,
+        )
         unknown = "how that share grows with the time stuck down is not told by these rows"
         self.assertTrue(any(text.startswith(unknown) for text in found.statements))
-        failed = {name: value for name, value in rows[0].items() if name not in ("voltage", "margin")}  # of a scan that was not predicted
-        self.assertEqual(list(mems_stiction.compare_lots(rows + [failed]).shares["at"]), [0.0, 20.0, 40.0])
-        timed = mems_stiction.compare_lots([dict(one, hold_time=one["voltage"] + 1.0) for one in rows], against="hold_time")
+        failed = {
+            name: value for name, value in rows[0].items() if name not in ("voltage", "margin")
+        }  # of a scan that was not predicted
+        self.assertEqual(
+            list(mems_stiction.compare_lots(rows + [failed]).shares["at"]), [0.0, 20.0, 40.0]
+        )
+        timed = mems_stiction.compare_lots(
+            [dict(one, hold_time=one["voltage"] + 1.0) for one in rows], against="hold_time"
+        )
         self.assertEqual(list(timed.shares["at"]), [1.0, 21.0, 41.0])
         self.assertFalse(any(text.startswith(unknown) for text in timed.statements))
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "no column 'time'; the model knows no ageing"):
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError, "no column 'time'; the model knows no ageing"
+        ):
             mems_stiction.compare_lots(rows, against="time")
 
     def test_beams_that_are_peeled_are_compared_by_their_peel_numbers(self):
-        rows = [row(site=(1e-3 * place, 0.0), peel_number=0.5 + place, governed_by="peeling") for place in range(4)]
+        rows = [
+            row(site=(1e-3 * place, 0.0), peel_number=0.5 + place, governed_by="peeling")
+            for place in range(4)
+        ]
         self.assertEqual(lots_of(rows).figure, "peel_number")
         self.assertEqual(lots_of(rows, "margin").figure, "margin")
         self.assertEqual(lots_of(rows + [row(governed_by="force")]).figure, "margin")
 
     def test_without_a_device_there_is_no_share(self):
-        found = mems_stiction.compare_lots([{"pull_off_force": 1e-7, "margin": "nan"}, {"pull_off_force": 2e-7, "margin": ""}])
+        found = mems_stiction.compare_lots(
+            [{"pull_off_force": 1e-7, "margin": "nan"}, {"pull_off_force": 2e-7, "margin": ""}]
+        )
         self.assertEqual((found.figure, len(found.shares)), ("pull_off_force", 0))
         self.assertTrue(any("state the device" in text for text in found.statements))
 
     def test_what_nothing_holds_counts_as_releasing(self):
-        rows = [row(site=site, margin=math.inf if place < 5 else 2.0 + 0.01 * place) for place, site in enumerate(SITES)]
+        rows = [
+            row(site=site, margin=math.inf if place < 5 else 2.0 + 0.01 * place)
+            for place, site in enumerate(SITES)
+        ]
         found = mems_stiction.compare_lots(rows)
-        self.assertEqual((found.shares.places[0], found.shares.sticking[0], found.shares.method[0]), (49, 0, "bound"))
+        self.assertEqual(
+            (found.shares.places[0], found.shares.sticking[0], found.shares.method[0]),
+            (49, 0, "bound"),
+        )
         self.assertTrue(np.isfinite(found.units.value).all())
-        self.assertTrue(any(text.startswith("5 rows have an infinite margin") for text in found.statements))
+        self.assertTrue(
+            any(text.startswith("5 rows have an infinite margin") for text in found.statements)
+        )
 
 
 class WaferTest(unittest.TestCase):
-    """49 sites that are rougher to the right, two smooth ones among them, predicted by stiction_batch."""
+    """49 sites that are rougher to the right, two smooth ones among them, predicted by
+    stiction_batch."""
 
     @classmethod
     def setUpClass(cls):
@@ -232,13 +353,36 @@ class WaferTest(unittest.TestCase):
         scans = []
         for number, site in enumerate(SITES):
             scans.append(cls.path / ("%02d.npy" % number))
-            np.save(str(scans[-1]), rough(96, 96, 0.3e-9 if site in BAD else 3e-9 * math.exp(15.0 * site[0]), number + 1, 12))
+            np.save(
+                str(scans[-1]),
+                rough(
+                    96,
+                    96,
+                    0.3e-9 if site in BAD else 3e-9 * math.exp(15.0 * site[0]),
+                    number + 1,
+                    12,
+                ),
+            )
         lines = cls.path / "batch.jsonl"
-        done = subprocess.run([archive.program(), "--config", str(cls.path / "part.yaml"), "-o", str(lines), *map(str, scans)],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        done = subprocess.run(
+            [
+                archive.program(),
+                "--config",
+                str(cls.path / "part.yaml"),
+                "-o",
+                str(lines),
+                *map(str, scans),
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+        )
         assert done.returncode == 0, done.stderr
         with open(str(lines), encoding="utf-8") as stream:
-            cls.rows = [dict(json.loads(line), lot_id="L7", wafer_id="3", site_x=site[0], site_y=site[1]) for line, site in zip(stream, SITES)]
+            cls.rows = [
+                dict(json.loads(line), lot_id="L7", wafer_id="3", site_x=site[0], site_y=site[1])
+                for line, site in zip(stream, SITES)
+            ]
         cls.table = cls.path / "rows.csv"
         with open(str(cls.table), "w", encoding="utf-8", newline="") as stream:
             writer = csv.DictWriter(stream, list(max(cls.rows, key=len)))
@@ -250,13 +394,21 @@ class WaferTest(unittest.TestCase):
         cls._folder.cleanup()
 
     def run_program(self, *arguments):
-        return subprocess.run([sys.executable, COMPARE_LOTS, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              universal_newlines=True)
+        return subprocess.run(
+            [sys.executable, COMPARE_LOTS, *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+        )
 
     def test_the_two_bad_places_are_named_and_the_trend_is_seen(self):
         found = mems_stiction.compare_lots(self.rows)
         for figure in ("margin", "rms_height"):
-            self.assertEqual({(bad.site_x, bad.site_y) for bad in found.bad_places if bad.figure == figure}, set(BAD), figure)
+            self.assertEqual(
+                {(bad.site_x, bad.site_y) for bad in found.bad_places if bad.figure == figure},
+                set(BAD),
+                figure,
+            )
         self.assertEqual(len(found.trends), 1)
         trend = found.trends[0]
         self.assertLess(trend.chance, 0.01)
@@ -266,11 +418,15 @@ class WaferTest(unittest.TestCase):
         bad = [text for text in found.statements if "does not belong to its wafer" in text]
         self.assertEqual(len(bad), 2)
         self.assertIn("wafer 3 of lot L7 at (", bad[0])
-        self.assertTrue(any("all rows are of one of the wafers" in text for text in found.statements))
+        self.assertTrue(
+            any("all rows are of one of the wafers" in text for text in found.statements)
+        )
 
     def test_the_gradient_is_that_of_the_heights(self):
         """The rms height was made with 15 per metre."""
-        found = mems_stiction.compare_lots([dict(one, margin=one["rms_height"]) for one in self.rows])
+        found = mems_stiction.compare_lots(
+            [dict(one, margin=one["rms_height"]) for one in self.rows]
+        )
         trend = found.trends[0]
         self.assertAlmostEqual(trend.gradient_x, 15.0, places=6)
         self.assertAlmostEqual(trend.gradient_y, 0.0, places=6)
@@ -281,7 +437,10 @@ class WaferTest(unittest.TestCase):
         lines = self.path / "rows.jsonl"
         lines.write_text("".join(json.dumps(one) + "\n" for one in self.rows))
         names = list(max(self.rows, key=len))  # a row leaves out what it does not know
-        records = np.array([tuple(map(one.get, names)) for one in self.rows], dtype=[(name, object) for name in names])
+        records = np.array(
+            [tuple(map(one.get, names)) for one in self.rows],
+            dtype=[(name, object) for name in names],
+        )
         for form in (self.table, str(self.table), [self.table], lines, records):
             self.assertEqual(mems_stiction.compare_lots(form).json(), expected)
 
@@ -291,27 +450,42 @@ class WaferTest(unittest.TestCase):
 
         table = self.path / "rows.parquet"
         write_rows(table, list(max(self.rows, key=len)), self.rows, {})
-        self.assertEqual(mems_stiction.compare_lots(table).json(), mems_stiction.compare_lots(self.rows).json())
+        self.assertEqual(
+            mems_stiction.compare_lots(table).json(), mems_stiction.compare_lots(self.rows).json()
+        )
         (self.path / "none.parquet").write_text("no rows")
         with self.assertRaisesRegex(mems_stiction.FileError, "none.parquet: holds no rows"):
             mems_stiction.compare_lots(self.path / "none.parquet")
 
     def test_of_many_columns_those_in_need_are_kept(self):
-        wide = [dict(one, **{"column_%d" % number: 0.5 for number in range(200)}) for one in self.rows]
+        wide = [
+            dict(one, **{"column_%d" % number: 0.5 for number in range(200)}) for one in self.rows
+        ]
         table = _Table("column_7")
         for one in wide:
             table.add(one)
-        self.assertEqual(table.columns.intersection(wide[0]), {name for name in self.rows[0] if name in TEXTS + NUMBERS} | {"column_7"})
-        self.assertEqual(mems_stiction.compare_lots(wide).json(), mems_stiction.compare_lots(self.rows).json())
+        self.assertEqual(
+            table.columns.intersection(wide[0]),
+            {name for name in self.rows[0] if name in TEXTS + NUMBERS} | {"column_7"},
+        )
+        self.assertEqual(
+            mems_stiction.compare_lots(wide).json(), mems_stiction.compare_lots(self.rows).json()
+        )
 
     def test_names_with_dollars_are_drawn_as_they_stand(self):
-        """matplotlib takes what is between two dollar signs for a formula, and a formula that is none ends the picture."""
-        rows = [dict(one, lot_id="$lot_{$", wafer_id="a$b$", part_id="p$%d$" % place) for place, one in enumerate(self.rows[:20])]
+        """matplotlib takes what is between two dollar signs for a formula, and a formula that is
+        none ends the picture."""
+        rows = [
+            dict(one, lot_id="$lot_{$", wafer_id="a$b$", part_id="p$%d$" % place)
+            for place, one in enumerate(self.rows[:20])
+        ]
         from matplotlib import cbook, text
         from mems_stiction import plots
 
-        with mock.patch.object(plots, "save", autospec=True, side_effect=plots.save) as save, \
-                mock.patch("mems_stiction.lots_figure.save", save):
+        with (
+            mock.patch.object(plots, "save", autospec=True, side_effect=plots.save) as save,
+            mock.patch("mems_stiction.lots_figure.save", save),
+        ):
             found = mems_stiction.compare_lots(rows)
             found.save_maps(self.path / "dollars")
             found.save_picture(self.path / "dollars.png")
@@ -326,7 +500,12 @@ class WaferTest(unittest.TestCase):
         import pandas
 
         expected = mems_stiction.compare_lots(self.rows).json()
-        self.assertEqual(mems_stiction.compare_lots(pandas.read_csv(str(self.table), float_precision="round_trip")).json(), expected)
+        self.assertEqual(
+            mems_stiction.compare_lots(
+                pandas.read_csv(str(self.table), float_precision="round_trip")
+            ).json(),
+            expected,
+        )
 
     def test_the_program_prints_and_draws(self):
         picture, maps = self.path / "lots.png", self.path / "maps"
@@ -336,7 +515,9 @@ class WaferTest(unittest.TestCase):
         for path in (picture, maps / "wafer_L7_3.png"):
             self.assertEqual(path.read_bytes()[:4], b"\x89PNG", path)
         run = self.run_program(self.table)
-        self.assertRegex(run.stdout, r"^Comparison of 49 rows by their margin\n  expected to stick: ")
+        self.assertRegex(
+            run.stdout, r"^Comparison of 49 rows by their margin\n  expected to stick: "
+        )
         self.assertIn("lot L7, wafer 3: margin ", run.stdout)
 
     def test_a_report_has_lots_and_maps_where_rows_name_them(self):
@@ -346,14 +527,24 @@ class WaferTest(unittest.TestCase):
             self.skipTest("%s is not installed" % missing.name)
         settings = (self.path / "batch.jsonl.settings.yaml").read_text()
         page = report.page("Wafer", self.rows, [], settings, None)
-        section = page[page.index('<div id="lots">'):page.index("<h2>Scans</h2>")]
+        section = page[page.index('<div id="lots">') : page.index("<h2>Scans</h2>")]
         self.assertEqual(section.count("data:image/png;base64,"), 2)
         self.assertIn("<li>Expected to stick: ", section)
         self.assertIn('alt="Maps of wafer 3 of lot L7"', section)
-        plain = [{name: value for name, value in one.items() if name not in ("lot_id", "wafer_id", "site_x", "site_y")} for one in self.rows]
+        plain = [
+            {
+                name: value
+                for name, value in one.items()
+                if name not in ("lot_id", "wafer_id", "site_x", "site_y")
+            }
+            for one in self.rows
+        ]
         self.assertNotIn('id="lots"', report.page("Scans", plain, [], settings, None))
         many = [dict(one, wafer_id="w%d" % wafer) for wafer in range(13) for one in self.rows[:7]]
-        self.assertIn("Of the maps the first 12; compare_lots --maps draws all.", report.page("Lot", many, [], settings, None))
+        self.assertIn(
+            "Of the maps the first 12; compare_lots --maps draws all.",
+            report.page("Lot", many, [], settings, None),
+        )
 
     def test_maps_mark_missing_sites_and_draw_each_wafer(self):
         rows = [dict(one, wafer_id=wafer) for wafer in ("3", "4/b") for one in self.rows]
@@ -365,19 +556,46 @@ class WaferTest(unittest.TestCase):
             paths = mems_stiction.compare_lots(rows).save_maps(self.path / "more")
         self.assertEqual([path.name for path in paths], ["wafer_L7_3.png", "wafer_L7_4-b.png"])
         titles = [call[0][0]._suptitle.get_text() for call in save.call_args_list]
-        self.assertEqual(titles, ["Wafer 3 of lot L7: 49 places, 2 bad", "Wafer 4/b of lot L7: 47 places, 2 missing, 2 bad"])
+        self.assertEqual(
+            titles,
+            [
+                "Wafer 3 of lot L7: 49 places, 2 bad",
+                "Wafer 4/b of lot L7: 47 places, 2 missing, 2 bad",
+            ],
+        )
         panels = [axes for axes in save.call_args_list[1][0][0].axes if axes.get_xlabel()]
-        self.assertEqual([axes.get_title() for axes in panels], ["Margin", "Pull-off force of the device", "Rms height"])
-        crosses = [sum(len(drawn.get_offsets()) for drawn in axes.collections if drawn.get_offsets().shape[0] < 40) for axes in panels]
+        self.assertEqual(
+            [axes.get_title() for axes in panels],
+            ["Margin", "Pull-off force of the device", "Rms height"],
+        )
+        crosses = [
+            sum(
+                len(drawn.get_offsets())
+                for drawn in axes.collections
+                if drawn.get_offsets().shape[0] < 40
+            )
+            for axes in panels
+        ]
         self.assertEqual(crosses, [4, 3, 3])  # missing, and two rings
 
     def test_what_is_wrong_is_one_line(self):
-        for arguments, words in (((self.path / "none.csv",), r"^compare_lots: .*none\.csv: No such file[^\n]*\n$"),
-                                 ((self.path / "part.yaml",), r"must end in \.csv"),
-                                 (("--against", "time", self.table), r"^compare_lots: against: the rows have no column 'time'"),
-                                 (("--figure", "peel_number", self.table), r"^compare_lots: rows: none of 49 has a peel_number > 0\n$"),
-                                 (("--picture", self.path / "none" / "a.png", self.table),
-                                  r"^compare_lots: [^\n]*/none/a\.png: cannot be written: No such file or directory\n$")):
+        for arguments, words in (
+            ((self.path / "none.csv",), r"^compare_lots: .*none\.csv: No such file[^\n]*\n$"),
+            ((self.path / "part.yaml",), r"must end in \.csv"),
+            (
+                ("--against", "time", self.table),
+                r"^compare_lots: against: the rows have no column 'time'",
+            ),
+            (
+                ("--figure", "peel_number", self.table),
+                r"^compare_lots: rows: none of 49 has a peel_number > 0\n$",
+            ),
+            (
+                ("--picture", self.path / "none" / "a.png", self.table),
+                r"^compare_lots: [^\n]*/none/a\.png: cannot be written: No such file or "
+                r"directory\n$",
+            ),
+        ):
             run = self.run_program(*arguments)
             self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
             self.assertRegex(run.stderr, words)
@@ -388,74 +606,153 @@ class RuleTest(unittest.TestCase):
         taken = found = 0
         for seed in range(200):
             random = np.random.RandomState(seed)
-            values = np.exp(0.05 * np.array([100.0 * x for x, _ in SITES]) + 0.15 * random.standard_normal(49))
-            places = [Place("", "", "", x, y, value, *(math.nan,) * 4, 0.0, "", "") for (x, y), value in zip(SITES, values)]
+            values = np.exp(
+                0.05 * np.array([100.0 * x for x, _ in SITES]) + 0.15 * random.standard_normal(49)
+            )
+            places = [
+                Place("", "", "", x, y, value, *(math.nan,) * 4, 0.0, "", "")
+                for (x, y), value in zip(SITES, values)
+            ]
             taken += bool(bad_places(places, "margin", values))
             values[[3, 30]] /= 3.0
-            found += {id(bad.place) for bad in bad_places(places, "margin", values)} >= {id(places[3]), id(places[30])}
+            found += {id(bad.place) for bad in bad_places(places, "margin", values)} >= {
+                id(places[3]),
+                id(places[30]),
+            }
         self.assertGreaterEqual(taken, 2)
         self.assertLessEqual(taken, 20)
         self.assertGreaterEqual(found, 185)
 
     def test_equal_values_have_no_bad_place(self):
-        self.assertEqual(bad_places([Place("", "", "", *site, 2.0, *(math.nan,) * 4, 0.0, "", "") for site in SITES], "margin", [2.0] * 49), [])
+        self.assertEqual(
+            bad_places(
+                [Place("", "", "", *site, 2.0, *(math.nan,) * 4, 0.0, "", "") for site in SITES],
+                "margin",
+                [2.0] * 49,
+            ),
+            [],
+        )
 
 
 class SentencesTest(unittest.TestCase):
     def test_two_wafers_cannot_tell(self):
         random = np.random.RandomState(1)
-        found = mems_stiction.compare_lots([row(wafer=wafer, site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()))
-                                            for wafer in ("1", "2") for site in SITES])
-        self.assertTrue(any(text.startswith("2 wafers cannot tell how far wafers differ: ") for text in found.statements), found.statements)
-        self.assertIn("no trend of the margin is seen over wafer 1 of lot A, wafer 2 of lot A", found.statements)
+        found = mems_stiction.compare_lots(
+            [
+                row(wafer=wafer, site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()))
+                for wafer in ("1", "2")
+                for site in SITES
+            ]
+        )
+        self.assertTrue(
+            any(
+                text.startswith("2 wafers cannot tell how far wafers differ: ")
+                for text in found.statements
+            ),
+            found.statements,
+        )
+        self.assertIn(
+            "no trend of the margin is seen over wafer 1 of lot A, wafer 2 of lot A",
+            found.statements,
+        )
 
     def test_of_many_wafers_some_show_something_by_chance(self):
         random = np.random.RandomState(1)
-        found = mems_stiction.compare_lots([row(wafer=str(wafer), site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()))
-                                            for wafer in range(40) for site in SITES[::5]])
-        self.assertIn("by chance alone some 2 of 40 wafers show a trend, and as many a bad place", found.statements)
+        found = mems_stiction.compare_lots(
+            [
+                row(
+                    wafer=str(wafer),
+                    site=site,
+                    margin=3.0 * math.exp(0.2 * random.standard_normal()),
+                )
+                for wafer in range(40)
+                for site in SITES[::5]
+            ]
+        )
+        self.assertIn(
+            "by chance alone some 2 of 40 wafers show a trend, and as many a bad place",
+            found.statements,
+        )
 
     def test_rows_alone(self):
         """Of a new user: no lot, no wafer, no site."""
         found = mems_stiction.compare_lots([{"margin": 2.0 + 0.1 * place} for place in range(10)])
         self.assertEqual(list(found.components.level), ["scans"])
-        self.assertTrue(any("no row has lot_id, wafer_id, site_x, site_y" in text for text in found.statements))
+        self.assertTrue(
+            any("no row has lot_id, wafer_id, site_x, site_y" in text for text in found.statements)
+        )
         self.assertEqual(len(found.units), 0)
         self.assertIn("Comparison of 10 rows", repr(found))
 
     def test_a_gradient_of_the_rms_height_is_told_where_the_margin_has_none(self):
         random = np.random.RandomState(1)
-        rows = [row(site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()), rms_height=2e-9 * math.exp(9.0 * site[1])) for site in SITES]
+        rows = [
+            row(
+                site=site,
+                margin=3.0 * math.exp(0.2 * random.standard_normal()),
+                rms_height=2e-9 * math.exp(9.0 * site[1]),
+            )
+            for site in SITES
+        ]
         rows[7]["rms_height"] = 50e-9
         said = mems_stiction.compare_lots(rows).statements
         self.assertIn("no trend of the margin is seen over wafer 1 of lot A", said)
         # exp(9 x 0.08 m)
-        self.assertIn("wafer 1 of lot A: rms height grows by a factor of 2.05 (2.05 to 2.05) over 80.0 mm, towards 90 deg from x", said)
+        self.assertIn(
+            "wafer 1 of lot A: rms height grows by a factor of 2.05 (2.05 to 2.05) over 80.0 mm, "
+            "towards 90 deg from x",
+            said,
+        )
 
     def test_sites_are_numbers_in_metres(self):
         rows = [row(site=site) for site in SITES]
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "^site_x: '12 mm' in row 2 is not allowed, must be a number in metres, or empty$"):
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError,
+            "^site_x: '12 mm' in row 2 is not allowed, must be a number in metres, or empty$",
+        ):
             mems_stiction.compare_lots([rows[0], dict(rows[1], site_x="12 mm")] + rows[2:])
         for unknown in ("", " ", "nan", None):
             mems_stiction.compare_lots([dict(rows[0], site_x=unknown, site_y=unknown)] + rows[1:])
-        said = mems_stiction.compare_lots([dict(one, site_x=1e3 * one["site_x"], site_y=1e3 * one["site_y"]) for one in rows]).statements
+        said = mems_stiction.compare_lots(
+            [dict(one, site_x=1e3 * one["site_x"], site_y=1e3 * one["site_y"]) for one in rows]
+        ).statements
         self.assertIn("sites lie up to 80.0 m apart: site_x and site_y are taken for metres", said)
 
     def test_one_row_and_none(self):
-        self.assertFalse([text for text in mems_stiction.compare_lots([row(part_id="a")]).statements if text.startswith("that share is for")])
-        with self.assertRaisesRegex(mems_stiction.OptionsError, "^rows: there is none, must hold one row at least$"):
+        self.assertFalse(
+            [
+                text
+                for text in mems_stiction.compare_lots([row(part_id="a")]).statements
+                if text.startswith("that share is for")
+            ]
+        )
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError, "^rows: there is none, must hold one row at least$"
+        ):
             mems_stiction.compare_lots([])
 
     def test_equal_values(self):
-        found = mems_stiction.compare_lots([row(site=site, wafer=wafer) for site in SITES for wafer in "12"])
+        found = mems_stiction.compare_lots(
+            [row(site=site, wafer=wafer) for site in SITES for wafer in "12"]
+        )
         self.assertIn("no differences: all of 98 values are equal", found.statements)
         self.assertLess(found.components.deviation.max(), 1e-12)
 
     def test_a_bad_one_of_rows_alone(self):
-        found = mems_stiction.compare_lots([{"margin": 2.0 + 0.01 * (place % 7), "scan_name": "s%d" % place} for place in range(30)] +
-                                           [{"margin": 0.3, "scan_name": "s30"}])
-        self.assertTrue(any(text.startswith("s30 does not belong to the others: margin 0.3, 2.03 expected") for text in found.statements),
-                        found.statements)
+        found = mems_stiction.compare_lots(
+            [
+                {"margin": 2.0 + 0.01 * (place % 7), "scan_name": "s%d" % place}
+                for place in range(30)
+            ]
+            + [{"margin": 0.3, "scan_name": "s30"}]
+        )
+        self.assertTrue(
+            any(
+                text.startswith("s30 does not belong to the others: margin 0.3, 2.03 expected")
+                for text in found.statements
+            ),
+            found.statements,
+        )
 
     def test_one_row(self):
         found = mems_stiction.compare_lots([row()])
@@ -464,29 +761,65 @@ class SentencesTest(unittest.TestCase):
         self.assertIn("one row does not tell how far places differ", found.statements)
 
     def test_without_statsmodels(self):
-        rows = [row(wafer="%d" % wafer, site=site, margin=3.0 * math.exp(0.1 * wafer + site[0])) for wafer in range(5) for site in SITES]
+        rows = [
+            row(wafer="%d" % wafer, site=site, margin=3.0 * math.exp(0.1 * wafer + site[0]))
+            for wafer in range(5)
+            for site in SITES
+        ]
         with mock.patch.object(lots_variance, "has_likelihood", return_value=False):
             found = mems_stiction.compare_lots(rows)
         self.assertTrue(any("python3-statsmodels" in text for text in found.statements))
         with mock.patch.object(lots_variance, "MOST_VALUES", 100):
-            self.assertTrue(any("take minutes for so many rows" in text for text in mems_stiction.compare_lots(rows).statements) or
-                            not lots_variance.has_likelihood())
-        self.assertAlmostEqual(found.components.deviation[0] / 0.158, 1.0, delta=0.05)  # of 0 to 0.4 in steps of 0.1
+            self.assertTrue(
+                any(
+                    "take minutes for so many rows" in text
+                    for text in mems_stiction.compare_lots(rows).statements
+                )
+                or not lots_variance.has_likelihood()
+            )
+        self.assertAlmostEqual(
+            found.components.deviation[0] / 0.158, 1.0, delta=0.05
+        )  # of 0 to 0.4 in steps of 0.1
 
     def test_identifiers_as_tables_read_them(self):
-        places = lots_of([row(lot=7.0, wafer=math.nan), row(lot=7, wafer=None, part_id="P", serial_id=4), row(lot="'-7", part_id="P")]).places
-        self.assertEqual([(place.lot, place.wafer, place.part) for place in places], [("7", "", ""), ("7", "", "P no. 4"), ("-7", "1", "P")])
+        places = lots_of(
+            [
+                row(lot=7.0, wafer=math.nan),
+                row(lot=7, wafer=None, part_id="P", serial_id=4),
+                row(lot="'-7", part_id="P"),
+            ]
+        ).places
+        self.assertEqual(
+            [(place.lot, place.wafer, place.part) for place in places],
+            [("7", "", ""), ("7", "", "P no. 4"), ("-7", "1", "P")],
+        )
 
     def test_pictures_without_parts_and_shares(self):
         with tempfile.TemporaryDirectory() as folder:
-            for number, rows in enumerate(([{"pull_off_force": 1e-7}], [row()], [row(part_id="p%d" % part, margin=0.5 + part) for part in range(100)])):
+            for number, rows in enumerate(
+                (
+                    [{"pull_off_force": 1e-7}],
+                    [row()],
+                    [row(part_id="p%d" % part, margin=0.5 + part) for part in range(100)],
+                )
+            ):
                 path = pathlib.Path(folder) / ("%d.png" % number)
                 mems_stiction.compare_lots(rows).save_picture(path)
                 self.assertGreater(path.stat().st_size, 10000)
-            self.assertEqual(mems_stiction.compare_lots([{"margin": 2.0}]).save_maps(pathlib.Path(folder) / "maps"), [])
+            self.assertEqual(
+                mems_stiction.compare_lots([{"margin": 2.0}]).save_maps(
+                    pathlib.Path(folder) / "maps"
+                ),
+                [],
+            )
 
     def test_what_is_no_rows(self):
-        for rows, words in ((3, "int is not allowed"), ([3], "an item is 3"), ([], "there is none"), ([{"margin": "x"}], "none of 1 has a margin")):
+        for rows, words in (
+            (3, "int is not allowed"),
+            ([3], "an item is 3"),
+            ([], "there is none"),
+            ([{"margin": "x"}], "none of 1 has a margin"),
+        ):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 mems_stiction.compare_lots(rows)
         with self.assertRaisesRegex(mems_stiction.OptionsError, "figure: 'sq' is not allowed"):

@@ -1,4 +1,5 @@
-"""The page against measurement: it is written by this study, what the sources say is on it, and its settings are the shipped ones."""
+"""The page against measurement: it is written by this study, what the sources say is on it, and its
+settings are the shipped ones."""
 
 import math
 import pathlib
@@ -36,8 +37,13 @@ class MeasuredTest(unittest.TestCase):
     @evidence
     def test_shipped_page_is_one_of_this_study(self):
         path = self.folder / "page.md"
-        done = subprocess.run([sys.executable, str(STUDIES / "measured.py"), str(path), "--quick"],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
+        done = subprocess.run(
+            [sys.executable, str(STUDIES / "measured.py"), str(path), "--quick"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=120,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(first_cells(path.read_text(encoding="utf-8")), first_cells(self.shipped))
 
@@ -56,27 +62,48 @@ class MeasuredTest(unittest.TestCase):
         with ThreadPoolExecutor(2) as pool:
             values = measured.Study(12, False, pool).values(case, cases.AS_ASSUMED)
         median = statistics.median(values[0])
-        row = re.search(r"^\| alumina \| 1\.5 nm over 12 nm \| 5 \(read\) \| (\S+) \|", self.shipped, re.MULTILINE)
-        self.assertAlmostEqual(float(row.group(1)) / median, 1.0, delta=0.05)  # half a unit of the second digit
+        row = re.search(
+            r"^\| alumina \| 1\.5 nm over 12 nm \| 5 \(read\) \| (\S+) \|",
+            self.shipped,
+            re.MULTILINE,
+        )
+        self.assertAlmostEqual(
+            float(row.group(1)) / median, 1.0, delta=0.05
+        )  # half a unit of the second digit
 
     def test_work_of_rough_planes_goes_with_their_mean_separation(self):
-        """Van der Waals attraction across what does not touch: never less than two planes at that distance, since 1/D^2 is convex."""
+        """Van der Waals attraction across what does not touch: never less than two planes at that
+        distance, since 1/D^2 is convex."""
         case = cases.CASES[0]
         with ThreadPoolExecutor(1) as pool:
             records = measured.Study(2, True, pool).records(case, cases.AS_ASSUMED, 2e-9)
         for record in records:
             planes = case.settings["hamaker"] / (12 * math.pi * record["mean_gap"] ** 2)
-            self.assertGreater(record["apparent_work_of_adhesion"], 0.9 * planes)  # z0 = 0.16 nm of a gap of some nm: 6 %
+            self.assertGreater(
+                record["apparent_work_of_adhesion"], 0.9 * planes
+            )  # z0 = 0.16 nm of a gap of some nm: 6 %
 
     def test_polysilicon_is_the_ready_made_configuration(self):
         text = (REPOSITORY / "config" / "polysilicon_oxide.yaml").read_text(encoding="utf-8")
-        found = {name: float(re.search(r"%s: (\S+)" % name, text).group(1))
-                 for name in ("youngs_modulus", "poisson_ratio", "hardness", "work_of_adhesion", "hamaker_constant")}
+        found = {
+            name: float(re.search(r"%s: (\S+)" % name, text).group(1))
+            for name in (
+                "youngs_modulus",
+                "poisson_ratio",
+                "hardness",
+                "work_of_adhesion",
+                "hamaker_constant",
+            )
+        }
         settings = cases.polysilicon()
         self.assertEqual(settings["work"], found["work_of_adhesion"])
         self.assertEqual(settings["hamaker"], found["hamaker_constant"])
         self.assertEqual(settings["hardness"], found["hardness"])
-        self.assertAlmostEqual(settings["modulus"] * 2 * (1 - found["poisson_ratio"] ** 2), found["youngs_modulus"], delta=1.0)
+        self.assertAlmostEqual(
+            settings["modulus"] * 2 * (1 - found["poisson_ratio"] ** 2),
+            found["youngs_modulus"],
+            delta=1.0,
+        )
 
 
 if __name__ == "__main__":

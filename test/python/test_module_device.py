@@ -1,4 +1,5 @@
-"""The force of a device from Python: scans of every dress, their pitches, what comes out, and Ctrl-C."""
+"""The force of a device from Python: scans of every dress, their pitches, what comes out, and
+Ctrl-C."""
 
 import hashlib
 import json
@@ -57,7 +58,11 @@ class DeviceTest(unittest.TestCase):
         self.assertGreater(device.apparent_work_of_adhesion, 0.0)
         self.assertGreater(device.linear_pull_off_force, 0.0)
         self.assertEqual(len(device.realisations), 3)
-        self.assertAlmostEqual(float(np.median(device.realisations.pull_off_force)) / device.pull_off_force, 1.0, delta=1e-9)
+        self.assertAlmostEqual(
+            float(np.median(device.realisations.pull_off_force)) / device.pull_off_force,
+            1.0,
+            delta=1e-9,
+        )
         self.assertGreaterEqual(len(device.parts_of_scans), 2)
         self.assertTrue((device.spectrum.wavelength > 0).all())
         self.assertIsNone(device.verdict)
@@ -65,11 +70,20 @@ class DeviceTest(unittest.TestCase):
         self.assertIn("pull-off force", repr(device))
         record = json.loads(device.json())
         self.assertEqual(record, device.to_dict())
-        for name in ("pull_off_force", "pull_off_force_lower", "pull_off_force_upper", "apparent_work_of_adhesion",
-                     "linear_pull_off_force", "contacts"):
+        for name in (
+            "pull_off_force",
+            "pull_off_force_lower",
+            "pull_off_force_upper",
+            "apparent_work_of_adhesion",
+            "linear_pull_off_force",
+            "contacts",
+        ):
             self.assertEqual(record[name], getattr(device, name), name)
         again = pickle.loads(pickle.dumps(device))
-        self.assertEqual((again.json(), again.realisations.tolist()), (device.json(), device.realisations.tolist()))
+        self.assertEqual(
+            (again.json(), again.realisations.tolist()),
+            (device.json(), device.realisations.tolist()),
+        )
 
     def test_it_says_which_files_it_is_of_and_what_they_state_alike(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -77,13 +91,23 @@ class DeviceTest(unittest.TestCase):
             for path, heights, site in zip(paths, scans(), (0.0, 1e-3)):
                 np.save(str(path), heights)
                 path.with_name(path.name + ".yaml").write_text(
-                    "pitch_x: 1.0e-8\npitch_y: 1.0e-8\nwafer_id: W3\npart_id: %s\nsite_x: %r\nsite_y: 0.0\n" % (path.stem, site))
+                    "pitch_x: 1.0e-8\npitch_y: 1.0e-8\nwafer_id: W3\npart_id: %s\nsite_x: "
+                    "%r\nsite_y: 0.0\n" % (path.stem, site)
+                )
             sums = ["sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in paths]
             both = predicted([str(path) for path in paths], AREA, part={"lot": "L7"}).to_dict()
-            self.assertEqual((both["wafer_id"], both["lot_id"], both["scan_checksums"]), ("W3", "L7", sums))
-            self.assertEqual([name for name in ("part_id", "site_x", "checksum", "scan_name") if name in both], [])
+            self.assertEqual(
+                (both["wafer_id"], both["lot_id"], both["scan_checksums"]), ("W3", "L7", sums)
+            )
+            self.assertEqual(
+                [name for name in ("part_id", "site_x", "checksum", "scan_name") if name in both],
+                [],
+            )
             one = predicted(str(paths[1]), AREA).to_dict()
-            self.assertEqual((one["part_id"], one["site_x"], one["checksum"], one["scan_checksums"]), ("b", 1e-3, sums[1], sums[1:]))
+            self.assertEqual(
+                (one["part_id"], one["site_x"], one["checksum"], one["scan_checksums"]),
+                ("b", 1e-3, sums[1], sums[1:]),
+            )
         self.assertNotIn("scan_checksums", predicted(scans(), AREA, PITCH).to_dict())
 
     def test_it_is_the_programs_to_the_last_bit(self):
@@ -94,25 +118,52 @@ class DeviceTest(unittest.TestCase):
                 np.save(paths[-1], heights)
             device = predicted(paths, AREA, PITCH, **SPRING)
             settings = pathlib.Path(folder, "part.yaml")
-            settings.write_text("device: {spring_stiffness: 100, travel: 1e-6}\n"
-                                "device_force: {realisations: 3, max_cells: 1e4}\n")
-            done = subprocess.run([device_program(), "--json", "--config", str(settings), "--area", str(AREA), "--pitch", str(PITCH)] + paths,
-                                  stdout=subprocess.PIPE, check=True)
+            settings.write_text(
+                "device: {spring_stiffness: 100, travel: 1e-6}\n"
+                "device_force: {realisations: 3, max_cells: 1e4}\n"
+            )
+            done = subprocess.run(
+                [
+                    device_program(),
+                    "--json",
+                    "--config",
+                    str(settings),
+                    "--area",
+                    str(AREA),
+                    "--pitch",
+                    str(PITCH),
+                ]
+                + paths,
+                stdout=subprocess.PIPE,
+                check=True,
+            )
         self.assertEqual(json.loads(done.stdout.decode()), device.to_dict())
         self.assertGreater(device.verdict.margin_lower, 1.0)
-        self.assertAlmostEqual(device.verdict.margin * device.pull_off_force / 1e-4, 1.0, delta=1e-9)
+        self.assertAlmostEqual(
+            device.verdict.margin * device.pull_off_force / 1e-4, 1.0, delta=1e-9
+        )
 
     def test_scans_of_every_dress_say_the_same(self):
         first, second = scans()
         wanted = predicted([first, second], AREA, PITCH).pull_off_force
         dressed = Topography(second.T, (64 * PITCH, 64 * PITCH), "m")
         self.assertEqual(predicted([first, dressed], AREA, PITCH).pull_off_force, wanted)
-        self.assertEqual(predicted((mems_stiction.clean(first, PITCH), dressed), AREA).pull_off_force, wanted)
+        self.assertEqual(
+            predicted((mems_stiction.clean(first, PITCH), dressed), AREA).pull_off_force, wanted
+        )
         self.assertEqual(predicted(np.array([first, second]), AREA, PITCH).pull_off_force, wanted)
         with tempfile.TemporaryDirectory() as folder:
             np.save(folder + "/first.npy", first)
-            self.assertEqual(predicted([folder + "/first.npy", dressed], AREA, [PITCH, None]).pull_off_force, wanted)
-            self.assertEqual(predicted([mems_stiction.read(folder + "/first.npy", pitch=PITCH), second], AREA, PITCH).pull_off_force, wanted)
+            self.assertEqual(
+                predicted([folder + "/first.npy", dressed], AREA, [PITCH, None]).pull_off_force,
+                wanted,
+            )
+            self.assertEqual(
+                predicted(
+                    [mems_stiction.read(folder + "/first.npy", pitch=PITCH), second], AREA, PITCH
+                ).pull_off_force,
+                wanted,
+            )
         alone = predicted(first, AREA, PITCH).pull_off_force
         self.assertNotEqual(alone, wanted)
         self.assertEqual(predicted([first], AREA, PITCH).pull_off_force, alone)
@@ -126,7 +177,10 @@ class DeviceTest(unittest.TestCase):
         apart = predicted(given, AREA, [PITCH, 4 * PITCH])
         self.assertNotEqual(apart.pull_off_force, wanted)
         self.assertEqual(apart.pitch, PITCH)
-        self.assertEqual(apart.pull_off_force, predicted(given, AREA, [PITCH, (4 * PITCH, 4 * PITCH)]).pull_off_force)
+        self.assertEqual(
+            apart.pull_off_force,
+            predicted(given, AREA, [PITCH, (4 * PITCH, 4 * PITCH)]).pull_off_force,
+        )
         oblong = predicted(given, AREA, (PITCH, 2 * PITCH)).pull_off_force
         self.assertNotEqual(oblong, wanted)
         with self.assertRaisesRegex(mems_stiction.SurfaceError, "^pitch: 3 are given for 2 scans"):
@@ -134,15 +188,24 @@ class DeviceTest(unittest.TestCase):
         for wrong in ("10e-9", -1.0, (PITCH, 0.0), [PITCH, "x"]):
             with self.assertRaisesRegex(mems_stiction.SurfaceError, "^pitch: .* is not allowed"):
                 predicted(given, AREA, wrong)
-        with self.assertRaisesRegex(mems_stiction.SurfaceError, "^pitch: an array says nothing of it"):
+        with self.assertRaisesRegex(
+            mems_stiction.SurfaceError, "^pitch: an array says nothing of it"
+        ):
             predicted(given, AREA)
 
     def test_area_and_contacts_by_argument_or_settings(self):
         given = scans()
         stated = predicted(given, None, PITCH, device={"contact_area": AREA, "contacts": 2})
         self.assertEqual(stated.area, AREA)
-        self.assertEqual(stated.json().split("settings_hash")[1], predicted(given, AREA, PITCH, 2).json().split("settings_hash")[1])
-        for area, words in ((None, "device/contact_area"), (-1.0, "device/contact_area"), (0.0, "device/contact_area")):
+        self.assertEqual(
+            stated.json().split("settings_hash")[1],
+            predicted(given, AREA, PITCH, 2).json().split("settings_hash")[1],
+        )
+        for area, words in (
+            (None, "device/contact_area"),
+            (-1.0, "device/contact_area"),
+            (0.0, "device/contact_area"),
+        ):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 predicted(given, area, PITCH)
 
@@ -150,8 +213,13 @@ class DeviceTest(unittest.TestCase):
         given = scans()
         wanted = predicted(given, AREA, PITCH)
         twice = predicted(given + [given[0].copy()], AREA, PITCH)
-        self.assertEqual((twice.pull_off_force, twice.pull_off_force_upper), (wanted.pull_off_force, wanted.pull_off_force_upper))
-        self.assertRegex(" ".join(twice.warnings), "shows the heights of .* again; both count as one scan")
+        self.assertEqual(
+            (twice.pull_off_force, twice.pull_off_force_upper),
+            (wanted.pull_off_force, wanted.pull_off_force_upper),
+        )
+        self.assertRegex(
+            " ".join(twice.warnings), "shows the heights of .* again; both count as one scan"
+        )
 
     def test_missing_pixels_of_the_wide_scan_are_filled_and_told(self):
         wide = rough(64, 64, 2e-9, 3)
@@ -162,15 +230,21 @@ class DeviceTest(unittest.TestCase):
         self.assertRegex(" ".join(found.warnings), "1 of 4096 pixels are missing")
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            surface = mems_stiction.MadeSurface(given, (64 * 8 * PITCH)**2, [PITCH, PITCH, 8 * PITCH])
+            surface = mems_stiction.MadeSurface(
+                given, (64 * 8 * PITCH) ** 2, [PITCH, PITCH, 8 * PITCH]
+            )
         self.assertTrue(np.isfinite(surface.heights(0, 0, 50, 50)).all())
-        self.assertRegex(" ".join(str(warning.message) for warning in told), "1 of 4096 pixels are missing")
+        self.assertRegex(
+            " ".join(str(warning.message) for warning in told), "1 of 4096 pixels are missing"
+        )
 
     def test_settings_that_serve_do_not_warn(self):
         with warnings.catch_warnings():
             warnings.simplefilter("error", mems_stiction.SettingsWarning)
             predicted(scans(), AREA, PITCH)
-        with self.assertWarnsRegex(mems_stiction.SettingsWarning, "device_force/realisations 3 has no effect"):
+        with self.assertWarnsRegex(
+            mems_stiction.SettingsWarning, "device_force/realisations 3 has no effect"
+        ):
             mems_stiction.predict(rough(20, 20), PITCH, **QUICK)
 
     def test_slips_are_named(self):
@@ -210,7 +284,9 @@ class VerdictTest(unittest.TestCase):
     def test_without_it_nothing_is_scaled_by_area(self):
         heights = rough(64, 64, 2e-9, 1)
         device = dict(SPRING["device"], contact_area=AREA)
-        prediction = mems_stiction.predict(heights, PITCH, device=device, device_force={"enabled": False})
+        prediction = mems_stiction.predict(
+            heights, PITCH, device=device, device_force={"enabled": False}
+        )
         self.assertEqual(prediction.verdict.sticks, "unknown")
         self.assertTrue(np.isnan(prediction.verdict.margin))
         self.assertIn("device_force/enabled", prediction.verdict.reason)
@@ -236,13 +312,17 @@ try:
     mems_stiction.predict_device(heights, 1e-8, 10e-9, device_force={"realisations": 1000, "max_cells": 2e5})
 except KeyboardInterrupt:
     print("interrupted", flush=True)
-"""
+"""  # noqa: E501
 
 
 class InterruptionTest(unittest.TestCase):
     def test_ctrl_c_stops_it(self):
-        process = subprocess.Popen([sys.executable, "-W", "ignore", "-c", LONG], stdout=subprocess.PIPE, universal_newlines=True,
-                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        process = subprocess.Popen(
+            [sys.executable, "-W", "ignore", "-c", LONG],
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        )
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         self.assertEqual(process.stdout.readline(), "started\n")

@@ -1,4 +1,5 @@
-"""The Python module at work: wrong inputs are named, threads and Ctrl-C work, sweeps and cycles have the messages' fields."""
+"""The Python module at work: wrong inputs are named, threads and Ctrl-C work, sweeps and cycles
+have the messages' fields."""
 
 import json
 import os
@@ -31,15 +32,26 @@ class WrongInputTest(unittest.TestCase):
         good = rough(20, 30)
         surface, options = mems_stiction.SurfaceError, mems_stiction.OptionsError
         for heights, pitch, kind, words in (
-                (good[0], PITCH, surface, "shape \\(30,\\).*two dimensions"), (np.stack([good, good]), PITCH, surface, "two dimensions"),
-                (good + 0j, PITCH, surface, "complex128.*real numbers"), (good.astype(object), PITCH, surface, "type object"),
-                (good > 0, PITCH, surface, "type bool"), ([["1", "2"]], PITCH, surface, "real numbers"),
-                (good[:0], PITCH, surface, "has no pixel"), (good * np.nan, PITCH, surface, "no valid pixel"),
-                (good, 0, surface, "pitch: 0 .*> 0 m"), (good, -1e-9, surface, "pitch: -1e-09"), (good, float("nan"), surface, "pitch: nan"),
-                (good, "20 nm", surface, "pitch: '20 nm'.*number"), (good, (1e-9, 2e-9, 3e-9), surface, "two of them"),
-                (good, None, surface, "pitch"), (Topography(good, (1.0, 1.0), "parsec"), None, surface, "'parsec'.*nm"),
-                (Topography(good, (1.0, 1.0)), None, surface, "states no unit"), (Topography(good[0], (1.0,), "m"), None, surface, "two dimensions"),
-                (Topography(good, None, "m"), None, surface, "physical_sizes"), (Topography(good, (1, 1), "m"), 1e-9, surface, "leave it out")):
+            (good[0], PITCH, surface, "shape \\(30,\\).*two dimensions"),
+            (np.stack([good, good]), PITCH, surface, "two dimensions"),
+            (good + 0j, PITCH, surface, "complex128.*real numbers"),
+            (good.astype(object), PITCH, surface, "type object"),
+            (good > 0, PITCH, surface, "type bool"),
+            ([["1", "2"]], PITCH, surface, "real numbers"),
+            (good[:0], PITCH, surface, "has no pixel"),
+            (good * np.nan, PITCH, surface, "no valid pixel"),
+            (good, 0, surface, "pitch: 0 .*> 0 m"),
+            (good, -1e-9, surface, "pitch: -1e-09"),
+            (good, float("nan"), surface, "pitch: nan"),
+            (good, "20 nm", surface, "pitch: '20 nm'.*number"),
+            (good, (1e-9, 2e-9, 3e-9), surface, "two of them"),
+            (good, None, surface, "pitch"),
+            (Topography(good, (1.0, 1.0), "parsec"), None, surface, "'parsec'.*nm"),
+            (Topography(good, (1.0, 1.0)), None, surface, "states no unit"),
+            (Topography(good[0], (1.0,), "m"), None, surface, "two dimensions"),
+            (Topography(good, None, "m"), None, surface, "physical_sizes"),
+            (Topography(good, (1, 1), "m"), 1e-9, surface, "leave it out"),
+        ):
             with self.subTest(words=words):
                 with self.assertRaisesRegex(kind, words) as caught:
                     mems_stiction.predict(heights, pitch)
@@ -51,21 +63,32 @@ class WrongInputTest(unittest.TestCase):
             mems_stiction.predict(good, PITCH, upper=good[0])
         with self.assertRaisesRegex(options, "config: 3 is not allowed"):
             mems_stiction.predict(good, PITCH, 3)
-        with self.assertRaisesRegex(mems_stiction.FileError, "missing.yaml: the configuration file cannot be opened"):
+        with self.assertRaisesRegex(
+            mems_stiction.FileError, "missing.yaml: the configuration file cannot be opened"
+        ):
             mems_stiction.predict(good, PITCH, "missing.yaml")
         with self.assertRaisesRegex(OSError, "missing.tiff"):
             mems_stiction.read("missing.tiff")
 
     def test_settings_raise_the_sentences_of_the_reader_of_files(self):
         good = rough(20, 30)
-        wrong = {"lower": {"hardnes": 1, "youngs_modulus": -1.0}, "load/voltage": "high", "approach": {"formulation": "none", "max_steps": 1.5},
-                 "output": {"roughness": 3, "asperities": [1]}, "preprocessing": 1}
+        wrong = {
+            "lower": {"hardnes": 1, "youngs_modulus": -1.0},
+            "load/voltage": "high",
+            "approach": {"formulation": "none", "max_steps": 1.5},
+            "output": {"roughness": 3, "asperities": [1]},
+            "preprocessing": 1,
+        }
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "wrong.yaml")
             pathlib.Path(path).write_text(json.dumps(wrong))
             with self.assertRaises(mems_stiction.OptionsError) as of_file:
                 mems_stiction.predict(good, PITCH, path)
-            done = subprocess.run([program(), "--config", path, "scan.npy"], stderr=subprocess.PIPE, universal_newlines=True)
+            done = subprocess.run(
+                [program(), "--config", path, "scan.npy"],
+                stderr=subprocess.PIPE,
+                universal_newlines=True,
+            )
         with self.assertRaises(mems_stiction.OptionsError) as of_dictionary:
             mems_stiction.predict(good, PITCH, wrong)
         with self.assertRaises(mems_stiction.OptionsError) as of_keywords:
@@ -94,10 +117,23 @@ class WrongInputTest(unittest.TestCase):
         self.assertEqual(first.pull_off_force, last.pull_off_force)
 
 
-BEAM = {"beam_type": "cantilever", "beam_length": 2e-4, "beam_width": 2e-5, "beam_thickness": 2e-6, "beam_gap": 2e-6, "beam_modulus": 160e9,
-        "contact_area": 1e-11, "electrode_start": 2e-5, "electrode_length": 5e-5}
-WORDS = {"direction": ("up", "down"), "status": ("EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"), "sticks": ("no", "marginal", "yes", "unknown"),
-         "lands": ("no", "yes", "unknown")}  # of the record, where arrays have numbers
+BEAM = {
+    "beam_type": "cantilever",
+    "beam_length": 2e-4,
+    "beam_width": 2e-5,
+    "beam_thickness": 2e-6,
+    "beam_gap": 2e-6,
+    "beam_modulus": 160e9,
+    "contact_area": 1e-11,
+    "electrode_start": 2e-5,
+    "electrode_length": 5e-5,
+}
+WORDS = {
+    "direction": ("up", "down"),
+    "status": ("EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"),
+    "sticks": ("no", "marginal", "yes", "unknown"),
+    "lands": ("no", "yes", "unknown"),
+}  # of the record, where arrays have numbers
 
 LONG = """
 import mems_stiction, numpy, sys
@@ -119,8 +155,12 @@ class ThreadTest(unittest.TestCase):
         self.interrupt("predict(heights, 20e-9, half_space=True")
 
     def interrupt(self, call):
-        process = subprocess.Popen([sys.executable, "-c", LONG % call], stdout=subprocess.PIPE, universal_newlines=True,
-                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        process = subprocess.Popen(
+            [sys.executable, "-c", LONG % call],
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        )
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         self.assertEqual(process.stdout.readline(), "started\n")
@@ -130,7 +170,9 @@ class ThreadTest(unittest.TestCase):
         began = time.monotonic()
         self.assertEqual(process.communicate(timeout=300)[0], "interrupted\n")
         self.assertEqual(process.returncode, 0)
-        self.assertLess(time.monotonic() - began, 30)  # the whole solution takes minutes; a busy machine has room
+        self.assertLess(
+            time.monotonic() - began, 30
+        )  # the whole solution takes minutes; a busy machine has room
 
     def test_the_interpreter_goes_on_meanwhile(self):
         heights = rough(700, 700, 12e-9)
@@ -164,9 +206,14 @@ for work in (lambda: mems_stiction.predict(heights, 1e-8), lambda: mems_stiction
 for _ in range(6):
     begun.acquire()
 time.sleep(%f)
-"""
+"""  # noqa: E501
         for turn in range(6):
-            ended = subprocess.run([sys.executable, "-c", code % (0.01 * turn)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
+            ended = subprocess.run(
+                [sys.executable, "-c", code % (0.01 * turn)],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                timeout=300,
+            )
             self.assertEqual((ended.returncode, ended.stderr), (0, b""))
 
     def test_a_prediction_goes_to_another_process(self):
@@ -176,7 +223,10 @@ time.sleep(%f)
         self.assertTrue(np.array_equal(copy.contact_map, prediction.contact_map))
         self.assertEqual(copy.asperities.load.tolist(), prediction.asperities.load.tolist())
         self.assertEqual(copy.verdict.sticks, prediction.verdict.sticks)
-        for one in (mems_stiction.clean(rough(9, 9), PITCH), mems_stiction.Settings(load={"mechanical_load": 1e-6})):
+        for one in (
+            mems_stiction.clean(rough(9, 9), PITCH),
+            mems_stiction.Settings(load={"mechanical_load": 1e-6}),
+        ):
             self.assertEqual(repr(pickle.loads(pickle.dumps(one))), repr(one))
 
 
@@ -187,38 +237,83 @@ class StationTest(unittest.TestCase):
 
     def test_records_have_the_fields_of_the_messages(self):
         heights = rough(48, 48)
-        sweep = mems_stiction.sweep_loads(heights, PITCH, [0, 5], [0, 1e-7], interface={"insulator_thickness": 1e-7}, device=DEVICE, device_force=FEW)
-        cycles = mems_stiction.cycle_contact(heights, PITCH, 3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9})
+        sweep = mems_stiction.sweep_loads(
+            heights,
+            PITCH,
+            [0, 5],
+            [0, 1e-7],
+            interface={"insulator_thickness": 1e-7},
+            device=DEVICE,
+            device_force=FEW,
+        )
+        cycles = mems_stiction.cycle_contact(
+            heights, PITCH, 3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9}
+        )
         self.assertEqual(sorted(sweep.points.dtype.names), sorted(self.fields_of("SweepPoint")))
-        self.assertEqual(sorted(sweep.summaries.dtype.names), sorted(self.fields_of("SweepSummary")))
+        self.assertEqual(
+            sorted(sweep.summaries.dtype.names), sorted(self.fields_of("SweepSummary"))
+        )
         self.assertEqual(sorted(cycles.cycles.dtype.names), sorted(self.fields_of("CyclePoint")))
         self.assertEqual(sweep.points.voltage.tolist(), [0, 5, 0, 0, 5, 0])
         self.assertEqual(cycles.cycles.cycle.tolist(), [1, 2, 3])
         self.assertEqual(cycles.lower.shape, heights.shape)
-        first = mems_stiction.predict(heights, PITCH, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9})
+        first = mems_stiction.predict(
+            heights, PITCH, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9}
+        )
         self.assertEqual(cycles.cycles[0].pull_off_force, first.pull_off_force)
         self.assertIn("contact 3", repr(cycles))
         self.assertIn("Pressed with", repr(sweep))
 
     def test_a_sweep_of_predict_scan_has_the_same_figures_to_the_bit(self):
         heights = rough(48, 48, 3e-9, 1, 12)  # its pixels show what holds: the margins are known
-        for device in (DEVICE, BEAM, dict(BEAM, beam_type="doubly_clamped", beam_length=1e-4, contact_area=0.0)):
-            settings = dict(interface={"insulator_thickness": 1e-7}, device=device, device_force=FEW)
+        for device in (
+            DEVICE,
+            BEAM,
+            dict(BEAM, beam_type="doubly_clamped", beam_length=1e-4, contact_area=0.0),
+        ):
+            settings = dict(
+                interface={"insulator_thickness": 1e-7}, device=device, device_force=FEW
+            )
             swept = mems_stiction.sweep_loads(heights, PITCH, [0, 10, 20], [0, 1e-7], **settings)
             with tempfile.TemporaryDirectory() as folder:
                 scan, config = os.path.join(folder, "scan.npy"), os.path.join(folder, "config.yaml")
                 np.save(scan, heights)
                 pathlib.Path(config).write_text(json.dumps(settings))
-                call = [program(), "--json", "--pitch", str(PITCH), "--config", config, "--sweep-voltage", "0:20:10", "--sweep-load", "0,1e-7", scan]
-                printed = json.loads(subprocess.run(call, check=True, stdout=subprocess.PIPE).stdout)["sweep"]
+                call = [
+                    program(),
+                    "--json",
+                    "--pitch",
+                    str(PITCH),
+                    "--config",
+                    config,
+                    "--sweep-voltage",
+                    "0:20:10",
+                    "--sweep-load",
+                    "0,1e-7",
+                    scan,
+                ]
+                printed = json.loads(
+                    subprocess.run(call, check=True, stdout=subprocess.PIPE).stdout
+                )["sweep"]
             self.assertEqual(plain_value(swept.pull_in_voltage), printed["pull_in_voltage"])
             self.assertEqual(swept.pull_in_reason, printed.get("pull_in_reason", ""))
-            for found, told in ((swept.points, printed["points"]), (swept.summaries, printed["summaries"])):
+            for found, told in (
+                (swept.points, printed["points"]),
+                (swept.summaries, printed["summaries"]),
+            ):
                 self.assertEqual(len(found), len(told))
                 for name in found.dtype.names:
                     words = WORDS.get(name)
-                    self.assertEqual([words[value] if words else plain_value(value) for value in found[name]], [row[name] for row in told], (device, name))
-            self.assertFalse(np.isnan(swept.points[0].peel_number if "beam_type" in device else swept.points[0].margin))
+                    self.assertEqual(
+                        [words[value] if words else plain_value(value) for value in found[name]],
+                        [row[name] for row in told],
+                        (device, name),
+                    )
+            self.assertFalse(
+                np.isnan(
+                    swept.points[0].peel_number if "beam_type" in device else swept.points[0].margin
+                )
+            )
 
     def test_wrong_requests_are_named(self):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "voltages"):

@@ -1,6 +1,7 @@
-"""Margin and force are two faces of one distribution, in every program that states them: restoring force over force, quantile by quantile; of beams the
-beam's own work over that of adhesion. One scan has one answer in all of them. It takes long since each of ten programs and
-functions finds the force of the device anew."""
+"""Margin and force are two faces of one distribution, in every program that states them: restoring
+force over force, quantile by quantile; of beams the beam's own work over that of adhesion. One scan
+has one answer in all of them. It takes long since each of ten programs and functions finds the
+force of the device anew."""
 
 import json
 import math
@@ -27,8 +28,18 @@ from module_cases import rough  # noqa: E402  (the path comes first)
 PITCH = 10e-9
 SCAN = rough(96, 96, 3e-9, 1, 12)
 SPRING = {"spring_stiffness": 0.5, "travel": 1e-6, "contact_area": 1e-12}
-SHORT = {"beam_type": "cantilever", "beam_length": 3e-4, "beam_width": 2e-5, "beam_thickness": 2e-6, "beam_gap": 2e-6, "beam_modulus": 160e9, "contact_area": 1e-12}
-LONG = dict(SHORT, beam_type="doubly_clamped", beam_length=5e-4, beam_thickness=1e-6, contact_area=2e-9)
+SHORT = {
+    "beam_type": "cantilever",
+    "beam_length": 3e-4,
+    "beam_width": 2e-5,
+    "beam_thickness": 2e-6,
+    "beam_gap": 2e-6,
+    "beam_modulus": 160e9,
+    "contact_area": 1e-12,
+}
+LONG = dict(
+    SHORT, beam_type="doubly_clamped", beam_length=5e-4, beam_thickness=1e-6, contact_area=2e-9
+)
 DEVICES = {"spring": SPRING, "force": SHORT, "peeling": LONG}
 RATIOS = [name + end for name in ("margin", "peel_number") for end in ("", "_lower", "_upper")]
 
@@ -39,21 +50,34 @@ class FacesTest(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.folder = pathlib.Path(holder.name)
         np.save(str(self.folder / "scan.npy"), SCAN)
-        (self.folder / "scan.npy.yaml").write_text("pitch_x: %r\npitch_y: %r\npart_id: A\n" % (PITCH, PITCH))
+        (self.folder / "scan.npy.yaml").write_text(
+            "pitch_x: %r\npitch_y: %r\npart_id: A\n" % (PITCH, PITCH)
+        )
 
     def run_program(self, name, *arguments):
-        done = subprocess.run([find_node("mems_stiction", name)[0], "--config", "device.yaml"] + list(arguments), cwd=str(self.folder), check=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=200)
+        done = subprocess.run(
+            [find_node("mems_stiction", name)[0], "--config", "device.yaml"] + list(arguments),
+            cwd=str(self.folder),
+            check=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=200,
+        )
         return done.stdout
 
     def faces(self, device):
         """{who says it: its figures} of one scan."""
         settings = {"device": device, "device_force": {"realisations": 4, "max_cells": 1e4}}
         (self.folder / "device.yaml").write_text(json.dumps(settings))
-        found = {"predict_scan": json.loads(self.run_program("predict_scan", "--json", "scan.npy")),
-                 "predict_device": json.loads(self.run_program("predict_device", "--json", "scan.npy"))}
+        found = {
+            "predict_scan": json.loads(self.run_program("predict_scan", "--json", "scan.npy")),
+            "predict_device": json.loads(self.run_program("predict_device", "--json", "scan.npy")),
+        }
         self.run_program("stiction_batch", "-o", "rows.jsonl", "scan.npy")
-        self.run_program("stiction_batch", "-o", "of_part.jsonl", "--parts", "parts.jsonl", "scan.npy")
+        self.run_program(
+            "stiction_batch", "-o", "of_part.jsonl", "--parts", "parts.jsonl", "scan.npy"
+        )
         for name, path in (("batch", "rows.jsonl"), ("part", "parts.jsonl")):
             found[name] = json.loads((self.folder / path).read_text().splitlines()[0])
         for path in ("rows.jsonl", "of_part.jsonl", "parts.jsonl"):
@@ -62,7 +86,9 @@ class FacesTest(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             found["predict"] = mems_stiction.predict(SCAN, PITCH, **settings).to_dict()
-            found["predict_device()"] = mems_stiction.predict_device([SCAN], pitch=PITCH, **settings).to_dict()
+            found["predict_device()"] = mems_stiction.predict_device(
+                [SCAN], pitch=PITCH, **settings
+            ).to_dict()
             sweep = mems_stiction.sweep_loads(SCAN, PITCH, [0.0], **settings).points
             cycles = mems_stiction.cycle_contact(SCAN, PITCH, 1, **settings).cycles
         for name, points in (("sweep", sweep), ("cycles", cycles)):
@@ -78,7 +104,11 @@ class FacesTest(unittest.TestCase):
             decides = "peel_number" if governed == "peeling" else "margin"
             for name, figures in found.items():
                 said = figures.get("verdict", figures)
-                for ratio in RATIOS if name != "part" else [decides + end for end in ("", "_lower", "_upper")]:
+                for ratio in (
+                    RATIOS
+                    if name != "part"
+                    else [decides + end for end in ("", "_lower", "_upper")]
+                ):
                     value, expected = said[ratio], first[ratio]
                     where = "%s of %s: %s" % (ratio, kind, name)
                     if expected is None:
@@ -87,15 +117,33 @@ class FacesTest(unittest.TestCase):
                         self.assertAlmostEqual(value / expected, 1.0, delta=1e-9, msg=where)
                 if said.get("device_pull_off_force") is None:
                     continue
-                for ratio, force in (("margin", ""), ("margin_lower", "_upper"), ("margin_upper", "_lower")):
+                for ratio, force in (
+                    ("margin", ""),
+                    ("margin_lower", "_upper"),
+                    ("margin_upper", "_lower"),
+                ):
                     product = said[ratio] * said["device_pull_off_force" + force]
-                    self.assertAlmostEqual(product / said["restoring_force"], 1.0, delta=1e-9, msg="%s of %s: %s" % (ratio, kind, name))
+                    self.assertAlmostEqual(
+                        product / said["restoring_force"],
+                        1.0,
+                        delta=1e-9,
+                        msg="%s of %s: %s" % (ratio, kind, name),
+                    )
             force = first["device_force"]
             for end in ("", "_lower", "_upper"):
-                self.assertAlmostEqual(first["device_pull_off_force" + end] / force["pull_off_force" + end], 1.0, delta=1e-9)
+                self.assertAlmostEqual(
+                    first["device_pull_off_force" + end] / force["pull_off_force" + end],
+                    1.0,
+                    delta=1e-9,
+                )
             if kind != "spring":
-                self.assertAlmostEqual(first["peel_number_lower"] * force["apparent_work_of_adhesion_upper"] /
-                                       (first["peel_number_upper"] * force["apparent_work_of_adhesion_lower"]), 1.0, delta=1e-9)
+                self.assertAlmostEqual(
+                    first["peel_number_lower"]
+                    * force["apparent_work_of_adhesion_upper"]
+                    / (first["peel_number_upper"] * force["apparent_work_of_adhesion_lower"]),
+                    1.0,
+                    delta=1e-9,
+                )
 
 
 if __name__ == "__main__":

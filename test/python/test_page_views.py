@@ -1,4 +1,5 @@
-"""The station's page in a real browser, with the real server and messages, without a graph: maps, sweep, parts, downloads, at tablet and desk size."""
+"""The station's page in a real browser, with the real server and messages, without a graph: maps,
+sweep, parts, downloads, at tablet and desk size."""
 
 import csv
 import io
@@ -12,8 +13,16 @@ import time
 import unittest
 
 import numpy as np
-from mems_stiction.msg import (CycleContactResult, CyclePoint, PartVerdict, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint,
-                               SweepSummary)
+from mems_stiction.msg import (
+    CycleContactResult,
+    CyclePoint,
+    PartVerdict,
+    SeparationPoint,
+    StictionPrediction,
+    SweepLoadResult,
+    SweepPoint,
+    SweepSummary,
+)
 from mems_stiction.page_maps import height_range, measured_at
 from mems_stiction.page_server import PageServer
 from mems_stiction.page_state import PageState
@@ -39,7 +48,7 @@ BAD_TEXTS = """(() => {
     }));
   }
   return found;
-})()"""
+})()"""  # noqa: E501
 # Boxes with words that lie on each other, or reach beyond the window.
 BAD_BOXES = """(() => {
   const boxes = ['#said', '#ratio', '#limits', '#part', 'nav', 'main'].map((name) => [name, document.querySelector(name).getBoundingClientRect()]).filter(([, box]) => box.width && box.height);
@@ -52,25 +61,71 @@ BAD_BOXES = """(() => {
   if (age.width && words.some((box) => age.left < box.right && box.left < age.right && age.top < box.bottom - 1 && box.top < age.bottom)) found.push('#age on words');
   if (document.documentElement.scrollWidth > innerWidth) found.push('the page is wider than the window');
   return found;
-})()"""
+})()"""  # noqa: E501
 
 
 def prediction(number, **changes):
-    points = [SeparationPoint(displacement=x * 1e-9, force=force * 1e-6, is_separation=out) for x, force, out in (
-        (-4, 0.0, False), (-1, 0.1, False), (0, 2.0, False), (0, 2.0, True), (-1, 3.7, True), (-2, 1.1, True), (-4, 0.0, True))]
-    message = StictionPrediction(pull_off_force=3.7e-6 * (1 + 0.05 * (number % 3)), sticks=StictionPrediction.STICKS_NO, reason="the whole interval lies above 1, " * 8, margin=3.0, margin_lower=2.0,
-                                 margin_upper=4.0, restoring_force=1e-5, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, device_pull_off_force=3.3e-6,
-                                 contact_area_jkr=NAN, rms_height=1e-9, asperity_count=3, settings_hash="00ff", scan_name="place %d" % number, curve=points,
-                                 formulation="separation_curve", regime_flags=16 + 32 + 128, version="1.2.3", warnings=["=HYPERLINK(1)"], site_x=NAN, site_y=NAN)
+    points = [
+        SeparationPoint(displacement=x * 1e-9, force=force * 1e-6, is_separation=out)
+        for x, force, out in (
+            (-4, 0.0, False),
+            (-1, 0.1, False),
+            (0, 2.0, False),
+            (0, 2.0, True),
+            (-1, 3.7, True),
+            (-2, 1.1, True),
+            (-4, 0.0, True),
+        )
+    ]
+    message = StictionPrediction(
+        pull_off_force=3.7e-6 * (1 + 0.05 * (number % 3)),
+        sticks=StictionPrediction.STICKS_NO,
+        reason="the whole interval lies above 1, " * 8,
+        margin=3.0,
+        margin_lower=2.0,
+        margin_upper=4.0,
+        restoring_force=1e-5,
+        peel_number=NAN,
+        peel_number_lower=NAN,
+        peel_number_upper=NAN,
+        device_pull_off_force=3.3e-6,
+        contact_area_jkr=NAN,
+        rms_height=1e-9,
+        asperity_count=3,
+        settings_hash="00ff",
+        scan_name="place %d" % number,
+        curve=points,
+        formulation="separation_curve",
+        regime_flags=16 + 32 + 128,
+        version="1.2.3",
+        warnings=["=HYPERLINK(1)"],
+        site_x=NAN,
+        site_y=NAN,
+    )
     for name, value in changes.items():
         setattr(message, name, value)
     return message
 
 
 def part(serial, margin, sticks, **changes):
-    message = PartVerdict(part_id="lot 3", serial_id=serial, scan_count=3, counted_scans=3, sticks=sticks, reason="why", verdict_by="prediction", margin=margin,
-                          margin_lower=margin / 2, margin_upper=margin * 2, worst_margin=margin / 3, worst_margin_scan="place 2", peel_number=NAN, peel_number_lower=NAN,
-                          peel_number_upper=NAN, worst_peel_number=NAN)
+    message = PartVerdict(
+        part_id="lot 3",
+        serial_id=serial,
+        scan_count=3,
+        counted_scans=3,
+        sticks=sticks,
+        reason="why",
+        verdict_by="prediction",
+        margin=margin,
+        margin_lower=margin / 2,
+        margin_upper=margin * 2,
+        worst_margin=margin / 3,
+        worst_margin_scan="place 2",
+        peel_number=NAN,
+        peel_number_lower=NAN,
+        peel_number_upper=NAN,
+        worst_peel_number=NAN,
+    )
     for name, value in changes.items():
         setattr(message, name, value)
     return message
@@ -79,14 +134,38 @@ def part(serial, margin, sticks, **changes):
 def sweep():
     """Safe up to 20 V; at 30 V new contacts snap in."""
     points = []
-    for direction, voltages in ((SweepPoint.UP, (0, 10, 20, 30, 40)), (SweepPoint.DOWN, (30, 20, 10, 0))):
+    for direction, voltages in (
+        (SweepPoint.UP, (0, 10, 20, 30, 40)),
+        (SweepPoint.DOWN, (30, 20, 10, 0)),
+    ):
         for voltage in voltages:
             more = voltage >= 30
-            points.append(SweepPoint(direction=direction, voltage=voltage, mechanical_load=1e-6, pull_off_force=3e-6 if more else 1e-6, pull_off_force_lower=2e-6 if more else 5e-7,
-                                     pull_off_force_upper=4e-6 if more else 2e-6, contact_area=(9e-13 if more else 1e-13) * (1 + 1e-3 * voltage), contact_area_jkr=NAN,
-                                     asperity_count=90 if more else 1, margin=0.8 if more else 3.0, margin_lower=0.5 if more else 2.0, margin_upper=1.1 if more else 4.0,
-                                     holding_margin=0.6 if more else 2.5, sticks=1 if more else 0))
-    summary = SweepSummary(mechanical_load=1e-6, highest_releasing_voltage=20.0, highest_safe_voltage=20.0, lowest_safe_voltage=0.0, lowest_sticking_voltage=30.0, opening_voltage=20.0)
+            points.append(
+                SweepPoint(
+                    direction=direction,
+                    voltage=voltage,
+                    mechanical_load=1e-6,
+                    pull_off_force=3e-6 if more else 1e-6,
+                    pull_off_force_lower=2e-6 if more else 5e-7,
+                    pull_off_force_upper=4e-6 if more else 2e-6,
+                    contact_area=(9e-13 if more else 1e-13) * (1 + 1e-3 * voltage),
+                    contact_area_jkr=NAN,
+                    asperity_count=90 if more else 1,
+                    margin=0.8 if more else 3.0,
+                    margin_lower=0.5 if more else 2.0,
+                    margin_upper=1.1 if more else 4.0,
+                    holding_margin=0.6 if more else 2.5,
+                    sticks=1 if more else 0,
+                )
+            )
+    summary = SweepSummary(
+        mechanical_load=1e-6,
+        highest_releasing_voltage=20.0,
+        highest_safe_voltage=20.0,
+        lowest_safe_voltage=0.0,
+        lowest_sticking_voltage=30.0,
+        opening_voltage=20.0,
+    )
     return SweepLoadResult(points=points, summaries=[summary], pull_in_voltage=12.5)
 
 
@@ -94,7 +173,9 @@ def heights_message(rows, columns):
     y, x = np.mgrid[:rows, :columns]
     heights = (np.sin(x / 9) * np.cos(y / 7) * 1e-8 + x * 2e-10 + 5e-7).astype(np.float32)
     heights[:5, :5] = np.nan
-    return Image(height=rows, width=columns, step=4 * columns, encoding="32FC1", data=heights.tobytes())
+    return Image(
+        height=rows, width=columns, step=4 * columns, encoding="32FC1", data=heights.tobytes()
+    )
 
 
 def contacts_message(rows, columns):
@@ -103,7 +184,11 @@ def contacts_message(rows, columns):
     return Image(height=rows, width=columns, step=columns, encoding="mono8", data=regimes.tobytes())
 
 
-@unittest.skipUnless(browser.program(), "no browser is installed: apt-get install chromium-headless-shell (scripts/setup does), or chromium")
+@unittest.skipUnless(
+    browser.program(),
+    "no browser is installed: apt-get install chromium-headless-shell (scripts/setup does), or "
+    "chromium",
+)
 class ViewTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
@@ -131,9 +216,34 @@ class ViewTest(unittest.TestCase):
         cls.add_wafers()
         for serial, margin, sticks in (("0010", 3.0, 0), ("0009", 0.4, 2), ("0011", 1.2, 1)):
             cls.state.add_part(12 * SECOND, part(serial, margin, sticks))
-        cls.state.add_part(12 * SECOND, part("0012", 6.18, 1, scan_count=2, counted_scans=2, margin_lower=9.57e-11, margin_upper=2.07e12))
+        cls.state.add_part(
+            12 * SECOND,
+            part(
+                "0012",
+                6.18,
+                1,
+                scan_count=2,
+                counted_scans=2,
+                margin_lower=9.57e-11,
+                margin_upper=2.07e12,
+            ),
+        )
         cls.state.add_sweep("goal", sweep())
-        cls.state.add_cycles("goal", CycleContactResult(cycles=[CyclePoint(cycle=number, pull_off_force=1e-6, margin=3.0, margin_lower=2.0, margin_upper=4.0) for number in range(1, 9)]))
+        cls.state.add_cycles(
+            "goal",
+            CycleContactResult(
+                cycles=[
+                    CyclePoint(
+                        cycle=number,
+                        pull_off_force=1e-6,
+                        margin=3.0,
+                        margin_lower=2.0,
+                        margin_upper=4.0,
+                    )
+                    for number in range(1, 9)
+                ]
+            ),
+        )
         cls.page = browser.Browser(*SCREENS["desk"])
         cls.addClassCleanup(cls.page.close)
         folder = tempfile.TemporaryDirectory()
@@ -145,22 +255,40 @@ class ViewTest(unittest.TestCase):
 
     @classmethod
     def add_wafers(cls):
-        """7 x 7 sites, a gradient along x, two bad places; of the second wafer five rows are there, and one site without a margin. They are no scans of
-        the tests' own count."""
+        """7 x 7 sites, a gradient along x, two bad places; of the second wafer five rows are there,
+        and one site without a margin. They are no scans of the tests' own count."""
         for wafer, rows in (("7", 7), ("8", 5)):
             for place in range(7 * rows):
                 x, y = place % 7, place // 7
                 is_bad = wafer == "7" and (x, y) in BAD_SITES
-                margin = NAN if wafer == "8" and place == 3 else 2 * math.exp(0.1 * x + 0.02 * math.sin(7 * place)) * (0.3 if is_bad else 1)
-                cls.state._wafers.add(place, prediction(place, margin=margin, sticks=2 if is_bad else 0, device_pull_off_force=1e-6, lot_id="A",
-                                                        wafer_id=wafer, part_id="row %d" % y, site_x=0.01 * x, site_y=0.01 * y))
+                margin = (
+                    NAN
+                    if wafer == "8" and place == 3
+                    else 2 * math.exp(0.1 * x + 0.02 * math.sin(7 * place)) * (0.3 if is_bad else 1)
+                )
+                cls.state._wafers.add(
+                    place,
+                    prediction(
+                        place,
+                        margin=margin,
+                        sticks=2 if is_bad else 0,
+                        device_pull_off_force=1e-6,
+                        lot_id="A",
+                        wafer_id=wafer,
+                        part_id="row %d" % y,
+                        site_x=0.01 * x,
+                        site_y=0.01 * y,
+                    ),
+                )
 
     def setUp(self):
         self.page.resize(*SCREENS["desk"])
 
     def open_tab(self, name):
         self.page.click("button[data-tab=%s]" % name)
-        self.page.wait("getComputedStyle(document.querySelector('#tab-%s')).display === 'grid'" % name)
+        self.page.wait(
+            "getComputedStyle(document.querySelector('#tab-%s')).display === 'grid'" % name
+        )
 
     def show_scan(self, rows, columns, size):
         """A scan with its maps, once the page shows them."""
@@ -171,15 +299,26 @@ class ViewTest(unittest.TestCase):
         self.state.set_map("contacts", stamp * SECOND, contacts_message(rows, columns), size)
         self.open_tab("maps")
         self.page.click("#zoom-whole")
-        self.page.wait("state.maps.height && state.maps.height.number === %d && state.maps.contacts.number === %d" % (stamp, stamp))
-        self.page.wait("['height', 'contacts'].every((id) => byId(id).complete && byId(id).naturalWidth > 0 && byId(id).src.endsWith('%d'))" % (stamp * SECOND))
+        self.page.wait(
+            "state.maps.height && state.maps.height.number === %d && state.maps.contacts.number "
+            "=== %d" % (stamp, stamp)
+        )
+        self.page.wait(
+            "['height', 'contacts'].every((id) => byId(id).complete && byId(id).naturalWidth > 0 "
+            "&& byId(id).src.endsWith('%d'))" % (stamp * SECOND)
+        )
         return heights
 
     def saved(self, name):
         """The bytes of a file that the page saves, once they are whole."""
         end = time.monotonic() + browser.TIMEOUT
         while not (self.folder / name).exists():
-            self.assertLess(time.monotonic(), end, "%s does not come; there are %s" % (name, [path.name for path in self.folder.iterdir()]))
+            self.assertLess(
+                time.monotonic(),
+                end,
+                "%s does not come; there are %s"
+                % (name, [path.name for path in self.folder.iterdir()]),
+            )
             time.sleep(0.05)
         return (self.folder / name).read_bytes()
 
@@ -190,13 +329,26 @@ class ViewTest(unittest.TestCase):
             for tab in TABS:
                 self.open_tab(tab)
                 for is_stale in (False, True):
-                    set_age = "document.querySelector('#verdict').classList.toggle('stale', %s), say('age', %s)" % (
-                        ("true", "'last scan 35 s ago'") if is_stale else ("false", "''"))
-                    self.assertEqual(self.page.value("(%s, %s.concat(%s))" % (set_age, BAD_TEXTS, BAD_BOXES)), [], (screen, tab, is_stale))
+                    set_age = (
+                        "document.querySelector('#verdict').classList.toggle('stale', %s), "
+                        "say('age', %s)"
+                        % (("true", "'last scan 35 s ago'") if is_stale else ("false", "''"))
+                    )
+                    self.assertEqual(
+                        self.page.value("(%s, %s.concat(%s))" % (set_age, BAD_TEXTS, BAD_BOXES)),
+                        [],
+                        (screen, tab, is_stale),
+                    )
 
     def test_texts_keep_off_what_is_drawn(self):
         self.open_tab("overview")
-        self.assertEqual(self.page.value("[...document.querySelectorAll('#trend-force text')].filter((text) => /control|spring/.test(text.textContent)).length"), 0)
+        self.assertEqual(
+            self.page.value(
+                "[...document.querySelectorAll('#trend-force text')].filter((text) => "
+                "/control|spring/.test(text.textContent)).length"
+            ),
+            0,
+        )
         self.assertIn("control limits", self.page.text("#trend-keys"))
         self.assertIn("restoring force of the spring", self.page.text("#trend-keys"))
         self.open_tab("curve")
@@ -209,20 +361,30 @@ class ViewTest(unittest.TestCase):
               if (x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height) ++count;
             }
             return count;
-          }, 0); })()""")
+          }, 0); })()""")  # noqa: E501
         self.assertEqual(covered, 0)
 
     def test_a_bar_says_which_height_each_colour_is(self):
         heights = self.show_scan(64, 96, (9.6e-7, 6.4e-7))
         low, high = height_range(heights)
         self.assertEqual(self.page.value("state.height_range"), [low, high])
-        ticks = self.page.value("[...document.querySelectorAll('#height-bar text:not(.label)')].map((text) => [Number(text.textContent), text.getBBox().y + text.getBBox().height / 2])")
-        self.assertEqual(self.page.value("document.querySelector('#height-bar .label').textContent"), "nm")
+        ticks = self.page.value(
+            "[...document.querySelectorAll('#height-bar text:not(.label)')].map((text) => "
+            "[Number(text.textContent), text.getBBox().y + text.getBBox().height / 2])"
+        )
+        self.assertEqual(
+            self.page.value("document.querySelector('#height-bar .label').textContent"), "nm"
+        )
         self.assertGreater(len(ticks), 2)
         self.assertTrue(all(low * 1e9 <= value <= high * 1e9 for value, _ in ticks), ticks)
         (first, bottom), (last, top) = ticks[0], ticks[-1]
-        rectangle = self.page.value("(() => { const box = document.querySelector('#height-bar rect').getBBox(); return box.height; })()")
-        self.assertAlmostEqual((bottom - top) / rectangle, (last - first) * 1e-9 / (high - low), delta=0.05)
+        rectangle = self.page.value(
+            "(() => { const box = document.querySelector('#height-bar rect').getBBox(); return "
+            "box.height; })()"
+        )
+        self.assertAlmostEqual(
+            (bottom - top) / rectangle, (last - first) * 1e-9 / (high - low), delta=0.05
+        )
 
     def test_elongated_scans_fill_the_room(self):
         for rows, columns, shape in ((32, 160, 5.0), (160, 32, 5.0), (100, 100, 1.0)):
@@ -230,7 +392,10 @@ class ViewTest(unittest.TestCase):
             for screen, size in SCREENS.items():
                 self.page.resize(*size)
                 self.page.value("show()")
-                width, height, room = self.page.value("(() => { const map = document.querySelector('.map'); return [map.clientWidth, map.clientHeight, byId('tab-maps').clientWidth]; })()")
+                width, height, room = self.page.value(
+                    "(() => { const map = document.querySelector('.map'); return [map.clientWidth, "
+                    "map.clientHeight, byId('tab-maps').clientWidth]; })()"
+                )
                 self.assertAlmostEqual(width / height, shape, delta=0.1)
                 if shape > 1:
                     self.assertGreater(width, 0.85 * room, (rows, columns, screen))
@@ -238,10 +403,14 @@ class ViewTest(unittest.TestCase):
                     self.assertGreater(width, 0.7 * room)
         self.show_scan(160, 32, (32e-8, 160e-8))
         self.assertIn("turned clockwise", self.page.text("#height-legend"))
-        self.assertEqual(self.page.value("[byId('height').naturalWidth, byId('height').naturalHeight]"), [160, 32])
+        self.assertEqual(
+            self.page.value("[byId('height').naturalWidth, byId('height').naturalHeight]"),
+            [160, 32],
+        )
 
     def assert_measured(self, heights, size, places):
-        """That the page tells of these places, shares of the scan, what the heights say; within a pixel of the screen."""
+        """That the page tells of these places, shares of the scan, what the heights say; within a
+        pixel of the screen."""
         told = self.page.value("measured.told")
         points = self.page.value("measured.places")
         for (x, y), (wanted_x, wanted_y) in zip(points, places):
@@ -255,13 +424,19 @@ class ViewTest(unittest.TestCase):
         self.page.click(".map", 0.25, 0.5)
         self.page.wait("measured.told && measured.told.points.length === 1")
         self.assert_measured(heights, size, [(0.25, 0.5)])
-        self.assertRegex(self.page.text("#measured"), r"^Height: .?[\d.]+ nm at x 2[34]\d nm, y 3\d\d nm\.$")
+        self.assertRegex(
+            self.page.text("#measured"), r"^Height: .?[\d.]+ nm at x 2[34]\d nm, y 3\d\d nm\.$"
+        )
         self.page.click(".map", 0.75, 0.5)
         self.page.wait("measured.told && measured.told.points.length === 2")
         self.assert_measured(heights, size, [(0.25, 0.5), (0.75, 0.5)])
         self.assertAlmostEqual(self.page.value("measured.told.distance"), 4.8e-7, delta=1e-8)
-        self.assertRegex(self.page.text("#measured"), r"distance 4[78]\d(\.\d)? nm; step .?[\d.]+ nm\.$")
-        self.assertEqual(self.page.value("document.querySelectorAll('#height-marks circle').length"), 2)
+        self.assertRegex(
+            self.page.text("#measured"), r"distance 4[78]\d(\.\d)? nm; step .?[\d.]+ nm\.$"
+        )
+        self.assertEqual(
+            self.page.value("document.querySelectorAll('#height-marks circle').length"), 2
+        )
         self.page.click("#measure-clear")
         self.assertEqual(self.page.value("document.querySelectorAll('.measure').length"), 0)
         self.page.click(".map", 0.01, 0.01)
@@ -286,7 +461,13 @@ class ViewTest(unittest.TestCase):
         self.page.wait("view.zoom > 1.2")
         self.page.click("#zoom-in")
         self.page.wait("byId('height').naturalWidth === 800")  # all its pixels
-        self.assertEqual(self.page.value("[...document.querySelectorAll('.map .layer')].map((layer) => layer.style.transform).filter((text, _, all) => text !== all[0]).length"), 0)
+        self.assertEqual(
+            self.page.value(
+                "[...document.querySelectorAll('.map .layer')].map((layer) => "
+                "layer.style.transform).filter((text, _, all) => text !== all[0]).length"
+            ),
+            0,
+        )
         before = self.page.value("view.x")
         self.page.drag(".map", (0.7, 0.5), (0.3, 0.5))
         self.page.wait("view.x > %r" % before)
@@ -304,28 +485,49 @@ class ViewTest(unittest.TestCase):
         self.page.drag("#force-curve", (0.4, 0.5), (0.6, 0.5))
         self.page.wait("byId('force-curve').zoomPlace.chart.x.low > %r" % whole["low"])
         piece = self.page.value("byId('force-curve').zoomPlace.chart.x")
-        self.assertAlmostEqual((piece["high"] - piece["low"]) / (whole["high"] - whole["low"]), 0.2, delta=0.05)
+        self.assertAlmostEqual(
+            (piece["high"] - piece["low"]) / (whole["high"] - whole["low"]), 0.2, delta=0.05
+        )
         self.page.click("#force-curve", count=2)
         self.page.wait("byId('force-curve').zoomPlace.chart.x.low === %r" % whole["low"])
 
     def test_a_sweep_shows_margin_safe_voltage_and_jumps(self):
         self.open_tab("runs")
         self.page.wait("document.querySelectorAll('#sweep-margin path').length > 0")
-        self.assertEqual(self.page.value("document.querySelectorAll('#sweep-margin .area, #sweep-force .area').length"), 2)
-        self.assertEqual(self.page.value("byId('sweep-margin').zoomPlace.chart.uprights.map((line) => line.x)"), [12.5, 20.0])  # pull-in, safe
+        self.assertEqual(
+            self.page.value(
+                "document.querySelectorAll('#sweep-margin .area, #sweep-force .area').length"
+            ),
+            2,
+        )
+        self.assertEqual(
+            self.page.value("byId('sweep-margin').zoomPlace.chart.uprights.map((line) => line.x)"),
+            [12.5, 20.0],
+        )  # pull-in, safe
         self.assertIn("20.0 V", self.page.text("#sweep-keys"))
         jumps = self.page.value("state.runs.sweep.jumps")
         self.assertIn(25.0, [jump["voltage"] for jump in jumps])
-        self.assertEqual(self.page.value("[...document.querySelectorAll('#sweep-area .number')].map((text) => text.textContent)"), [str(jump["number"]) for jump in jumps])
+        self.assertEqual(
+            self.page.value(
+                "[...document.querySelectorAll('#sweep-area .number')].map((text) => "
+                "text.textContent)"
+            ),
+            [str(jump["number"]) for jump in jumps],
+        )
         self.assertIn("89 new contacts snap in", self.page.text("#sweep-jumps"))
         self.assertNotIn("jump from", self.page.text("#sweep-words"))
 
     def cells(self, column):
-        return self.page.value("[...document.querySelectorAll('#parts-body tr')].map((row) => row.cells[%d].innerText)" % column)
+        return self.page.value(
+            "[...document.querySelectorAll('#parts-body tr')].map((row) => row.cells[%d].innerText)"
+            % column
+        )
 
     def test_the_table_of_parts_has_the_newest_verdict_of_each_and_sorts(self):
         self.open_tab("parts")
-        self.assertEqual(self.cells(1), ["0012", "0011", "0009", "0010"])  # the one heard of last first
+        self.assertEqual(
+            self.cells(1), ["0012", "0011", "0009", "0010"]
+        )  # the one heard of last first
         self.assertEqual(self.cells(3)[0], "says nothing yet")
         self.assertEqual(self.cells(3)[1], "1.2 (95 %: 0.6 to 2.4)")
         self.page.click("#parts-head th:nth-child(2) button")
@@ -334,21 +536,31 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(self.cells(2)[0], "STICKS")
         self.page.click("#parts-head th:nth-child(4) button")
         self.page.click("#parts-head th:nth-child(4) button")
-        self.assertEqual([text.split(" (")[0] for text in self.cells(3)], ["3", "1.2", "0.4", "says nothing yet"])
+        self.assertEqual(
+            [text.split(" (")[0] for text in self.cells(3)], ["3", "1.2", "0.4", "says nothing yet"]
+        )
         self.page.click("#part-rows")
         rows = list(csv.DictReader(io.StringIO(self.saved("parts.csv").decode())))
         self.assertEqual(sorted(row["serial_id"] for row in rows), ["0009", "0010", "0011", "0012"])
-        self.assertEqual([float(row["margin"]) for row in rows if row["serial_id"] == "0009"], [0.4])
+        self.assertEqual(
+            [float(row["margin"]) for row in rows if row["serial_id"] == "0009"], [0.4]
+        )
 
     def show_wafers(self):
         self.open_tab("wafers")
-        self.page.wait("wafers && wafers.version === state.wafers && document.querySelectorAll('.wafer-map .site').length")
+        self.page.wait(
+            "wafers && wafers.version === state.wafers && document.querySelectorAll('.wafer-map "
+            ".site').length"
+        )
         self.page.click("button[data-figure=margin]")
 
     def marked(self, number, kind):
         """Middles of marks of one map, in pixels of the screen."""
-        return self.page.value("[...document.querySelectorAll('.wafer-map')[%d].querySelectorAll('.%s')].map((mark) => { const box = mark.getBoundingClientRect(); "
-                               "return [box.x + box.width / 2, box.y + box.height / 2]; })" % (number, kind))
+        return self.page.value(
+            "[...document.querySelectorAll('.wafer-map')[%d].querySelectorAll('.%s')].map((mark) "
+            "=> { const box = mark.getBoundingClientRect(); "
+            "return [box.x + box.width / 2, box.y + box.height / 2]; })" % (number, kind)
+        )
 
     def test_maps_of_wafers_mark_what_is_bad_and_what_is_missing(self):
         self.show_wafers()
@@ -356,26 +568,66 @@ class ViewTest(unittest.TestCase):
             self.page.resize(*SCREENS[screen])
             self.page.wait("drawnWafers.includes('%d,%d')" % SCREENS[screen])
             self.page.place("#wafers")  # stands still
-            self.assertEqual(self.page.value("[...document.querySelectorAll('#wafers h3')].map((heading) => heading.textContent)"), ["Wafer 8 of lot A", "Wafer 7 of lot A"])
+            self.assertEqual(
+                self.page.value(
+                    "[...document.querySelectorAll('#wafers h3')].map((heading) => "
+                    "heading.textContent)"
+                ),
+                ["Wafer 8 of lot A", "Wafer 7 of lot A"],
+            )
             sites, bad = self.marked(1, "site"), self.marked(1, "bad-site")
             self.assertEqual((len(sites), len(bad)), (49, len(BAD_SITES)), screen)
             columns, rows = (sorted({round(site[axis]) for site in sites}) for axis in (0, 1))
-            self.assertEqual({(min(range(7), key=lambda place: abs(columns[place] - x)), 6 - min(range(7), key=lambda place: abs(rows[place] - y))) for x, y in bad}, BAD_SITES)
-            self.assertEqual((len(self.marked(0, "site")), len(self.marked(0, "missing-site")), len(self.marked(0, "bad-site"))), (34, 15, 0))
-            fills = self.page.value("new Set([...document.querySelectorAll('.wafer-map')[1].querySelectorAll('.site')].map((site) => site.getAttribute('fill'))).size")
+            self.assertEqual(
+                {
+                    (
+                        min(range(7), key=lambda place: abs(columns[place] - x)),
+                        6 - min(range(7), key=lambda place: abs(rows[place] - y)),
+                    )
+                    for x, y in bad
+                },
+                BAD_SITES,
+            )
+            self.assertEqual(
+                (
+                    len(self.marked(0, "site")),
+                    len(self.marked(0, "missing-site")),
+                    len(self.marked(0, "bad-site")),
+                ),
+                (34, 15, 0),
+            )
+            fills = self.page.value(
+                "new "
+                "Set([...document.querySelectorAll('.wafer-map')[1].querySelectorAll('.site')].map((site) => site.getAttribute('fill'))).size"  # noqa: E501
+            )
             self.assertGreater(fills, 10)
-            strips = self.page.value("[...document.querySelectorAll('#units .strip')].map((strip) => strip.getBoundingClientRect()).map((box) => [box.x, box.width])")
-            self.assertEqual((len(strips), len({tuple(strip) for strip in strips})), (12, 1))  # all on one axis
+            strips = self.page.value(
+                "[...document.querySelectorAll('#units .strip')].map((strip) => "
+                "strip.getBoundingClientRect()).map((box) => [box.x, box.width])"
+            )
+            self.assertEqual(
+                (len(strips), len({tuple(strip) for strip in strips})), (12, 1)
+            )  # all on one axis
             self.assertIn("1 stick, 6 release", self.page.text("#units"))
 
     def test_wafers_are_coloured_by_the_figure_that_is_chosen_and_a_click_tells_a_place(self):
         self.show_wafers()
         self.page.click("button[data-figure=rms_height]")
         self.page.wait("byId('wafers-of').textContent === 'by rms height'")
-        self.assertEqual((len(self.marked(1, "bad-site")), self.page.value("document.querySelector('#wafer-bar .label').textContent")), (0, "nm"))
+        self.assertEqual(
+            (
+                len(self.marked(1, "bad-site")),
+                self.page.value("document.querySelector('#wafer-bar .label').textContent"),
+            ),
+            (0, "nm"),
+        )
         self.page.click("#wafers > div:nth-child(2) .site")
         self.page.wait("document.querySelectorAll('.chosen-site').length === 1")
-        self.assertRegex(self.page.text("#wafer-place"), r"^Wafer 7 of lot A at \(0, 0\) mm, part row 0: margin 2, pull-off force of the device 1.00 µN, rms height 1.00 nm$")
+        self.assertRegex(
+            self.page.text("#wafer-place"),
+            r"^Wafer 7 of lot A at \(0, 0\) mm, part row 0: margin 2, pull-off force of the device "
+            r"1.00 µN, rms height 1.00 nm$",
+        )
         self.page.click("button[data-figure=margin]")
         self.page.wait("document.querySelectorAll('.bad-site').length > 1")
         self.assertEqual(self.page.errors, [])
@@ -385,15 +637,34 @@ class ViewTest(unittest.TestCase):
         self.open_tab("overview")
         self.page.click("#scan-row")
         (row,) = csv.DictReader(io.StringIO(self.saved("scan_%d.csv" % self.number).decode()))
-        self.assertEqual((float(row["pull_off_force"]), row["scan_name"], row["settings_hash"]),
-                         (prediction(self.number).pull_off_force, "place %d" % self.number, "00ff"))
+        self.assertEqual(
+            (float(row["pull_off_force"]), row["scan_name"], row["settings_hash"]),
+            (prediction(self.number).pull_off_force, "place %d" % self.number, "00ff"),
+        )
         self.assertEqual(row["warnings"], "'=HYPERLINK(1)")  # no formula
         from PIL import Image as Picture
-        for tab, name in (("overview", "trend"), ("overview", "figures"), ("maps", "heights"), ("maps", "contacts"), ("curve", "force_curve"), ("runs", "sweep"), ("runs", "cycles"), ("wafers", "wafers"), ("wafers", "parts_side_by_side")):
+
+        for tab, name in (
+            ("overview", "trend"),
+            ("overview", "figures"),
+            ("maps", "heights"),
+            ("maps", "contacts"),
+            ("curve", "force_curve"),
+            ("runs", "sweep"),
+            ("runs", "cycles"),
+            ("wafers", "wafers"),
+            ("wafers", "parts_side_by_side"),
+        ):
             self.open_tab(tab)
             self.page.click(".panel[data-picture=%s] .picture" % name)
-            with Picture.open(io.BytesIO(self.saved("%s_scan_%d.png" % (name, self.number)))) as picture:
-                panel = self.page.value("(() => { const box = document.querySelector('.panel[data-picture=%s]').getBoundingClientRect(); return [box.width, box.height]; })()" % name)
+            with Picture.open(
+                io.BytesIO(self.saved("%s_scan_%d.png" % (name, self.number)))
+            ) as picture:
+                panel = self.page.value(
+                    "(() => { const box = "
+                    "document.querySelector('.panel[data-picture=%s]').getBoundingClientRect(); "
+                    "return [box.width, box.height]; })()" % name
+                )
                 self.assertGreater(picture.width, 2 * panel[0])
                 colours = picture.convert("RGB").getcolors(picture.width * picture.height)
                 self.assertGreater(len(colours), 20, name)  # something is drawn
@@ -447,17 +718,60 @@ class OneMessageTest(unittest.TestCase):
         yield lambda stamp: state.add_prediction(stamp, StictionPrediction())
         yield lambda stamp: state.set_map("height", stamp, floats)
         yield lambda stamp: state.set_map("contacts", stamp, bytes_)
-        yield lambda stamp: state.set_map("contacts", stamp, Image(height=2, width=2, step=6, encoding="rgb8", data=bytes(12)))
-        yield lambda stamp: state.set_map("height", stamp, heights_message(2, 5000), (1e308, 1e-308))
+        yield lambda stamp: state.set_map(
+            "contacts", stamp, Image(height=2, width=2, step=6, encoding="rgb8", data=bytes(12))
+        )
+        yield lambda stamp: state.set_map(
+            "height", stamp, heights_message(2, 5000), (1e308, 1e-308)
+        )
         for value in (1e308, -1e308, 1.7e308, 5e-324, 1e29):
-            yield lambda stamp, value=value: state.add_prediction(stamp, prediction(stamp, pull_off_force=value, restoring_force=value, margin=value, margin_upper=value,
-                                                                                     device_pull_off_force=value, rms_height=value, curve=[
-                SeparationPoint(displacement=value, force=value), SeparationPoint(displacement=-1e-9, force=1e-6)]))
-            yield lambda stamp, value=value: state._wafers.add(stamp, prediction(stamp, site_x=value, site_y=value, pull_off_force=value, margin=value, wafer_id="9"))
+            yield lambda stamp, value=value: state.add_prediction(
+                stamp,
+                prediction(
+                    stamp,
+                    pull_off_force=value,
+                    restoring_force=value,
+                    margin=value,
+                    margin_upper=value,
+                    device_pull_off_force=value,
+                    rms_height=value,
+                    curve=[
+                        SeparationPoint(displacement=value, force=value),
+                        SeparationPoint(displacement=-1e-9, force=1e-6),
+                    ],
+                ),
+            )
+            yield lambda stamp, value=value: state._wafers.add(
+                stamp,
+                prediction(
+                    stamp,
+                    site_x=value,
+                    site_y=value,
+                    pull_off_force=value,
+                    margin=value,
+                    wafer_id="9",
+                ),
+            )
             yield lambda stamp, value=value: state.add_part(stamp, part("wild", value, 0))
-            yield lambda stamp, value=value: state.add_sweep("goal", SweepLoadResult(points=[SweepPoint(voltage=value, mechanical_load=value, pull_off_force=value, margin=value)] * 3,
-                                                                                     summaries=[SweepSummary(mechanical_load=value)], pull_in_voltage=value))
-            yield lambda stamp, value=value: state.add_cycles("goal", CycleContactResult(cycles=[CyclePoint(cycle=2**32 - 1, pull_off_force=value, margin=value)] * 3))
+            yield lambda stamp, value=value: state.add_sweep(
+                "goal",
+                SweepLoadResult(
+                    points=[
+                        SweepPoint(
+                            voltage=value, mechanical_load=value, pull_off_force=value, margin=value
+                        )
+                    ]
+                    * 3,
+                    summaries=[SweepSummary(mechanical_load=value)],
+                    pull_in_voltage=value,
+                ),
+            )
+            yield lambda stamp, value=value: state.add_cycles(
+                "goal",
+                CycleContactResult(
+                    cycles=[CyclePoint(cycle=2**32 - 1, pull_off_force=value, margin=value)] * 3
+                ),
+            )
 
     def test_each_leaves_the_page_alive_for_the_next(self):
         for number, send in enumerate(self.hostile()):
@@ -465,11 +779,17 @@ class OneMessageTest(unittest.TestCase):
             version = self.state.version
             for tab in TABS:
                 self.page.value("location.hash = '%s'" % tab)
-                self.page.wait("state && state.version >= %d && chosenTab() === '%s'" % (version, tab))
+                self.page.wait(
+                    "state && state.version >= %d && chosenTab() === '%s'" % (version, tab)
+                )
             good = 2 * number + 1
             self.state.add_prediction(good * SECOND, prediction(good, scan_name="good %d" % number))
-            self.page.wait("document.querySelector('#scan-name').textContent.endsWith('good %d')" % number)
-            self.assertEqual(self.page.value("Object.values(broken).concat(state.broken)"), [], number)
+            self.page.wait(
+                "document.querySelector('#scan-name').textContent.endsWith('good %d')" % number
+            )
+            self.assertEqual(
+                self.page.value("Object.values(broken).concat(state.broken)"), [], number
+            )
         self.assertEqual(sorted(set(re.sub(r":\d+", "", error) for error in self.page.errors)), [])
 
 

@@ -1,8 +1,10 @@
-"""Thin bodies under the half-space of the Python module, against a solution of the same contact by Numpy alone.
+"""Thin bodies under the half-space of the Python module, against a solution of the same contact by
+Numpy alone.
 
-The other solution is Polonsky and Keer's (Wear 231 (1999) 206): conjugate gradients over the cells in contact, which carry
-pressure and have no gap. Its stiffness of a wave is written down here as others have: Carbone and Mangialardi (2008),
-equation A.30, which ContactMechanics takes for `thickness`, and Filon (1903) for a plate.
+The other solution is Polonsky and Keer's (Wear 231 (1999) 206): conjugate gradients over the cells
+in contact, which carry pressure and have no gap. Its stiffness of a wave is written down here as
+others have: Carbone and Mangialardi (2008), equation A.30, which ContactMechanics takes for
+`thickness`, and Filon (1903) for a plate.
 """
 
 import json
@@ -36,20 +38,26 @@ def half_space_share(s):
 
 def plate_share(s):
     """Stiffness of a wave over that of a half-space, s = q t: a plate with a free back."""
-    return (np.sinh(s) ** 2 - s ** 2) / (np.sinh(s) * np.cosh(s) + s)
+    return (np.sinh(s) ** 2 - s**2) / (np.sinh(s) * np.cosh(s) + s)
 
 
 def film_share(s):
     """The same of a film on something rigid."""
     g = 3 - 4 * POISSON
-    return (g * np.cosh(2 * s) + 2 * s ** 2 + 4 * POISSON * (2 * POISSON - 3) + 5) / (g * np.sinh(2 * s) - 2 * s)
+    return (g * np.cosh(2 * s) + 2 * s**2 + 4 * POISSON * (2 * POISSON - 3) + 5) / (
+        g * np.sinh(2 * s) - 2 * s
+    )
 
 
 def pressures(heights, thickness, share, mean_pressure):
     """Pressure of each cell [Pa] of the surface on something rigid and flat."""
-    q = 2 * np.pi * np.hypot(np.fft.fftfreq(SIZE, PITCH)[:, None], np.fft.rfftfreq(SIZE, PITCH)[None, :])
+    q = (
+        2
+        * np.pi
+        * np.hypot(np.fft.fftfreq(SIZE, PITCH)[:, None], np.fft.rfftfreq(SIZE, PITCH)[None, :])
+    )
     q[0, 0] = 1.0
-    compliance = 2 / (YOUNG / (1 - POISSON ** 2) * q * share(np.minimum(q * thickness, 300.0)))
+    compliance = 2 / (YOUNG / (1 - POISSON**2) * q * share(np.minimum(q * thickness, 300.0)))
     compliance[0, 0] = 0.0  # the mean displacement is the height of the body
 
     def displaced(pressure):
@@ -84,8 +92,13 @@ class PlatesAndFilmsTest(unittest.TestCase):
         self.heights -= self.heights.max()
 
     def solve(self, mean_pressure, **lower):
-        settings = {"lower": dict(lower, youngs_modulus=YOUNG, poisson_ratio=POISSON), "upper": RIGID, "half_space": WALL, "limits": {"accept_implausible": True},
-                    "load": {"mechanical_load": mean_pressure * (SIZE * PITCH) ** 2}}
+        settings = {
+            "lower": dict(lower, youngs_modulus=YOUNG, poisson_ratio=POISSON),
+            "upper": RIGID,
+            "half_space": WALL,
+            "limits": {"accept_implausible": True},
+            "load": {"mechanical_load": mean_pressure * (SIZE * PITCH) ** 2},
+        }
         with warnings.catch_warnings():  # something rigid is no usual material
             warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
             return mems_stiction.half_space(self.heights, PITCH, settings)
@@ -93,19 +106,34 @@ class PlatesAndFilmsTest(unittest.TestCase):
     def test_rough_frames_carry_what_another_solution_says(self):
         length = SIZE * PITCH
         for share, backing, thickness, mean_pressure in (
-                (half_space_share, "free", 0.0, 2e8), (plate_share, "free", length / 3, 1e8), (plate_share, "free", length / 12, 2e7),
-                (film_share, "bonded", length / 3, 2e8), (film_share, "bonded", length / 25, 4e8)):
+            (half_space_share, "free", 0.0, 2e8),
+            (plate_share, "free", length / 3, 1e8),
+            (plate_share, "free", length / 12, 2e7),
+            (film_share, "bonded", length / 3, 2e8),
+            (film_share, "bonded", length / 25, 4e8),
+        ):
             expected = pressures(self.heights, thickness, share, mean_pressure)
             found = self.solve(mean_pressure, thickness=thickness, backing=backing)
             self.assertEqual(found.status, "SOLVED", found.message)
             touching = np.count_nonzero(expected)
             what = "%s of %g m: %d cells" % (backing, thickness, touching)
-            self.assertTrue(0.02 * SIZE ** 2 < touching < 0.9 * SIZE ** 2, what)
-            self.assertAlmostEqual(found.contact_fraction * SIZE ** 2 / touching, 1.0, delta=max(0.01, 1 / touching), msg=what)
-            self.assertLess(np.linalg.norm(found.pressure - expected), 0.01 * np.linalg.norm(expected), what)
+            self.assertTrue(0.02 * SIZE**2 < touching < 0.9 * SIZE**2, what)
+            self.assertAlmostEqual(
+                found.contact_fraction * SIZE**2 / touching,
+                1.0,
+                delta=max(0.01, 1 / touching),
+                msg=what,
+            )
+            self.assertLess(
+                np.linalg.norm(found.pressure - expected), 0.01 * np.linalg.norm(expected), what
+            )
 
     def test_predict_scan_finds_the_same_of_the_same_settings(self):
-        lower = {"youngs_modulus": YOUNG, "backing": "bonded", "substrate": {"youngs_modulus": 5e9, "poisson_ratio": 0.4}}
+        lower = {
+            "youngs_modulus": YOUNG,
+            "backing": "bonded",
+            "substrate": {"youngs_modulus": 5e9, "poisson_ratio": 0.4},
+        }
         figures = {}
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
@@ -114,22 +142,51 @@ class PlatesAndFilmsTest(unittest.TestCase):
             for thickness in (0.0, 30e-9):
                 lower["thickness"] = thickness
                 config.write_text(json.dumps({"lower": lower}))
-                command = [program(), "--half-space", "--json", "--pitch", str(PITCH), "-c", str(config), str(scan)]
-                record = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.decode())
+                command = [
+                    program(),
+                    "--half-space",
+                    "--json",
+                    "--pitch",
+                    str(PITCH),
+                    "-c",
+                    str(config),
+                    str(scan),
+                ]
+                record = json.loads(
+                    subprocess.run(
+                        command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+                    ).stdout.decode()
+                )
                 found = mems_stiction.half_space(self.heights, PITCH, {"lower": lower})
                 figures[thickness] = record["half_space"]["pull_off_force"]
                 self.assertEqual(found.pull_off_force, figures[thickness])
         self.assertGreater(abs(figures[30e-9] / figures[0.0] - 1), 0.005)
 
     def test_settings_that_make_no_sense_are_named(self):
-        for lower, words in (({"thickness": -1e-6}, "lower/thickness: -1e-06 m"), ({"backing": "glued"}, "lower/backing: 'glued'.*free, bonded"),
-                             ({"thickness": 1e-6, "substrate": {"youngs_modulus": 7e10}}, "lower/substrate/youngs_modulus: 7e\\+10 Pa with lower/backing free"),
-                             ({"thickness": 1e-6, "backing": "bonded", "substrate": {"poisson_ratio": 0.6}}, "lower/substrate/poisson_ratio: 0.6")):
+        for lower, words in (
+            ({"thickness": -1e-6}, "lower/thickness: -1e-06 m"),
+            ({"backing": "glued"}, "lower/backing: 'glued'.*free, bonded"),
+            (
+                {"thickness": 1e-6, "substrate": {"youngs_modulus": 7e10}},
+                "lower/substrate/youngs_modulus: 7e\\+10 Pa with lower/backing free",
+            ),
+            (
+                {"thickness": 1e-6, "backing": "bonded", "substrate": {"poisson_ratio": 0.6}},
+                "lower/substrate/poisson_ratio: 0.6",
+            ),
+        ):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 mems_stiction.half_space(self.heights, PITCH, lower=lower)
-        with warnings.catch_warnings(), self.assertRaisesRegex(mems_stiction.OptionsError, "lower/thickness: 1e-06 m with half_space/boundary free"):
+        with (
+            warnings.catch_warnings(),
+            self.assertRaisesRegex(
+                mems_stiction.OptionsError, "lower/thickness: 1e-06 m with half_space/boundary free"
+            ),
+        ):
             warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
-            mems_stiction.half_space(self.heights, PITCH, lower={"thickness": 1e-6}, half_space={"boundary": "free"})
+            mems_stiction.half_space(
+                self.heights, PITCH, lower={"thickness": 1e-6}, half_space={"boundary": "free"}
+            )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""What the report draws: bearing curve, spectrum, cleaning steps, energies around the equilibrium; no label lies on another."""
+"""What the report draws: bearing curve, spectrum, cleaning steps, energies around the equilibrium;
+no label lies on another."""
 
 import io
 import itertools
@@ -26,7 +27,9 @@ AFM_SCAN = pathlib.Path(__file__).resolve().parents[2] / "scripts/examples/make_
 
 def rough(seed=1, rows=64, columns=96, rms=3e-9):
     noise = np.random.RandomState(seed).normal(size=(rows, columns))
-    smooth = sum(np.roll(np.roll(noise, row, 0), column, 1) for row in range(4) for column in range(4))
+    smooth = sum(
+        np.roll(np.roll(noise, row, 0), column, 1) for row in range(4) for column in range(4)
+    )
     return smooth * (rms / smooth.std())
 
 
@@ -34,15 +37,39 @@ def result(**changes):
     """Of result.json, as far as the pictures look at it."""
     count = 40
     random = np.random.RandomState(2)
-    values = dict(status="EQUILIBRIUM", formulation="paper", force_curve=None, pull_off_force=4e-7, pull_off_force_jkr=1e-7, contact_area_jkr=1e-15,
-                  van_der_waals_force=3e-7, electrostatic_force=0.0, mechanical_load=1e-6, capillary_force=0.0, normal_load=1.3e-6,
-                  approach=5.49e-8, total_energy=1.5e-15, mechanical_energy=1.6e-15, surface_energy=1e-16, elastic_energy=2e-16,
-                  asperities={"load": list(1e-8 * random.lognormal(size=count)), "plasticity_index": list(random.uniform(0, 2, count)),
-                              "regime": list(random.randint(1, 4, count))})
+    values = dict(
+        status="EQUILIBRIUM",
+        formulation="paper",
+        force_curve=None,
+        pull_off_force=4e-7,
+        pull_off_force_jkr=1e-7,
+        contact_area_jkr=1e-15,
+        van_der_waals_force=3e-7,
+        electrostatic_force=0.0,
+        mechanical_load=1e-6,
+        capillary_force=0.0,
+        normal_load=1.3e-6,
+        approach=5.49e-8,
+        total_energy=1.5e-15,
+        mechanical_energy=1.6e-15,
+        surface_energy=1e-16,
+        elastic_energy=2e-16,
+        asperities={
+            "load": list(1e-8 * random.lognormal(size=count)),
+            "plasticity_index": list(random.uniform(0, 2, count)),
+            "regime": list(random.randint(1, 4, count)),
+        },
+    )
     approach = np.linspace(1e-9, 5.48e-8, 80)
-    values["energy_curve"] = {"approach": list(approach), "surface_energy": [1e-16] * 80, "elastic_energy": [2e-16] * 80,
-                              "mechanical_energy": list(4e-15 - ((approach - 5e-8) / 1e-9)**2 * 1e-16)}
-    values["energy_curve"]["total_energy"] = [value - 1e-16 for value in values["energy_curve"]["mechanical_energy"]]
+    values["energy_curve"] = {
+        "approach": list(approach),
+        "surface_energy": [1e-16] * 80,
+        "elastic_energy": [2e-16] * 80,
+        "mechanical_energy": list(4e-15 - ((approach - 5e-8) / 1e-9) ** 2 * 1e-16),
+    }
+    values["energy_curve"]["total_energy"] = [
+        value - 1e-16 for value in values["energy_curve"]["mechanical_energy"]
+    ]
     values.update(changes)
     return values
 
@@ -55,11 +82,21 @@ def labels_of(figure):
         texts += [axes.title] + list(axes.texts)
         if not axes.axison:
             continue
-        texts += [axes.xaxis.label, axes.yaxis.label] + (axes.get_legend().get_texts() if axes.get_legend() else [])
+        texts += [axes.xaxis.label, axes.yaxis.label] + (
+            axes.get_legend().get_texts() if axes.get_legend() else []
+        )
         for axis, place in ((axes.xaxis, 0), (axes.yaxis, 1)):
             low, high = sorted(axis.get_view_interval())
-            texts += [label for label in axis.get_ticklabels(which="both") if low <= label.get_position()[place] <= high]
-    return [(text.get_text(), text.get_window_extent()) for text in texts if text.get_visible() and text.get_text().strip()]
+            texts += [
+                label
+                for label in axis.get_ticklabels(which="both")
+                if low <= label.get_position()[place] <= high
+            ]
+    return [
+        (text.get_text(), text.get_window_extent())
+        for text in texts
+        if text.get_visible() and text.get_text().strip()
+    ]
 
 
 def collisions(figure):
@@ -77,7 +114,9 @@ class PictureTest(unittest.TestCase):
     def drawn(self, module, draw):
         """The figure that a function of the module draws, before it becomes a PNG."""
         figures = []
-        with mock.patch.object(module, "png_of", side_effect=lambda figure: figures.append(figure) or b""):
+        with mock.patch.object(
+            module, "png_of", side_effect=lambda figure: figures.append(figure) or b""
+        ):
             draw()
         self.addCleanup(plt.close, figures[0])
         return figures[0]
@@ -90,38 +129,80 @@ class PictureTest(unittest.TestCase):
         spiked = shifted.copy()
         spiked[3:5, 7] = np.nan
         filled = np.where(np.isnan(spiked), 0.0, spiked)
-        surfaces = [("", measured), ("offset", shifted), ("spikes", spiked), ("fill", filled), ("level", heights)]
-        return [Stage(name, surface, {"pull_off_force": 1e-7 * place}) for place, (name, surface) in enumerate(surfaces)]
+        surfaces = [
+            ("", measured),
+            ("offset", shifted),
+            ("spikes", spiked),
+            ("fill", filled),
+            ("level", heights),
+        ]
+        return [
+            Stage(name, surface, {"pull_off_force": 1e-7 * place})
+            for place, (name, surface) in enumerate(surfaces)
+        ]
 
     def test_no_label_lies_on_another(self):
         flat = np.zeros((32, 32))
         for name, module, draw in (
-                ("surface", surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8)),
-                ("flat", surface_figures, lambda: surface_figure(flat, 1e-8, 1e-8)),
-                ("steps", cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
-                ("upright", cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 5e-8)),
-                ("energies", report_figures, lambda: report_figures.scan_figure(result())),
-                ("one contact", report_figures, lambda: report_figures.scan_figure(result(asperities={
-                    "load": [1.3e-6], "plasticity_index": [0.63], "regime": [1]})))):
+            ("surface", surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8)),
+            ("flat", surface_figures, lambda: surface_figure(flat, 1e-8, 1e-8)),
+            ("steps", cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
+            ("upright", cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 5e-8)),
+            ("energies", report_figures, lambda: report_figures.scan_figure(result())),
+            (
+                "one contact",
+                report_figures,
+                lambda: report_figures.scan_figure(
+                    result(asperities={"load": [1.3e-6], "plasticity_index": [0.63], "regime": [1]})
+                ),
+            ),
+        ):
             with self.subTest(picture=name):
                 self.assertEqual(collisions(self.drawn(module, draw)), [])
 
     def test_no_label_leaves_the_picture(self):
-        curve = {"height": [2e-9, 1e-10, 1e-10, 2e-9], "force": [0.0, -1e-7, -1e-7, 4e-7], "direction": ["APPROACH", "APPROACH", "RETRACTION", "RETRACTION"]}
-        for module, draw in ((report_figures, lambda: report_figures.scan_figure(result())),
-                             (report_figures, lambda: report_figures.scan_figure(result(formulation="separation_curve", force_curve=curve))),
-                             (report_figures, lambda: report_figures.trend_figure(self.rows())),
-                             (cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
-                             (surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8)),
-                             (surface_figures, lambda: surface_figure(rough(rms=2e-7), 1e-8, 2e-8))):
+        curve = {
+            "height": [2e-9, 1e-10, 1e-10, 2e-9],
+            "force": [0.0, -1e-7, -1e-7, 4e-7],
+            "direction": ["APPROACH", "APPROACH", "RETRACTION", "RETRACTION"],
+        }
+        for module, draw in (
+            (report_figures, lambda: report_figures.scan_figure(result())),
+            (
+                report_figures,
+                lambda: report_figures.scan_figure(
+                    result(formulation="separation_curve", force_curve=curve)
+                ),
+            ),
+            (report_figures, lambda: report_figures.trend_figure(self.rows())),
+            (cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
+            (surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8)),
+            (surface_figures, lambda: surface_figure(rough(rms=2e-7), 1e-8, 2e-8)),
+        ):
             figure = self.drawn(module, draw)
             width, height = figure.canvas.get_width_height()
-            outside = [text for text, box in labels_of(figure) if box.x0 < -1 or box.y0 < -1 or box.x1 > width + 1 or box.y1 > height + 1]
+            outside = [
+                text
+                for text, box in labels_of(figure)
+                if box.x0 < -1 or box.y0 < -1 or box.x1 > width + 1 or box.y1 > height + 1
+            ]
             self.assertEqual(outside, [])
 
     def rows(self):
-        return [dict(number=number, status="EQUILIBRIUM", pull_off_force=4e-7, contact_fraction=1e-5 * number, rms_height=3e-9, margin=60.0 * number,
-                     margin_lower=20.0 * number, margin_upper=200.0, contact_area_jkr=1e-15) for number in (1, 2, 3)]
+        return [
+            dict(
+                number=number,
+                status="EQUILIBRIUM",
+                pull_off_force=4e-7,
+                contact_fraction=1e-5 * number,
+                rms_height=3e-9,
+                margin=60.0 * number,
+                margin_lower=20.0 * number,
+                margin_upper=200.0,
+                contact_area_jkr=1e-15,
+            )
+            for number in (1, 2, 3)
+        ]
 
     def test_the_line_that_margins_are_judged_by_is_seen(self):
         figure = self.drawn(report_figures, lambda: report_figures.trend_figure(self.rows()))
@@ -135,8 +216,14 @@ class PictureTest(unittest.TestCase):
         for place, row in enumerate(rows):
             row.update(pull_off_force=1e-11 * 1e3**place, rms_height=2e-10 * 30.0**place)
         figure = self.drawn(report_figures, lambda: report_figures.trend_figure(rows))
-        self.assertEqual((figure.axes[0].get_ylabel(), figure.axes[2].get_ylabel()), ("pull-off force [N]", "rms height [m]"))
-        ticks = [figure.axes[place].yaxis.get_major_formatter()(value) for place, value in ((0, 1e-6), (0, 1e-3), (0, 1.0), (2, 1.0), (2, 100.0))]
+        self.assertEqual(
+            (figure.axes[0].get_ylabel(), figure.axes[2].get_ylabel()),
+            ("pull-off force [N]", "rms height [m]"),
+        )
+        ticks = [
+            figure.axes[place].yaxis.get_major_formatter()(value)
+            for place, value in ((0, 1e-6), (0, 1e-3), (0, 1.0), (2, 1.0), (2, 100.0))
+        ]
         self.assertEqual(ticks, ["1 pN", "1 nN", "1 µN", "1 nm", "100 nm"])
         self.assertEqual(collisions(figure), [])
 
@@ -149,29 +236,74 @@ class PictureTest(unittest.TestCase):
 
     def test_a_few_contacts_have_no_distribution(self):
         few = {"load": [1.3e-6] * 4, "plasticity_index": [0.63] * 4, "regime": [1] * 4}
-        titles = [axes.get_title() for axes in self.drawn(report_figures, lambda: report_figures.scan_figure(result(asperities=few))).axes]
+        titles = [
+            axes.get_title()
+            for axes in self.drawn(
+                report_figures, lambda: report_figures.scan_figure(result(asperities=few))
+            ).axes
+        ]
         self.assertNotIn("Load of each contact", titles)
         many = {name: values * 2 for name, values in few.items()}
-        titles = [axes.get_title() for axes in self.drawn(report_figures, lambda: report_figures.scan_figure(result(asperities=many))).axes]
+        titles = [
+            axes.get_title()
+            for axes in self.drawn(
+                report_figures, lambda: report_figures.scan_figure(result(asperities=many))
+            ).axes
+        ]
         self.assertIn("Load of each contact", titles)
 
     def test_a_shift_does_not_hide_what_else_a_step_did(self):
         heights = rough()
         tilted = heights + 1e-6 + np.linspace(0, 2e-8, heights.shape[1])
-        figure = self.drawn(cleaning_steps, lambda: cleaning_figure([Stage("", tilted, {}), Stage("level", heights, {})], 1e-8, 1e-8))
+        figure = self.drawn(
+            cleaning_steps,
+            lambda: cleaning_figure(
+                [Stage("", tilted, {}), Stage("level", heights, {})], 1e-8, 1e-8
+            ),
+        )
         titles = [text for text, _ in labels_of(figure)]
-        self.assertTrue(any(text.startswith("-1.01 µm everywhere,\nbeside it rms 5.8") for text in titles), titles)
-        shown = figure.axes[-1].images or [image for axes in figure.axes for image in axes.images][-1:]
-        self.assertAlmostEqual(np.ptp(np.asarray(shown[0].get_array())), 20.0, delta=0.1)  # nm, as the plane spans
+        self.assertTrue(
+            any(text.startswith("-1.01 µm everywhere,\nbeside it rms 5.8") for text in titles),
+            titles,
+        )
+        shown = (
+            figure.axes[-1].images or [image for axes in figure.axes for image in axes.images][-1:]
+        )
+        self.assertAlmostEqual(
+            np.ptp(np.asarray(shown[0].get_array())), 20.0, delta=0.1
+        )  # nm, as the plane spans
 
     def test_a_long_caption_leaves_room_for_the_titles(self):
         heights = rough()
-        contact = SimpleNamespace(x=3e-7, y=2e-7, load=1e-6, cap_radius=2e-8, composite_radius=4.28e-7, plasticity_index=2.24, regime=1, area=1e-16)
-        prediction = SimpleNamespace(status=0, pull_off_force=4e-7, contact_area_jkr=math.nan, contact_fraction=1e-5, rms_height=3e-9, normal_load=1e-6,
-                                     voltage=0.0, regime_flags=511, model_doubt="it tears", elastic_count=1, elasto_plastic_count=0, plastic_count=0)
+        contact = SimpleNamespace(
+            x=3e-7,
+            y=2e-7,
+            load=1e-6,
+            cap_radius=2e-8,
+            composite_radius=4.28e-7,
+            plasticity_index=2.24,
+            regime=1,
+            area=1e-16,
+        )
+        prediction = SimpleNamespace(
+            status=0,
+            pull_off_force=4e-7,
+            contact_area_jkr=math.nan,
+            contact_fraction=1e-5,
+            rms_height=3e-9,
+            normal_load=1e-6,
+            voltage=0.0,
+            regime_flags=511,
+            model_doubt="it tears",
+            elastic_count=1,
+            elasto_plastic_count=0,
+            plastic_count=0,
+        )
         regimes = np.zeros(heights.shape, np.uint8)
         regimes[20, 30] = 1
-        picture = plots.ScanPicture("scan", heights, heights, None, regimes, [contact], prediction, 1e-8, 1e-8)
+        picture = plots.ScanPicture(
+            "scan", heights, heights, None, regimes, [contact], prediction, 1e-8, 1e-8
+        )
         figures = []
         with mock.patch.object(plots.plt, "close", side_effect=figures.append):
             plots.save_picture(picture, io.BytesIO())
@@ -181,7 +313,15 @@ class PictureTest(unittest.TestCase):
     def test_each_step_is_shown_with_what_it_did(self):
         figure = self.drawn(cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8))
         texts = [text for text, _ in labels_of(figure)]
-        for expected in ("as measured", "1 mean taken off", "2 spikes taken out", "3 holes filled", "4 levelled", "2 pixels taken out", "3 pixels filled"):
+        for expected in (
+            "as measured",
+            "1 mean taken off",
+            "2 spikes taken out",
+            "3 holes filled",
+            "4 levelled",
+            "2 pixels taken out",
+            "3 pixels filled",
+        ):
             self.assertIn(expected, texts)
         self.assertTrue(any(text.endswith("everywhere") for text in texts), texts)
         rows = rows_of(self.stages())
@@ -196,7 +336,9 @@ class PictureTest(unittest.TestCase):
         report_figures.draw_energy_at_rest(axes, result())
         labels = [line.get_label() for line in axes.lines]
         # the step nearest to 50 nm, of 0.7 nm
-        place = float(next(label for label in labels if label.startswith("extremum")).split("=")[1].split()[0])
+        place = float(
+            next(label for label in labels if label.startswith("extremum")).split("=")[1].split()[0]
+        )
         self.assertAlmostEqual(place, 50.0, delta=0.4)
         shown = axes.get_xlim()
         self.assertGreater(shown[0], 25.0)  # of 55 nm: the beginning is left out
@@ -225,12 +367,15 @@ class SurfaceTest(unittest.TestCase):
         self.assertLess(max(curve.spk, curve.svk), 1e-13)
 
     def test_a_gaussian_has_the_core_of_the_normal_distribution(self):
-        # The line through the middle 40 % of its quantiles: slope 12/w^3 times the integral of (p - 1/2) h(p).
+        # The line through the middle 40 % of its quantiles: slope 12/w^3 times the integral of (p -
+        # 1/2) h(p).
         moment, _ = integrate.quad(lambda p: (p - 0.5) * stats.norm.ppf(p), 0.3, 0.7)
         expected = 12 / 0.4**3 * moment
         heights = stats.norm.ppf((np.arange(200000) + 0.5) / 200000).reshape(400, 500)
         curve = MaterialRatioCurve(heights)
-        self.assertAlmostEqual(curve.sk / expected, 1.0, delta=2e-3)  # the flattest window is found in steps of 0.001
+        self.assertAlmostEqual(
+            curve.sk / expected, 1.0, delta=2e-3
+        )  # the flattest window is found in steps of 0.001
         self.assertAlmostEqual(curve.spk, curve.svk, delta=0.01)
         self.assertAlmostEqual(curve.smr1, 1 - curve.smr2, delta=0.005)
 
@@ -250,7 +395,9 @@ class SurfaceTest(unittest.TestCase):
         self.assertEqual(count, 4)
         self.assertAlmostEqual(frequencies[np.argmax(densities)] * wavelength, 1.0, delta=1e-9)
         power = densities.sum() * (frequencies[1] - frequencies[0])
-        self.assertAlmostEqual(power / (amplitude**2 / 2), 1.0, delta=0.02)  # the line that is taken off has a little of it
+        self.assertAlmostEqual(
+            power / (amplitude**2 / 2), 1.0, delta=0.02
+        )  # the line that is taken off has a little of it
 
     def test_without_a_whole_line_there_is_no_spectrum(self):
         heights = rough()
@@ -260,8 +407,24 @@ class SurfaceTest(unittest.TestCase):
 
 class StepsTest(unittest.TestCase):
     def test_the_first_steps_are_those_that_run_first(self):
-        for configuration in ({"preprocessing": {"level": "plane", "spikes/enabled": True, "lines/method": "median", "tip/radius": 0, "refine/factor": 1}},
-                              {"preprocessing": {"level": "plane", "spikes": {"enabled": True}, "lines": {"method": "median"}}}):
+        for configuration in (
+            {
+                "preprocessing": {
+                    "level": "plane",
+                    "spikes/enabled": True,
+                    "lines/method": "median",
+                    "tip/radius": 0,
+                    "refine/factor": 1,
+                }
+            },
+            {
+                "preprocessing": {
+                    "level": "plane",
+                    "spikes": {"enabled": True},
+                    "lines": {"method": "median"},
+                }
+            },
+        ):
             self.assertEqual(steps_of(configuration), ["lines", "spikes", "level"])
             self.assertEqual(steps_of(first_steps(configuration, ["lines"])), ["lines"])
             self.assertEqual(steps_of(first_steps(configuration, [])), [])
@@ -276,8 +439,13 @@ class ReportTest(unittest.TestCase):
         cls.folder = pathlib.Path(cls._folder.name)
         cls.scan = cls.folder / "afm.txt"
         subprocess.run([AFM_SCAN, str(cls.scan)], check=True, timeout=300)
-        (cls.folder / "afm.txt.yaml").write_text("pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n")
-        (cls.folder / "clean.yaml").write_text("load: {mechanical_load: 1.0e-6}\npreprocessing: {spikes: {enabled: true}, level: plane}\n")
+        (cls.folder / "afm.txt.yaml").write_text(
+            "pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n"
+        )
+        (cls.folder / "clean.yaml").write_text(
+            "load: {mechanical_load: 1.0e-6}\npreprocessing: {spikes: {enabled: true}, level: "
+            "plane}\n"
+        )
         (cls.folder / "plain.yaml").write_text("load: {mechanical_load: 1.0e-6}\n")
 
     @classmethod
@@ -285,39 +453,87 @@ class ReportTest(unittest.TestCase):
         cls._folder.cleanup()
 
     def run_program(self, name, *arguments):
-        return subprocess.run([find_node("mems_stiction", name)[0]] + [str(argument) for argument in arguments], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
+        return subprocess.run(
+            [find_node("mems_stiction", name)[0]] + [str(argument) for argument in arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=120,
+        )
 
     def test_each_cleaning_step_stands_beside_its_prediction_and_flags_need_no_device(self):
-        done = self.run_program("stiction_report", "-c", self.folder / "clean.yaml", "-o", self.folder / "r.html", self.scan)
+        done = self.run_program(
+            "stiction_report",
+            "-c",
+            self.folder / "clean.yaml",
+            "-o",
+            self.folder / "r.html",
+            self.scan,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         text = (self.folder / "r.html").read_text(encoding="utf-8")
-        record = json.loads(self.run_program("predict_scan", "--json", "-c", self.folder / "plain.yaml", self.scan).stdout)
+        record = json.loads(
+            self.run_program(
+                "predict_scan", "--json", "-c", self.folder / "plain.yaml", self.scan
+            ).stdout
+        )
         cleaned = json.loads((self.folder / "r.json").read_text())["scans"][0]
-        table = text[text.index("What each cleaning step did"):]
+        table = text[text.index("What each cleaning step did") :]
         self.assertIn("<td>as measured</td>", table)
         first, last = table.index("<td>as measured</td>"), table.index("<td>levelled</td>")
         self.assertLess(table.index("<td>spikes taken out</td>"), last)
-        self.assertIn(unbroken(report.text_of(record["pull_off_force"], "N")), table[first:first + 300])
-        self.assertIn(unbroken(report.text_of(cleaned["pull_off_force"], "N")), table[last:last + 300])
-        for expected in ("root mean square height Sq", "core height Sk", "developed interfacial area ratio Sdr", "Outside the model's range: "):
+        self.assertIn(
+            unbroken(report.text_of(record["pull_off_force"], "N")), table[first : first + 300]
+        )
+        self.assertIn(
+            unbroken(report.text_of(cleaned["pull_off_force"], "N")), table[last : last + 300]
+        )
+        for expected in (
+            "root mean square height Sq",
+            "core height Sk",
+            "developed interfacial area ratio Sdr",
+            "Outside the model's range: ",
+        ):
             self.assertIn(expected, text)
         self.assertEqual(text.count("data:image/png;base64,"), 4)
-        without = self.run_program("stiction_report", "-c", self.folder / "clean.yaml", "--steps", 0, "-o", self.folder / "s.html", self.scan)
+        without = self.run_program(
+            "stiction_report",
+            "-c",
+            self.folder / "clean.yaml",
+            "--steps",
+            0,
+            "-o",
+            self.folder / "s.html",
+            self.scan,
+        )
         self.assertEqual(without.returncode, 0, without.stderr)
-        self.assertNotIn("What each cleaning step did", (self.folder / "s.html").read_text(encoding="utf-8"))
+        self.assertNotIn(
+            "What each cleaning step did", (self.folder / "s.html").read_text(encoding="utf-8")
+        )
 
     def test_why_steps_are_not_shown_is_said(self):
         (self.folder / "grid.txt").write_text("nan 1e-9 2e-9\n0 0 1e-9\n" * 4)
-        configuration = {"preprocessing": {"level": "plane", "fill/enabled": True}, "scan": {"pitch_x": 0.0}}
+        configuration = {
+            "preprocessing": {"level": "plane", "fill/enabled": True},
+            "scan": {"pitch_x": 0.0},
+        }
         with self.assertRaisesRegex(CannotShow, "the scan is not predicted: .*pitch"):
-            stages_of(find_node("mems_stiction", "stiction_batch")[0], {"configuration": configuration, "total": 1}, [str(self.folder / "grid.txt")], 1,
-                      None, self.folder)
+            stages_of(
+                find_node("mems_stiction", "stiction_batch")[0],
+                {"configuration": configuration, "total": 1},
+                [str(self.folder / "grid.txt")],
+                1,
+                None,
+                self.folder,
+            )
 
     def test_a_place_that_cannot_be_written_is_one_line_before_any_work(self):
         (self.folder / "folder.html").mkdir()
-        for output, reason in (("/proc/r.html", "nothing can be written to '/proc'"), ("/no/such/r.html", "there is no folder"),
-                               (self.folder / "folder.html", "is a folder")):
+        for output, reason in (
+            ("/proc/r.html", "nothing can be written to '/proc'"),
+            ("/no/such/r.html", "there is no folder"),
+            (self.folder / "folder.html", "is a folder"),
+        ):
             done = self.run_program("stiction_report", "-o", output, self.scan)
             self.assertEqual(done.returncode, 2)
             self.assertIn(reason, done.stderr.splitlines()[-1])
@@ -325,8 +541,10 @@ class ReportTest(unittest.TestCase):
             self.assertNotIn("rows", done.stdout)
 
     def test_no_to_sticking_is_releases(self):
-        self.assertEqual([report.verdict_word(word) for word in ("no", "marginal", "yes", "unknown", None)],
-                         ["releases", "marginal", "sticks", "not known", "not known"])
+        self.assertEqual(
+            [report.verdict_word(word) for word in ("no", "marginal", "yes", "unknown", None)],
+            ["releases", "marginal", "sticks", "not known", "not known"],
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""The study of sensitivities, small: it runs, its page has every part, and doc/sensitivity.md is a page of this study."""
+"""The study of sensitivities, small: it runs, its page has every part, and doc/sensitivity.md is a
+page of this study."""
 
 import json
 import pathlib
@@ -20,8 +21,13 @@ WRITER = REPOSITORY / "studies" / "sensitivity_page.py"
 
 
 def run(command):
-    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=600)
+    return subprocess.run(
+        [str(part) for part in command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+        timeout=600,
+    )
 
 
 def study(*arguments):
@@ -47,7 +53,16 @@ class SensitivityTest(unittest.TestCase):
 
     def page_of(self, text, *arguments):
         (self.folder / "study.json").write_text(text)
-        done = run([sys.executable, WRITER, self.folder / "study.json", self.folder / "page.md", self.folder / "picture.png"] + list(arguments))
+        done = run(
+            [
+                sys.executable,
+                WRITER,
+                self.folder / "study.json",
+                self.folder / "page.md",
+                self.folder / "picture.png",
+            ]
+            + list(arguments)
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "picture.png").read_bytes()[1:4], b"PNG")
         return (self.folder / "page.md").read_text(encoding="utf-8")
@@ -63,25 +78,50 @@ class SensitivityTest(unittest.TestCase):
     def test_changes_are_against_the_default_of_the_same_scan(self):
         record = json.loads(study("--scans", "2", "--pixels", "128").stdout)
         for surface in record["surfaces"]:
-            cases = {(case["key"], case["value"]): case for case in surface["cases"] if case["key"] != "pitch"}
-            default = [case for case in surface["cases"] if case["key"] == "pitch" and case["is_default"]][0]["outcomes"]
-            for key in ("approach/connectivity", "paper/step", "approach/formulation", "paper/cutoff_distance"):
-                of_key = [case for case in surface["cases"] if case["key"] == key and case["is_default"]]
+            cases = {
+                (case["key"], case["value"]): case
+                for case in surface["cases"]
+                if case["key"] != "pitch"
+            }
+            default = [
+                case for case in surface["cases"] if case["key"] == "pitch" and case["is_default"]
+            ][0]["outcomes"]
+            for key in (
+                "approach/connectivity",
+                "paper/step",
+                "approach/formulation",
+                "paper/cutoff_distance",
+            ):
+                of_key = [
+                    case for case in surface["cases"] if case["key"] == key and case["is_default"]
+                ]
                 self.assertEqual(len(of_key), 1, key)
                 self.assertEqual(of_key[0]["outcomes"], default, key)
-            # The separation curve has no cut-off; the paper's form lets the rim of each contact pull three times and more.
-            far, near = cases["paper/cutoff_distance", "3e-10"], cases["paper/cutoff_distance", "1.4e-10"]
+            # The separation curve has no cut-off; the paper's form lets the rim of each contact
+            # pull three times and more.
+            far, near = (
+                cases["paper/cutoff_distance", "3e-10"],
+                cases["paper/cutoff_distance", "1.4e-10"],
+            )
             paper = cases["approach/formulation", "paper"]["outcomes"]
-            for outcome_far, outcome_near, outcome_paper in zip(far["outcomes"], near["outcomes"], paper):
+            for outcome_far, outcome_near, outcome_paper in zip(
+                far["outcomes"], near["outcomes"], paper
+            ):
                 self.assertEqual(outcome_far["pull_off_force"], outcome_near["pull_off_force"])
-                self.assertLess(2.0 * outcome_near["pull_off_force"], outcome_paper["pull_off_force"])
+                self.assertLess(
+                    2.0 * outcome_near["pull_off_force"], outcome_paper["pull_off_force"]
+                )
 
     def test_own_scans_are_cut_into_quarters(self):
         random = np.random.RandomState(3)
         heights = random.standard_normal((128, 130))
-        heights = sum(np.roll(heights, (row, column), (0, 1)) for row in range(4) for column in range(4))
+        heights = sum(
+            np.roll(heights, (row, column), (0, 1)) for row in range(4) for column in range(4)
+        )
         np.savetxt(str(self.folder / "own.txt"), heights, fmt="%.3f")
-        (self.folder / "own.txt.yaml").write_text("pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n")
+        (self.folder / "own.txt.yaml").write_text(
+            "pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n"
+        )
         done = study(self.folder / "own.txt")
         self.assertEqual(done.returncode, 0, done.stderr)
         page = self.page_of(done.stdout, "--of-files")

@@ -1,4 +1,5 @@
-"""Studies are run by hand: each starts here, says its version and its usage, and finds its modules."""
+"""Studies are run by hand: each starts here, says its version and its usage, and finds its
+modules."""
 
 import os
 import pathlib

@@ -1,4 +1,5 @@
-"""scripts/lib/tidy.py: what is checked again, and what it prints, with a clang-tidy that finds the word "wrong"."""
+"""scripts/lib/tidy.py: what is checked again, and what it prints, with a clang-tidy that finds the
+word "wrong"."""
 
 import contextlib
 import io
@@ -22,7 +23,7 @@ root=$(dirname "$0")/..
 echo "$(basename "$source")" >>"$root/checked"
 grep -n wrong "$source" "$root/include/shared.hpp" | sed 's/:wrong.*/:1: error: it is wrong [some-check]/' | grep . && exit 1
 exit 0
-"""
+"""  # noqa: E501
 
 
 class Tidy(unittest.TestCase):
@@ -37,11 +38,24 @@ class Tidy(unittest.TestCase):
         self.write("src/one.cpp", '#include "shared.hpp"\n#include <own.hpp>\n#include <vector>\n')
         self.write("src/two.cpp", '#include "shared.hpp"\n')
         self.write("test/test.cpp", "wrong\n")
-        self.write("build/compile_commands.json", json.dumps(
-            [{"file": str(self.root / name), "command": "c++ -I%s/include -c %s" % (self.root, name)}
-             for name in ("src/one.cpp", "src/two.cpp", "src/two.cpp", "test/test.cpp")]))
-        for patch in (unittest.mock.patch.object(tidy, "REPOSITORY", self.root),
-                      unittest.mock.patch.dict(os.environ, PATH="%s/bin:%s" % (self.root, os.environ["PATH"]))):
+        self.write(
+            "build/compile_commands.json",
+            json.dumps(
+                [
+                    {
+                        "file": str(self.root / name),
+                        "command": "c++ -I%s/include -c %s" % (self.root, name),
+                    }
+                    for name in ("src/one.cpp", "src/two.cpp", "src/two.cpp", "test/test.cpp")
+                ]
+            ),
+        )
+        for patch in (
+            unittest.mock.patch.object(tidy, "REPOSITORY", self.root),
+            unittest.mock.patch.dict(
+                os.environ, PATH="%s/bin:%s" % (self.root, os.environ["PATH"])
+            ),
+        ):
             patch.start()
             self.addCleanup(patch.stop)
 
@@ -55,7 +69,10 @@ class Tidy(unittest.TestCase):
         """Exit status, what it printed, and which sources it checked."""
         self.write("checked", "")
         printed = io.StringIO()
-        with contextlib.redirect_stdout(printed), unittest.mock.patch.object(sys, "argv", ["tidy.py", str(self.root / "build")]):
+        with (
+            contextlib.redirect_stdout(printed),
+            unittest.mock.patch.object(sys, "argv", ["tidy.py", str(self.root / "build")]),
+        ):
             status = tidy.main()
         return status, printed.getvalue(), sorted((self.root / "checked").read_text().split())
 
@@ -78,16 +95,23 @@ class Tidy(unittest.TestCase):
         for _ in range(2):
             status, printed, checked = self.run_tidy()
             self.assertEqual((status, checked), (1, ["one.cpp", "two.cpp"]))
-            self.assertEqual(printed.count("include/shared.hpp:2:1: error: it is wrong"), 1, printed)
+            self.assertEqual(
+                printed.count("include/shared.hpp:2:1: error: it is wrong"), 1, printed
+            )
 
     def test_a_clang_tidy_that_fails_without_a_finding_is_a_failure(self):
-        self.write("bin/clang-tidy", '#!/bin/sh\n[ "$1" = --version ] || { echo killed >&2; exit 9; }\n').chmod(0o755)
+        self.write(
+            "bin/clang-tidy", '#!/bin/sh\n[ "$1" = --version ] || { echo killed >&2; exit 9; }\n'
+        ).chmod(0o755)
         status, printed, _ = self.run_tidy()
         self.assertEqual(status, 1)
         self.assertIn("killed", printed)
 
     def test_commands_of_another_clone_are_no_success(self):
-        self.write("build/compile_commands.json", json.dumps([{"file": "/elsewhere/src/one.cpp", "command": "c++"}]))
+        self.write(
+            "build/compile_commands.json",
+            json.dumps([{"file": "/elsewhere/src/one.cpp", "command": "c++"}]),
+        )
         self.assertEqual(self.run_tidy()[0], 2)
 
 

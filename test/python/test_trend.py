@@ -15,25 +15,54 @@ NAN = math.nan
 
 def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
     """As the node publishes it; without a margin neither spring nor beam is stated."""
-    values = dict(status=0, pull_off_force=force, sticks=sticks, reason="the reason", margin=margin, margin_lower=0.5 * margin,
-                  margin_upper=2 * margin, device_pull_off_force=10 * force if margin == margin else NAN,
-                  restoring_force=10 * force * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, contact_area_jkr=1e-15, regime_flags=0, model_doubt="", warnings=[],
-                  settings_hash="00ff")
+    values = dict(
+        status=0,
+        pull_off_force=force,
+        sticks=sticks,
+        reason="the reason",
+        margin=margin,
+        margin_lower=0.5 * margin,
+        margin_upper=2 * margin,
+        device_pull_off_force=10 * force if margin == margin else NAN,
+        restoring_force=10 * force * margin,
+        peel_number=NAN,
+        peel_number_lower=NAN,
+        peel_number_upper=NAN,
+        contact_area_jkr=1e-15,
+        regime_flags=0,
+        model_doubt="",
+        warnings=[],
+        settings_hash="00ff",
+    )
     values.update(changes)
     return SimpleNamespace(**values)
 
 
 def device(margin, sticks=1, **changes):
     """The force of the whole device, as the node publishes it."""
-    values = dict(status=0, sticks=sticks, verdict_reason="of the device", pull_off_force=2e-6 / margin, restoring_force=2e-6, margin=margin,
-                  margin_lower=0.5 * margin, margin_upper=2 * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, governed_by="",
-                  settings_hash="00ff")
+    values = dict(
+        status=0,
+        sticks=sticks,
+        verdict_reason="of the device",
+        pull_off_force=2e-6 / margin,
+        restoring_force=2e-6,
+        margin=margin,
+        margin_lower=0.5 * margin,
+        margin_upper=2 * margin,
+        peel_number=NAN,
+        peel_number_lower=NAN,
+        peel_number_upper=NAN,
+        governed_by="",
+        settings_hash="00ff",
+    )
     values.update(changes)
     return SimpleNamespace(**values)
 
 
 def states(trend):
-    return "".join("p" if scan.prediction is not None else "x" if scan.is_lost else "." for scan in trend.scans)
+    return "".join(
+        "p" if scan.prediction is not None else "x" if scan.is_lost else "." for scan in trend.scans
+    )
 
 
 class TrendTest(unittest.TestCase):
@@ -90,10 +119,15 @@ class TrendTest(unittest.TestCase):
             self.trend.add_prediction(stamp, prediction(sticks=3))
         self.trend.judge(1, device(margin=0.5, sticks=2))
         first, second = [scan.prediction for scan in self.trend.scans]
-        self.assertEqual((first.margin, first.margin_lower, first.sticks, first.reason), (0.5, 0.25, 2, "of the device"))
+        self.assertEqual(
+            (first.margin, first.margin_lower, first.sticks, first.reason),
+            (0.5, 0.25, 2, "of the device"),
+        )
         self.assertEqual((first.device_pull_off_force, first.restoring_force), (4e-6, 2e-6))
         self.assertTrue(math.isnan(second.margin))
-        self.trend.judge(1, device(margin=2.0, sticks=0))  # once more, as after another load and back
+        self.trend.judge(
+            1, device(margin=2.0, sticks=0)
+        )  # once more, as after another load and back
         self.assertEqual((first.margin, first.sticks), (2.0, 0))
 
     def test_a_verdict_without_a_force_or_under_other_settings_changes_nothing(self):
@@ -132,7 +166,6 @@ class TrendTest(unittest.TestCase):
         self.predictions(1, 2)
         self.assertEqual(states(self.trend), "pp")
 
-
     def test_the_oldest_are_forgotten_and_still_counted(self):
         self.trend = Trend(most=3)
         self.scans(1, 2)
@@ -165,7 +198,9 @@ class ControlLimitsTest(unittest.TestCase):
         limits = control_limits(list(values))
         self.assertAlmostEqual(math.log(limits.upper) - 1.0, 0.6, delta=0.02)  # 1.5 % by the sample
         share = np.mean([limits.is_outside(value) for value in values])
-        self.assertTrue(0.0015 < share < 0.0045, share)  # 0.0027; 54 of 20000 are known to 14 %, and the limits to 1 %
+        self.assertTrue(
+            0.0015 < share < 0.0045, share
+        )  # 0.0027; 54 of 20000 are known to 14 %, and the limits to 1 %
 
     def test_what_is_missing_is_left_out_and_few_values_have_no_limits(self):
         values = [2.0, 3.0] * 4
@@ -200,7 +235,7 @@ class TrendPictureTest(unittest.TestCase):
 
     def test_forces_are_in_newtons_and_a_lost_scan_breaks_the_line(self):
         figure = self.picture(prediction(2e-7), None, prediction(4e-7))
-        axes, = figure.axes  # no device: no margin
+        (axes,) = figure.axes  # no device: no margin
         self.assertEqual(axes.get_ylabel(), "pull-off force\nof the scan [nN]")
         line = axes.lines[0]
         self.assertEqual(list(line.get_xdata()), [1, 2, 3])
@@ -209,29 +244,41 @@ class TrendPictureTest(unittest.TestCase):
         self.assertTrue(math.isnan(values[1]))
         self.assertIn("not predicted (1)", axes.get_legend_handles_labels()[1])
         self.assertIn("3 scans, 1 not predicted", self.texts(figure))
-        self.assertIn("Scan 3: pull-off force 400 nN | the reason", self.texts(figure))  # why there is no verdict
+        self.assertIn(
+            "Scan 3: pull-off force 400 nN | the reason", self.texts(figure)
+        )  # why there is no verdict
 
     def test_a_device_brings_its_restoring_force_the_margin_and_the_verdict(self):
-        figure = self.picture(prediction(2e-7, 0, 4.0), prediction(2e-7, 1, 1.2), prediction(2e-7, 2, 0.2))
+        figure = self.picture(
+            prediction(2e-7, 0, 4.0), prediction(2e-7, 1, 1.2), prediction(2e-7, 2, 0.2)
+        )
         force, margin = figure.axes
         self.assertEqual(force.get_ylabel(), "pull-off force\nof the device [µN]")
         self.assertIn("restoring force of its spring", force.get_legend_handles_labels()[1])
         for shown, expected in zip(force.lines[1].get_ydata(), (8.0, 2.4, 0.4)):
             self.assertAlmostEqual(shown, expected)
         self.assertEqual(margin.get_ylabel(), "margin [-]")
-        self.assertEqual(margin.get_legend_handles_labels()[1],
-                         ["95 % interval", "releases", "marginal", "sticks", "1: sticks below"])
+        self.assertEqual(
+            margin.get_legend_handles_labels()[1],
+            ["95 % interval", "releases", "marginal", "sticks", "1: sticks below"],
+        )
         self.assertIn("Scan 3: STICKS | the reason", self.texts(figure))
 
     def test_a_beam_has_its_peel_number(self):
-        figure = self.picture(prediction(2e-7, 0, peel_number=3.0, peel_number_lower=2.0, peel_number_upper=4.0))
+        figure = self.picture(
+            prediction(2e-7, 0, peel_number=3.0, peel_number_lower=2.0, peel_number_upper=4.0)
+        )
         self.assertEqual(figure.axes[1].get_ylabel(), "peel number [-]")
         self.assertIn("Scan 1: RELEASES", self.texts(figure))
 
     def test_decades_of_force_are_logarithmic_with_a_unit_at_each_step(self):
         axes = self.picture(prediction(1e-9), prediction(1e-6)).axes[0]
-        self.assertEqual((axes.get_yscale(), axes.get_ylabel()), ("log", "pull-off force\nof the scan [N]"))
-        self.assertEqual(axes.yaxis.get_major_formatter()(0.01), "10 nN")  # the axis itself counts in micronewtons
+        self.assertEqual(
+            (axes.get_yscale(), axes.get_ylabel()), ("log", "pull-off force\nof the scan [N]")
+        )
+        self.assertEqual(
+            axes.yaxis.get_major_formatter()(0.01), "10 nN"
+        )  # the axis itself counts in micronewtons
 
     def test_control_limits_and_what_is_outside_of_them(self):
         series = [prediction(force) for force in (2.0e-7, 2.1e-7) * 5] + [prediction(4e-7)]
@@ -239,7 +286,9 @@ class TrendPictureTest(unittest.TestCase):
         labels = axes.get_legend_handles_labels()[1]
         self.assertIn("control limits", labels)
         self.assertIn("outside (1)", labels)
-        ring, = [collection for collection in axes.collections if collection.get_label() == "outside (1)"]
+        (ring,) = [
+            collection for collection in axes.collections if collection.get_label() == "outside (1)"
+        ]
         self.assertEqual([round(place) for place in ring.get_offsets()[0]], [11, 400])
         few = self.picture(*series[:7]).axes[0]
         self.assertNotIn("control limits", few.get_legend_handles_labels()[1])
@@ -250,7 +299,11 @@ class TrendPictureTest(unittest.TestCase):
         lost = [prediction(5e-5, status=2)]
         wanted = control_limits([one.pull_off_force for one in series])
         axes = self.picture(*(before + series + lost)).axes[0]
-        lines, = [collection for collection in axes.collections if collection.get_label() == "control limits"]
+        (lines,) = [
+            collection
+            for collection in axes.collections
+            if collection.get_label() == "control limits"
+        ]
         segments = lines.get_segments()
         factor = 1e6  # the axis counts in micronewtons
         for segment, value in zip(segments, (wanted.lower, wanted.upper)):
@@ -259,13 +312,21 @@ class TrendPictureTest(unittest.TestCase):
         self.assertNotIn("outside (1)", axes.get_legend_handles_labels()[1])
 
     def test_flags_and_warnings_are_marked_under_their_scan(self):
-        axes = self.picture(prediction(), prediction(regime_flags=32), prediction(warnings=["odd"])).axes[0]
-        marks, = [collection for collection in axes.collections if collection.get_label() == "flags or warnings (2)"]
+        axes = self.picture(
+            prediction(), prediction(regime_flags=32), prediction(warnings=["odd"])
+        ).axes[0]
+        (marks,) = [
+            collection
+            for collection in axes.collections
+            if collection.get_label() == "flags or warnings (2)"
+        ]
         self.assertEqual([place[0] for place in marks.get_offsets()], [2, 3])
 
     def test_lower_bounds_lost_scans_and_an_empty_station_say_so(self):
         self.assertIn("at least 200 nN", self.texts(self.picture(prediction(2e-7, status=1))))
-        self.assertIn("Scan 1: no equilibrium", self.texts(self.picture(prediction(2e-7, status=2))))
+        self.assertIn(
+            "Scan 1: no equilibrium", self.texts(self.picture(prediction(2e-7, status=2)))
+        )
         self.assertIn("Scan 2: not predicted", self.texts(self.picture(prediction(), None)))
         self.assertIn("no scan yet", self.texts(self.picture()))
 

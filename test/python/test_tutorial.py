@@ -15,9 +15,17 @@ RUNNER = REPOSITORY / "scripts" / "lib" / "run_tutorial.py"
 
 def run(page):
     programs = pathlib.Path(find_node("mems_stiction", "predict_scan")[0]).parent
-    path = os.pathsep.join([str(programs), str(REPOSITORY / "scripts" / "examples"), os.environ["PATH"]])
-    return subprocess.run([sys.executable, str(RUNNER), str(page)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          universal_newlines=True, env=dict(os.environ, PATH=path), timeout=1000)
+    path = os.pathsep.join(
+        [str(programs), str(REPOSITORY / "scripts" / "examples"), os.environ["PATH"]]
+    )
+    return subprocess.run(
+        [sys.executable, str(RUNNER), str(page)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        universal_newlines=True,
+        env=dict(os.environ, PATH=path),
+        timeout=1000,
+    )
 
 
 class TutorialTest(unittest.TestCase):
@@ -31,9 +39,18 @@ class TutorialTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_the_comparison_sees_what_rots(self):
-        good = "```yaml\n# a.yaml\nkey: 1\n```\n\n```console\n$ cat a.yaml | tail -n 1\nkey: 1\n$ echo 2.00e-06\n2.01e-06\n```\n"
-        for page, status in ((good, 0), (good.replace("key: 1\n$", "key: 2\n$"), 1), (good.replace("2.01e-06", "2.1e-06"), 1),
-                             (good.replace("$ echo", "$ ecko"), 1), (good.replace("2.01e-06\n", ""), 1), ("no command", 1)):
+        good = (
+            "```yaml\n# a.yaml\nkey: 1\n```\n\n```console\n$ cat a.yaml | tail -n 1\nkey: 1\n$ "
+            "echo 2.00e-06\n2.01e-06\n```\n"
+        )
+        for page, status in (
+            (good, 0),
+            (good.replace("key: 1\n$", "key: 2\n$"), 1),
+            (good.replace("2.01e-06", "2.1e-06"), 1),
+            (good.replace("$ echo", "$ ecko"), 1),
+            (good.replace("2.01e-06\n", ""), 1),
+            ("no command", 1),
+        ):
             path = self.folder / "page.md"
             path.write_text(page)
             self.assertEqual(run(path).returncode, status, page)

@@ -1,4 +1,5 @@
-"""Makers' files that Gwyddion's libraries read, from Python: from threads and forks, and files that were cut off."""
+"""Makers' files that Gwyddion's libraries read, from Python: from threads and forks, and files that
+were cut off."""
 
 import os
 import pathlib
@@ -13,7 +14,10 @@ import mems_stiction
 import numpy as np
 
 SIDE = 8
-BCR = "fileformat = %s\nxpixels = 8\nypixels = 8\nxlength = 100\nylength = 100\nbit2nm = %s\nxunit = nm\nyunit = nm\nzunit = nm\n"
+BCR = (
+    "fileformat = %s\nxpixels = 8\nypixels = 8\nxlength = 100\nylength = 100\nbit2nm = %s\nxunit "
+    "= nm\nyunit = nm\nzunit = nm\n"
+)
 
 
 def bcr(kind, unit, pixels):
@@ -31,7 +35,7 @@ def ibw(pixels):
     whole[92:97] = b"image"
     struct.pack_into("<4i4d", whole, 64 + 68, SIDE, SIDE, 1, 0, 1e-8, 1e-8, 0.0, 0.0)
     for place in (148, 152, 156):
-        whole[64 + place:64 + place + 1] = b"m"
+        whole[64 + place : 64 + place + 1] = b"m"
     struct.pack_into("<H", whole, 2, -sum(struct.unpack_from("<192h", whole)) & 0xFFFF)
     return bytes(whole)
 
@@ -39,8 +43,13 @@ def ibw(pixels):
 def made_files():
     source = random.Random(1)
     floats = struct.pack("<64f", *(source.random() for _ in range(64)))
-    return {"a.bcrf": bcr("bcrf", "1", floats), "a.bcr": bcr("bcrstm", "0.01", struct.pack("<64h", *(source.randrange(-999, 999) for _ in range(64)))),
-            "a.ibw": ibw(struct.pack("<64f", *(1e-9 * source.random() for _ in range(64))))}
+    return {
+        "a.bcrf": bcr("bcrf", "1", floats),
+        "a.bcr": bcr(
+            "bcrstm", "0.01", struct.pack("<64h", *(source.randrange(-999, 999) for _ in range(64)))
+        ),
+        "a.ibw": ibw(struct.pack("<64f", *(1e-9 * source.random() for _ in range(64)))),
+    }
 
 
 def height_sum(path):
@@ -77,7 +86,10 @@ class VendorFileTest(unittest.TestCase):
         for name, content in made_files().items():
             self.assertEqual(self.heights_of(name, content).shape, (SIDE, SIDE))
             for missing in (1, 4, 40, len(content) // 3, len(content) - 20):
-                self.assertIsNone(self.heights_of(name, content[:-missing]), "%s without %d bytes" % (name, missing))
+                self.assertIsNone(
+                    self.heights_of(name, content[:-missing]),
+                    "%s without %d bytes" % (name, missing),
+                )
 
     def test_a_cut_tiff_of_park_has_all_its_heights_or_is_refused(self):
         """The picture stands behind the heights."""
@@ -95,18 +107,30 @@ class VendorFileTest(unittest.TestCase):
         self.assertGreater(refused, 1)
 
     def test_threads_and_forked_processes_read_the_same_and_leave_nothing(self):
-        code = ("import sys; sys.path.insert(0, %r); import multiprocessing; from multiprocessing.pool import ThreadPool\n"
-                "from test_vendor_files import height_sum\n"
-                "paths = sys.argv[1:]\n"
-                "own = [height_sum(path) for path in paths]\n"
-                "with ThreadPool(3) as pool: assert pool.map(height_sum, paths) == own\n"
-                "with multiprocessing.get_context('fork').Pool(1) as pool: assert pool.map(height_sum, paths) == own\n"
-                ) % str(pathlib.Path(__file__).resolve().parent)
+        code = (
+            "import sys; sys.path.insert(0, %r); import multiprocessing; from multiprocessing.pool "
+            "import ThreadPool\n"
+            "from test_vendor_files import height_sum\n"
+            "paths = sys.argv[1:]\n"
+            "own = [height_sum(path) for path in paths]\n"
+            "with ThreadPool(3) as pool: assert pool.map(height_sum, paths) == own\n"
+            "with multiprocessing.get_context('fork').Pool(1) as pool: assert pool.map(height_sum, "
+            "paths) == own\n"
+        ) % str(pathlib.Path(__file__).resolve().parent)
         paths = [str(self.write(name, content)) for name, content in made_files().items()]
-        done = subprocess.run([sys.executable, "-c", code] + paths, stderr=subprocess.PIPE, universal_newlines=True, timeout=120,
-                              env=dict(os.environ, TMPDIR=str(self.folder)))
+        done = subprocess.run(
+            [sys.executable, "-c", code] + paths,
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=120,
+            env=dict(os.environ, TMPDIR=str(self.folder)),
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual([path.name for path in self.folder.iterdir() if path.is_dir()], [], "what it worked in is gone")
+        self.assertEqual(
+            [path.name for path in self.folder.iterdir() if path.is_dir()],
+            [],
+            "what it worked in is gone",
+        )
 
 
 if __name__ == "__main__":

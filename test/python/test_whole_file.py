@@ -30,7 +30,9 @@ class WholeFileTest(unittest.TestCase):
         victim = self.folder / "victim"
         victim.write_text("kept")
         (self.folder / ".rows.part-guessed.csv").symlink_to(victim)
-        with mock.patch("mems_stiction.whole_file.secrets.token_hex", side_effect=["guessed", "another"]):
+        with mock.patch(
+            "mems_stiction.whole_file.secrets.token_hex", side_effect=["guessed", "another"]
+        ):
             with whole(self.path) as part:
                 part.write_text("a,b\n")
         self.assertEqual((victim.read_text(), self.path.read_text()), ("kept", "a,b\n"))
@@ -57,7 +59,9 @@ class WholeFileTest(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder), [])
         nowhere = self.folder / "nowhere" / "rows.csv"
         for write in (check_writable, lambda path: whole(path).__enter__()):
-            with self.assertRaisesRegex(CannotWrite, "nowhere/rows.csv: cannot be written: No such file"):
+            with self.assertRaisesRegex(
+                CannotWrite, "nowhere/rows.csv: cannot be written: No such file"
+            ):
                 write(nowhere)
 
 

@@ -1,4 +1,5 @@
-"""One word per idea, as doc/terminology.md says: what is kept or held in another sense than a contact has another name."""
+"""One word per idea, as doc/terminology.md says: what is kept or held in another sense than a
+contact has another name."""
 
 import io
 import pathlib
@@ -16,7 +17,11 @@ def names_of_cpp(text):
 
 
 def names_of_python(text):
-    return [token.string for token in tokenize.generate_tokens(io.StringIO(text).readline) if token.type == tokenize.NAME]
+    return [
+        token.string
+        for token in tokenize.generate_tokens(io.StringIO(text).readline)
+        if token.type == tokenize.NAME
+    ]
 
 
 def unfit(names):
@@ -26,7 +31,11 @@ def unfit(names):
 class WordsTest(unittest.TestCase):
     def test_nothing_is_called_kept_or_held(self):
         found = {}
-        for folder, pattern, names in (("src", "*.[hc]pp", names_of_cpp), ("include", "*.hpp", names_of_cpp), ("python", "*.py", names_of_python)):
+        for folder, pattern, names in (
+            ("src", "*.[hc]pp", names_of_cpp),
+            ("include", "*.hpp", names_of_cpp),
+            ("python", "*.py", names_of_python),
+        ):
             for path in sorted((REPOSITORY / folder).rglob(pattern)):
                 words = unfit(names(path.read_text(encoding="utf-8")))
                 if words:
@@ -34,9 +43,18 @@ class WordsTest(unittest.TestCase):
         self.assertEqual(found, {})
 
     def test_the_check_sees_names_and_no_texts(self):
-        self.assertEqual(unfit(names_of_cpp('int kept_; // is kept\nconst char* text = "held"; HeldState s; keepIt(threshold, keeper);')),
-                         ["HeldState", "keepIt", "kept_"])
-        self.assertEqual(unfit(names_of_python("_kept = 'held'  # held\nshield = withheld = 1\n")), ["_kept"])
+        self.assertEqual(
+            unfit(
+                names_of_cpp(
+                    'int kept_; // is kept\nconst char* text = "held"; HeldState s; '
+                    "keepIt(threshold, keeper);"
+                )
+            ),
+            ["HeldState", "keepIt", "kept_"],
+        )
+        self.assertEqual(
+            unfit(names_of_python("_kept = 'held'  # held\nshield = withheld = 1\n")), ["_kept"]
+        )
 
 
 if __name__ == "__main__":

@@ -12,8 +12,21 @@ from mems_stiction.srv import Predict, PredictRequest
 from rosgraph_msgs.msg import Log
 from rospy.msg import AnyMsg
 from sensor_msgs.msg import Image
-from stiction_client import (BytesPublisher, Collector, Counts, Station, bytes_of, figures, image_message, info_message, peak_memory,
-                             process_of, rough_surface, stating, wait_until)
+from stiction_client import (
+    BytesPublisher,
+    Collector,
+    Counts,
+    Station,
+    bytes_of,
+    figures,
+    image_message,
+    info_message,
+    peak_memory,
+    process_of,
+    rough_surface,
+    stating,
+    wait_until,
+)
 
 
 class BytesRequest(AnyMsg):
@@ -68,7 +81,10 @@ class BadScansTest(unittest.TestCase):
             station.info.publish(info_message(station.stamp()))
 
         cases = [
-            (lambda: broken(wrong_encoding), "encoding 'rgb8' does not carry heights; accepted: 32FC1"),
+            (
+                lambda: broken(wrong_encoding),
+                "encoding 'rgb8' does not carry heights; accepted: 32FC1",
+            ),
             (lambda: broken(cut_off), "data has"),
             (lambda: broken(short_step), "step 8"),
             (lambda: broken(no_pixels), "at least one pixel"),
@@ -85,7 +101,9 @@ class BadScansTest(unittest.TestCase):
             send_bad()
             expected.append(station.send(surface))
             predictions.wait(index + 1)
-            counts.wait(received=2 * index + 1, predicted=index + 1, rejected=index, dropped=0, waiting=0)
+            counts.wait(
+                received=2 * index + 1, predicted=index + 1, rejected=index, dropped=0, waiting=0
+            )
             self.assertIn(reason, counts["last_reason"])
         self.assertTrue(any("rgb8" in text for text in counts.reasons()), counts.reasons())
 
@@ -111,14 +129,17 @@ class BadScansTest(unittest.TestCase):
         prediction = predictions.wait(1)[0]
         invalid = 12 * surface.shape[1] + 1
         self.assertAlmostEqual(prediction.invalid_fraction, invalid / surface.size, delta=1e-12)
-        self.assertAlmostEqual(prediction.nominal_area / ((surface.size - invalid) * 1e-16), 1.0, delta=1e-9)
+        self.assertAlmostEqual(
+            prediction.nominal_area / ((surface.size - invalid) * 1e-16), 1.0, delta=1e-9
+        )
 
     def test_3_a_sequence_number_that_was_skipped_is_counted(self):
         counts = Counts()
         station = Station()
         missing = int(counts.fresh()["missing_by_sequence"])
         for second, lost in ((6000, 0), (6001, 0), (6002, 3)):
-            # rospy numbers what it publishes: numbers that are never sent are scans that a network has lost.
+            # rospy numbers what it publishes: numbers that are never sent are scans that a network
+            # has lost.
             station.height.impl.seq += lost
             predicted = int(counts.fresh()["predicted"])
             station.height.publish(image_message(rough_surface(1), rospy.Time(second)))
@@ -135,12 +156,14 @@ class BadScansTest(unittest.TestCase):
         rejected = int(counts.fresh()["rejected"])
         for number in range(1, 4):
             image = image_message(rough_surface(1), rospy.Time(7000 + number))
-            image.data = image.data[:-4 * number]
+            image.data = image.data[: -4 * number]
             station.height.publish(image)
             station.info.publish(info_message(image.header.stamp))
             counts.wait(rejected=rejected + number)
         time.sleep(0.5)
-        self.assertLessEqual(len([message for message in log.messages if "data has" in message.msg]), 1)
+        self.assertLessEqual(
+            len([message for message in log.messages if "data has" in message.msg]), 1
+        )
 
     def test_5_messages_that_state_more_than_they_hold_are_counted_and_take_no_memory(self):
         def image(stamp):
@@ -171,7 +194,9 @@ class BadScansTest(unittest.TestCase):
         station.send(surface, rospy.Time(8010))
         self.assertEqual(predictions.of(rospy.Time(8010)).header.stamp, rospy.Time(8010))
         request = PredictRequest(image(rospy.Time(8011)), info_message(rospy.Time(8011)), 0.0, 1e-6)
-        refused = rospy.ServiceProxy("stiction_node/predict", BytesPredict)(BytesRequest(stating(2**32 - 1, bytes_of(request), place)))
+        refused = rospy.ServiceProxy("stiction_node/predict", BytesPredict)(
+            BytesRequest(stating(2**32 - 1, bytes_of(request), place))
+        )
         self.assertFalse(refused.success)
         self.assertIn("states 4294967295 elements", refused.message)
         request.height = image_message(surface, rospy.Time(8011))

@@ -19,7 +19,8 @@ class BagCheck : public ::testing::Test {
   BagCheck() {
     const std::string path = folder_.file("whole.bag");
     rosbag::Bag bag(path, rosbag::bagmode::Write);
-    for (int second = 1; second <= 3; ++second) bag.write("scan_info", ros::Time(second), ScanInfo());
+    for (int second = 1; second <= 3; ++second)
+      bag.write("scan_info", ros::Time(second), ScanInfo());
     bag.write("other_info", ros::Time(4), ScanInfo());
     bag.close();
     whole_ = ScratchFolder::read(path);
@@ -34,8 +35,10 @@ class BagCheck : public ::testing::Test {
     return "";
   }
 
-  /// The whole bag with a number of 4 bytes changed, `before` bytes before the first `text` after `start`.
-  std::string changed(const std::string& text, std::size_t before, std::uint32_t number, std::size_t start = 0) const {
+  /// The whole bag with a number of 4 bytes changed, `before` bytes before the first `text` after
+  /// `start`.
+  std::string changed(const std::string& text, std::size_t before, std::uint32_t number,
+                      std::size_t start = 0) const {
     std::string bytes = whole_;
     bytes.replace(bytes.find(text, start) - before, 4, reinterpret_cast<const char*>(&number), 4);
     return bytes;
@@ -45,16 +48,20 @@ class BagCheck : public ::testing::Test {
   std::string whole_;
 };
 
-TEST_F(BagCheck, AWholeBagIsWhole) { EXPECT_EQ(checkBag(folder_.file("whole.bag")), BagEnd::kWhole); }
+TEST_F(BagCheck, AWholeBagIsWhole) {
+  EXPECT_EQ(checkBag(folder_.file("whole.bag")), BagEnd::kWhole);
+}
 
 TEST_F(BagCheck, ABagWithoutItsEndIsCutOffWhereverItEnds) {
   for (std::size_t length = 20; length < whole_.size(); length += 97) {
-    EXPECT_EQ(checkBag(folder_.write("cut.bag", whole_.substr(0, length))), BagEnd::kCutOff) << length;
+    EXPECT_EQ(checkBag(folder_.write("cut.bag", whole_.substr(0, length))), BagEnd::kCutOff)
+        << length;
   }
 }
 
 TEST_F(BagCheck, AFieldThatIsLongerThanItsHeaderIsRefused) {
-  EXPECT_NE(refusal(changed("topic=", 4, 0xfffffff0u)).find("longer than its header"), std::string::npos);
+  EXPECT_NE(refusal(changed("topic=", 4, 0xfffffff0u)).find("longer than its header"),
+            std::string::npos);
 }
 
 TEST_F(BagCheck, AnIndexThatLeadsToNoMessageIsRefused) {
@@ -68,13 +75,16 @@ TEST_F(BagCheck, AnIndexThatLeadsToNoMessageIsRefused) {
 TEST_F(BagCheck, AnIndexThatLeadsToAMessageOfAnotherConnectionIsRefused) {
   const std::size_t index =
       whole_.find("count=", whole_.find("size="));  // behind the chunk's header: of the first index
-  EXPECT_NE(refusal(changed("count=", 8, 1, index)).find("a message of another connection"), std::string::npos);
+  EXPECT_NE(refusal(changed("count=", 8, 1, index)).find("a message of another connection"),
+            std::string::npos);
 }
 
 TEST_F(BagCheck, AConnectionThatIsNotInTheBagsIndexIsRefused) {
   std::string bytes = whole_;
-  bytes[bytes.rfind("conn=") + 5] = 64;  // rosbag looked for connection 1 there, and read what it did not find
-  EXPECT_NE(refusal(bytes).find("a connection (1) that is not in its index"), std::string::npos) << refusal(bytes);
+  bytes[bytes.rfind("conn=") + 5] =
+      64;  // rosbag looked for connection 1 there, and read what it did not find
+  EXPECT_NE(refusal(bytes).find("a connection (1) that is not in its index"), std::string::npos)
+      << refusal(bytes);
 }
 
 TEST_F(BagCheck, AnotherFileIsNoBag) {

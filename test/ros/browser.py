@@ -1,4 +1,5 @@
-"""A real browser without a window for tests: Chromium, told what to do over its DevTools protocol, by tornado's web socket."""
+"""A real browser without a window for tests: Chromium, told what to do over its DevTools protocol,
+by tornado's web socket."""
 
 import asyncio
 import base64
@@ -23,7 +24,8 @@ def program():
 
 
 class Browser:
-    """One page. What it logs as an error, and what it asks other machines for, is kept in `errors` and `requests`."""
+    """One page. What it logs as an error, and what it asks other machines for, is kept in `errors`
+    and `requests`."""
 
     def __init__(self, width=1280, height=800):
         self.errors, self.requests = [], []
@@ -31,10 +33,25 @@ class Browser:
         self._loop = asyncio.new_event_loop()
         self._profile = tempfile.mkdtemp(prefix="browser_")
         self._process = subprocess.Popen(
-            [program(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
-             "--remote-debugging-port=0", "--remote-allow-origins=*", "--user-data-dir=" + self._profile,
-             "--no-first-run", "--disable-background-networking", "--window-size=%d,%d" % (width, height), "about:blank"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+            [
+                program(),
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+                "--hide-scrollbars",
+                "--remote-debugging-port=0",
+                "--remote-allow-origins=*",
+                "--user-data-dir=" + self._profile,
+                "--no-first-run",
+                "--disable-background-networking",
+                "--window-size=%d,%d" % (width, height),
+                "about:blank",
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         self._socket = self._loop.run_until_complete(self._connect())
         for domain in ("Page", "Runtime", "Network", "Log"):
             self._call(domain + ".enable")
@@ -51,20 +68,28 @@ class Browser:
             await asyncio.sleep(0.05)
         port = int(told.read_text().split()[0])
         while True:
-            answer = await AsyncHTTPClient().fetch("http://127.0.0.1:%d/json" % port, connect_timeout=TIMEOUT, request_timeout=TIMEOUT)
+            answer = await AsyncHTTPClient().fetch(
+                "http://127.0.0.1:%d/json" % port, connect_timeout=TIMEOUT, request_timeout=TIMEOUT
+            )
             pages = [target for target in json.loads(answer.body) if target["type"] == "page"]
             if pages:
-                return await tornado.websocket.websocket_connect(pages[0]["webSocketDebuggerUrl"], max_message_size=2**28)
+                return await tornado.websocket.websocket_connect(
+                    pages[0]["webSocketDebuggerUrl"], max_message_size=2**28
+                )
             if time.monotonic() > end:
                 raise AssertionError("the browser %s has no page" % program())
             await asyncio.sleep(0.05)
 
     def _call(self, method, **parameters):
         self._number += 1
-        return self._loop.run_until_complete(asyncio.wait_for(self._ask(self._number, method, parameters), TIMEOUT))
+        return self._loop.run_until_complete(
+            asyncio.wait_for(self._ask(self._number, method, parameters), TIMEOUT)
+        )
 
     async def _ask(self, number, method, parameters):
-        await self._socket.write_message(json.dumps({"id": number, "method": method, "params": parameters}))
+        await self._socket.write_message(
+            json.dumps({"id": number, "method": method, "params": parameters})
+        )
         while True:
             text = await self._socket.read_message()
             if text is None:
@@ -82,12 +107,20 @@ class Browser:
             details = parameters["exceptionDetails"]
             self.errors.append(details.get("exception", {}).get("description", details["text"]))
         elif name == "Log.entryAdded" and parameters["entry"]["level"] == "error":
-            self.errors.append("%s %s" % (parameters["entry"]["text"], parameters["entry"].get("url", "")))
+            self.errors.append(
+                "%s %s" % (parameters["entry"]["text"], parameters["entry"].get("url", ""))
+            )
         elif name == "Network.requestWillBeSent":
             self.requests.append(parameters["request"]["url"])
 
     def resize(self, width, height):
-        self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self._call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
 
     def open(self, address):
         self._call("Page.navigate", url=address)
@@ -95,9 +128,13 @@ class Browser:
 
     def value(self, expression):
         """Of JavaScript in the page, as JSON has it."""
-        result = self._call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        result = self._call(
+            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
+        )
         if "exceptionDetails" in result:
-            raise AssertionError("%s: %s" % (expression, result["exceptionDetails"]["exception"]["description"]))
+            raise AssertionError(
+                "%s: %s" % (expression, result["exceptionDetails"]["exception"]["description"])
+            )
         return result["result"].get("value")
 
     def wait(self, expression, timeout=TIMEOUT):
@@ -105,8 +142,10 @@ class Browser:
         end = time.monotonic() + timeout
         while not self.value(expression):
             if time.monotonic() > end:
-                raise AssertionError("waited %g s in vain for %s; the page says: %s" % (
-                    timeout, expression, self.value("document.body.innerText")))
+                raise AssertionError(
+                    "waited %g s in vain for %s; the page says: %s"
+                    % (timeout, expression, self.value("document.body.innerText"))
+                )
             time.sleep(0.05)
 
     def text(self, selector):
@@ -114,8 +153,10 @@ class Browser:
         return self.value("document.querySelector(%s).innerText" % json.dumps(selector))
 
     def place(self, selector, across=0.5, down=0.5):
-        """Of a point of the element, which is scrolled to as a person would, once it stands still; shares of its width and height."""
-        return self.value("""(async () => {
+        """Of a point of the element, which is scrolled to as a person would, once it stands still;
+        shares of its width and height."""
+        return self.value(
+            """(async () => {
           const found = document.querySelector(%s);
           found.scrollIntoView({block: 'nearest'});
           for (let before = null;;) {
@@ -125,21 +166,27 @@ class Browser:
             before = box;
             await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
           }
-        })()""" % (json.dumps(selector), across, down))
+        })()"""
+            % (json.dumps(selector), across, down)
+        )
 
     def mouse(self, kind, place, **more):
         self._call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], **more)
 
     def click(self, selector, across=0.5, down=0.5, count=1):
-        """With the mouse, in the middle of the element or elsewhere on it; count: 2 for a double click. Once more where the page moved meanwhile."""
+        """With the mouse, in the middle of the element or elsewhere on it; count: 2 for a double
+        click. Once more where the page moved meanwhile."""
         end = time.monotonic() + TIMEOUT
         while True:
-            self.value("""(() => {
+            self.value(
+                """(() => {
               window.clicked = [];
               window.wanted = %s;
               window.noteClick ||= (event) => clicked.push({hit: event.target.closest(wanted) !== null, on: event.target.outerHTML.slice(0, 200)});
               window.addEventListener('click', noteClick, {capture: true});
-            })()""" % json.dumps(selector))
+            })()"""  # noqa: E501
+                % json.dumps(selector)
+            )
             place = self.place(selector, across, down)
             for number in range(1, count + 1):
                 for kind in ("mousePressed", "mouseReleased"):
@@ -148,7 +195,10 @@ class Browser:
             if sum(click["hit"] for click in clicked) == count:
                 return
             if time.monotonic() > end:
-                raise AssertionError("clicks on %s at %s do not reach it, but %s" % (selector, place, [click["on"] for click in clicked]))
+                raise AssertionError(
+                    "clicks on %s at %s do not reach it, but %s"
+                    % (selector, place, [click["on"] for click in clicked])
+                )
 
     def drag(self, selector, start, end):
         """With the mouse, from one point of the element to another."""

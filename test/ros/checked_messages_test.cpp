@@ -33,7 +33,8 @@ Message readFrom(std::vector<std::uint8_t> bytes) {
 
 /// Writes a number of 32 bits over the bytes from a place on.
 void overwrite(std::vector<std::uint8_t>& bytes, std::size_t place, std::uint32_t value) {
-  for (std::size_t i = 0; i < 4; ++i) bytes[place + i] = static_cast<std::uint8_t>(value >> (8 * i));
+  for (std::size_t i = 0; i < 4; ++i)
+    bytes[place + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
 /// The largest memory of this process so far [bytes].
@@ -88,7 +89,8 @@ TEST(ReadMessage, AMessageThatStatesMoreThanItHoldsTakesNoMemory) {
   bool is_found = false;
   for (std::size_t place = 0; place + 12 <= sweep.size() && !is_found; ++place) {
     std::vector<std::uint8_t> damaged = sweep;
-    is_found = sweep[place] == 1 && sweep[place + 10] == 0xF0 && sweep[place + 11] == 0x3F;  // one element, 1.0
+    is_found = sweep[place] == 1 && sweep[place + 10] == 0xF0 &&
+               sweep[place + 11] == 0x3F;  // one element, 1.0
     if (!is_found) continue;
     overwrite(damaged, place, 1U << 29U);
     EXPECT_THROW(readFrom<SweepLoadGoal>(damaged), MessageError);
@@ -100,7 +102,8 @@ TEST(ReadMessage, AMessageThatStatesMoreThanItHoldsTakesNoMemory) {
 TEST(ReadMessage, AMessageThatIsCutOffAnywhereIsRefused) {
   const std::vector<std::uint8_t> whole = bytesAsSent(smallImage());
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_THROW(readFrom<sensor_msgs::Image>({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}),
+    EXPECT_THROW(readFrom<sensor_msgs::Image>(
+                     {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}),
                  MessageError);
   }
 }
@@ -108,13 +111,14 @@ TEST(ReadMessage, AMessageThatIsCutOffAnywhereIsRefused) {
 class CheckedCallbackTest : public testing::Test {
  protected:
   ros::VoidConstPtr deserialize(std::vector<std::uint8_t> bytes, double most = kLargestMessage) {
-    CheckedCallback<sensor_msgs::Image> callback({[](const auto&) { ADD_FAILURE() << "is called by roscpp"; },
-                                                  [this](const BoundedStream& refused, const std::string& reason) {
-                                                    header_ = std_msgs::Header();
-                                                    readBeginning(refused, header_);
-                                                    reason_ = reason;
-                                                  },
-                                                  most});
+    CheckedCallback<sensor_msgs::Image> callback(
+        {[](const auto&) { ADD_FAILURE() << "is called by roscpp"; },
+         [this](const BoundedStream& refused, const std::string& reason) {
+           header_ = std_msgs::Header();
+           readBeginning(refused, header_);
+           reason_ = reason;
+         },
+         most});
     return callback.deserialize({bytes.data(), static_cast<std::uint32_t>(bytes.size()), nullptr});
   }
 
@@ -127,7 +131,8 @@ TEST_F(CheckedCallbackTest, WhatIsRefusedIsNamedByItsHeader) {
   overwrite(bytes, bytes.size() - 8, 4000000000U);
   EXPECT_EQ(deserialize(bytes), nullptr);
   EXPECT_EQ(header_.stamp, ros::Time(7, 5));
-  EXPECT_NE(reason_.find("states 4000000000 elements of at least 1 bytes, but only 4 bytes follow"), std::string::npos)
+  EXPECT_NE(reason_.find("states 4000000000 elements of at least 1 bytes, but only 4 bytes follow"),
+            std::string::npos)
       << reason_;
   EXPECT_EQ(deserialize({1, 2, 3}), nullptr);
   EXPECT_TRUE(header_.stamp.isZero());

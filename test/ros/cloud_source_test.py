@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""An areal sensor whose driver publishes a whole field in each PointCloud2, imitated message for message: each leads to one prediction, or is named."""
+"""An areal sensor whose driver publishes a whole field in each PointCloud2, imitated message for
+message: each leads to one prediction, or is named."""
 
 import os
 import pathlib
@@ -28,22 +29,39 @@ INVALID = np.finfo(np.float32).min
 
 
 def surface(seed):
-    """ROWS x COLS float32 [m]: a cap on a tilted plane, off the middle, with micrometres of noise; row 0 has the largest y, x grows along columns."""
+    """ROWS x COLS float32 [m]: a cap on a tilted plane, off the middle, with micrometres of noise;
+    row 0 has the largest y, x grows along columns."""
     y, x = np.mgrid[0:ROWS, 0:COLS] * PITCH
     cap = np.maximum(0.0, 2e-5 - ((x - 3e-4) ** 2 + (y - 7e-4) ** 2) / 4e-3)
-    return (0.01 * x - 0.02 * y + cap + np.random.RandomState(seed).normal(scale=1e-6, size=x.shape)).astype(np.float32)
+    return (
+        0.01 * x - 0.02 * y + cap + np.random.RandomState(seed).normal(scale=1e-6, size=x.shape)
+    ).astype(np.float32)
 
 
 def snapshot(heights, stamp, frame=FRAME):
-    """As the driver of the Gocator 3100 fills it: PCL's PointXYZ in 16 bytes, rows and columns, x falls along the columns."""
-    points = np.zeros(heights.shape, dtype=[("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")])
+    """As the driver of the Gocator 3100 fills it: PCL's PointXYZ in 16 bytes, rows and columns, x
+    falls along the columns."""
+    points = np.zeros(
+        heights.shape, dtype=[("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")]
+    )
     rows, cols = heights.shape
     points["x"] = ((cols // 2 - np.arange(cols)) * PITCH)[None, :]
     points["y"] = ((rows // 2 - np.arange(rows)) * PITCH)[:, None]
     points["z"] = np.where(np.isnan(heights), INVALID, heights)[:, ::-1]
-    message = PointCloud2(height=rows, width=cols, is_bigendian=False, point_step=16, row_step=16 * cols, is_dense=True, data=points.tobytes())
+    message = PointCloud2(
+        height=rows,
+        width=cols,
+        is_bigendian=False,
+        point_step=16,
+        row_step=16 * cols,
+        is_dense=True,
+        data=points.tobytes(),
+    )
     message.header.stamp, message.header.frame_id = stamp, frame
-    message.fields = [PointField(name=name, offset=4 * place, datatype=PointField.FLOAT32, count=1) for place, name in enumerate("xyz")]
+    message.fields = [
+        PointField(name=name, offset=4 * place, datatype=PointField.FLOAT32, count=1)
+        for place, name in enumerate("xyz")
+    ]
     return message
 
 
@@ -63,9 +81,17 @@ class CloudTest(unittest.TestCase):
         config["preprocessing"] = dict(level="plane")
         (cls.top / "config.yaml").write_text(yaml.safe_dump(config))
         cls.station = subprocess.Popen(
-            ["roslaunch", get_pkg_dir("mems_stiction") + "/launch/station.launch", "config:=%s/config.yaml" % cls.top, "points:=/gocator_snapshot",
-             "source_config:=%s/config/source_areal.yaml" % get_pkg_dir("mems_stiction"), "page:=false", "bag_prefix:=%s/day" % cls.top],
-            env=dict(os.environ, ROS_HOME=str(cls.top)))
+            [
+                "roslaunch",
+                get_pkg_dir("mems_stiction") + "/launch/station.launch",
+                "config:=%s/config.yaml" % cls.top,
+                "points:=/gocator_snapshot",
+                "source_config:=%s/config/source_areal.yaml" % get_pkg_dir("mems_stiction"),
+                "page:=false",
+                "bag_prefix:=%s/day" % cls.top,
+            ],
+            env=dict(os.environ, ROS_HOME=str(cls.top)),
+        )
         cls.addClassCleanup(cls.stop)
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.heights = Collector("height", Image).connect()
@@ -117,14 +143,23 @@ class CloudTest(unittest.TestCase):
         for number, stamp in enumerate(stamps):
             self.sensor.publish(snapshot(surface(10 + number), stamp))
         self.predictions.of(stamps[-1])
-        found = [message.header.stamp for message in self.predictions.messages if message.header.stamp >= stamps[0]]
+        found = [
+            message.header.stamp
+            for message in self.predictions.messages
+            if message.header.stamp >= stamps[0]
+        ]
         self.assertEqual(found, stamps)
         self.assertEqual(self.counts.fresh()["missing_by_sequence"], "0")
 
     def test_4_heights_are_taken_in_a_frame_once_its_transform_is_there(self):
-        for key, value in dict(source="cloud", frame="stage", transform_timeout=3.0, diagnostic_period=0.1).items():
+        for key, value in dict(
+            source="cloud", frame="stage", transform_timeout=3.0, diagnostic_period=0.1
+        ).items():
             rospy.set_param("/tf/source/" + key, value)
-        source = subprocess.Popen([find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=dict(os.environ, ROS_NAMESPACE="/tf"))
+        source = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=dict(os.environ, ROS_NAMESPACE="/tf"),
+        )
         self.addCleanup(source.terminate)
         heights, infos = Collector("/tf/height", Image), Collector("/tf/scan_info", ScanInfo)
         refused = Collector("/tf/source/refused", String).connect()
@@ -132,18 +167,30 @@ class CloudTest(unittest.TestCase):
         counts._name = "tf/source: scan_source"
         sensor = rospy.Publisher("/tf/points", PointCloud2, queue_size=10)
         frames = rospy.Publisher("/tf", TFMessage, queue_size=10)
-        wait_until(lambda: sensor.get_num_connections() and frames.get_num_connections(), "the source to listen")
+        wait_until(
+            lambda: sensor.get_num_connections() and frames.get_num_connections(),
+            "the source to listen",
+        )
         wait_until(lambda: counts["found"] == "0" and not counts["hindered_by"], "listeners")
         stamp = rospy.Time(2000)
         sensor.publish(snapshot(surface(4), stamp))
         counts.wait(waiting=1)
         transform = TransformStamped()  # the sensor hangs head down: half a turn about x
-        transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, "stage", FRAME
+        transform.header.stamp, transform.header.frame_id, transform.child_frame_id = (
+            stamp,
+            "stage",
+            FRAME,
+        )
         transform.transform.rotation.x = 1.0
         transform.transform.translation.z = 0.25
         frames.publish(TFMessage([transform]))
         self.assertEqual(heights.of(stamp).header.frame_id, "stage")
-        np.testing.assert_allclose(heights_of(heights.of(stamp)), 0.25 - surface(4)[::-1, :].astype(float), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(
+            heights_of(heights.of(stamp)),
+            0.25 - surface(4)[::-1, :].astype(float),
+            rtol=0,
+            atol=1e-12,
+        )
         self.assertEqual(len(infos.wait(1)), 1)
         sensor.publish(snapshot(surface(5), rospy.Time(3000), "nowhere"))
         self.assertIn("nowhere", refused.wait(1)[0].data)
@@ -154,7 +201,10 @@ class CloudTest(unittest.TestCase):
         self.stop()
         (bag,) = self.top.glob("day*.bag")
         with rosbag.Bag(str(bag)) as recording:
-            stamps = {topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])} for topic in ("/height", "/prediction")}
+            stamps = {
+                topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
+                for topic in ("/height", "/prediction")
+            }
         self.assertEqual(stamps["/prediction"], stamps["/height"])
         self.assertLessEqual(sent, stamps["/prediction"])
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""counter_surface/type topic: the latest counter-surface is kept; without one scans are rejected."""
+"""counter_surface/type topic: the latest counter-surface is kept; without one scans are
+rejected."""
 
 import unittest
 
@@ -10,8 +11,20 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from mems_stiction.msg import StictionPrediction, SweepLoadAction, SweepLoadGoal
 from sensor_msgs.msg import Image
-from stiction_client import (TIMEOUT, Collector, Counts, Station, Traffic, figures, image_message, info_message, predict_scan,
-                             rough_surface, unlike, wait_until)
+from stiction_client import (
+    TIMEOUT,
+    Collector,
+    Counts,
+    Station,
+    Traffic,
+    figures,
+    image_message,
+    info_message,
+    predict_scan,
+    rough_surface,
+    unlike,
+    wait_until,
+)
 
 LOAD = 1e-6
 
@@ -48,7 +61,10 @@ class CounterSurfaceTest(unittest.TestCase):
         self.assertEqual(rough.status, StictionPrediction.EQUILIBRIUM)
         self.assertLess(rough.contact_fraction, mated.contact_fraction)
         for prediction, other in ((mated, surface), (rough, rough_surface(2))):
-            self.assertEqual(unlike(prediction, predict_scan(surface, LOAD, counter=other), ["settings_hash"]), [])
+            self.assertEqual(
+                unlike(prediction, predict_scan(surface, LOAD, counter=other), ["settings_hash"]),
+                [],
+            )
         self.assertAlmostEqual(rough.composite_rms_height, 5e-9 * np.sqrt(2.0), delta=1e-11)
 
         # A bad one is counted by itself and leaves the good one where it is.
@@ -77,24 +93,46 @@ class CounterSurfaceTest(unittest.TestCase):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         self.assertTrue(sweep.wait_for_server(rospy.Duration(TIMEOUT)))
         surface, counters = rough_surface(11), [rough_surface(12), rough_surface(13)]
-        expected = [predict_scan(surface, LOAD, counter=counter)["pull_off_force"] for counter in counters]
+        expected = [
+            predict_scan(surface, LOAD, counter=counter)["pull_off_force"] for counter in counters
+        ]
         self.assertNotEqual(expected[0], expected[1])
         stamp = rospy.Time(3)
-        goal = SweepLoadGoal(voltages=[0.0], height=image_message(surface, stamp), scan_info=info_message(stamp))
+        goal = SweepLoadGoal(
+            voltages=[0.0], height=image_message(surface, stamp), scan_info=info_message(stamp)
+        )
         live = rough_surface(14)
         records = [predict_scan(live, LOAD, counter=counter) for counter in counters]
         predictions = Collector("prediction", StictionPrediction).connect()
-        with Traffic(Station("counter_"), counters), Traffic(Station(), [live], predictions=predictions):
+        with (
+            Traffic(Station("counter_"), counters),
+            Traffic(Station(), [live], predictions=predictions),
+        ):
             for _ in range(30):
                 sweep.send_goal(goal)
                 self.assertTrue(sweep.wait_for_result(rospy.Duration(TIMEOUT)), "no answer")
-                self.assertEqual(sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message)
+                self.assertEqual(
+                    sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message
+                )
                 self.assertIn(sweep.get_result().points[0].pull_off_force, expected)
             forces = {record["pull_off_force"] for record in records}
-            wait_until(lambda: forces <= {prediction.pull_off_force for prediction in list(predictions.messages)}, "scans against either")
-        met = [[unlike(prediction, record, ["settings_hash"]) == [] for record in records] for prediction in predictions.messages]
-        met = met[next(index for index, one in enumerate(met) if any(one)):]  # the first may have met that of the test before
-        self.assertEqual({sum(one) for one in met}, {1}, "each prediction is that of one of the two")
+            wait_until(
+                lambda: (
+                    forces
+                    <= {prediction.pull_off_force for prediction in list(predictions.messages)}
+                ),
+                "scans against either",
+            )
+        met = [
+            [unlike(prediction, record, ["settings_hash"]) == [] for record in records]
+            for prediction in predictions.messages
+        ]
+        met = met[
+            next(index for index, one in enumerate(met) if any(one)) :
+        ]  # the first may have met that of the test before
+        self.assertEqual(
+            {sum(one) for one in met}, {1}, "each prediction is that of one of the two"
+        )
         self.assertEqual([any(column) for column in zip(*met)], [True, True])
 
 

@@ -39,7 +39,8 @@ TEST(DeviceMessage, HoldsEveryFigure) {
   EXPECT_EQ(message.mechanical_load, 2e-6);
   EXPECT_EQ(message.realisations, (std::vector<double>{2e-7, 3e-7}));
   // commas would be fields for rostopic echo -p
-  EXPECT_EQ(message.warnings, std::vector<std::string>{"measure a field of 40 um; pixels of 100 nm will do"});
+  EXPECT_EQ(message.warnings,
+            std::vector<std::string>{"measure a field of 40 um; pixels of 100 nm will do"});
   EXPECT_EQ(message.sticks, static_cast<int>(Sticks::kUnknown));
   EXPECT_EQ(message.verdict_reason + message.verdict_by, "");
 }
@@ -50,9 +51,11 @@ TEST(DeviceMessage, HoldsTheVerdict) {
   EXPECT_EQ(message.sticks, 2);
   EXPECT_EQ(message.verdict_reason, "two; lines; 95 %");
   EXPECT_EQ(message.verdict_by, "prediction");
-  EXPECT_EQ((std::vector<double>{message.restoring_force, message.margin, message.margin_lower, message.margin_upper}),
+  EXPECT_EQ((std::vector<double>{message.restoring_force, message.margin, message.margin_lower,
+                                 message.margin_upper}),
             (std::vector<double>{1e-6, 0.5, 0.4, 0.6}));
-  EXPECT_EQ((std::vector<double>{message.peel_number, message.peel_number_lower, message.peel_number_upper}),
+  EXPECT_EQ((std::vector<double>{message.peel_number, message.peel_number_lower,
+                                 message.peel_number_upper}),
             (std::vector<double>{5.0, 4.0, 6.0}));
 }
 
@@ -62,14 +65,16 @@ TEST(DeviceMessage, ARefusalHasNoFigures) {
   EXPECT_EQ(message.message, "two; lines");
   for (const double figure :
        {message.pull_off_force, message.pull_off_force_lower, message.apparent_work_of_adhesion,
-        message.linear_pull_off_force, message.contacts, message.separation_at_rest, message.area, message.pitch,
-        message.force_deviation, message.processing_time, message.restoring_force, message.margin}) {
+        message.linear_pull_off_force, message.contacts, message.separation_at_rest, message.area,
+        message.pitch, message.force_deviation, message.processing_time, message.restoring_force,
+        message.margin}) {
     EXPECT_TRUE(std::isnan(figure));
   }
   EXPECT_TRUE(message.realisations.empty() && message.warnings.empty());
 }
 
-DeviceAnswer answerOn(std::uint64_t scan, const std::string& part, double margin, bool is_by_device_force = false) {
+DeviceAnswer answerOn(std::uint64_t scan, const std::string& part, double margin,
+                      bool is_by_device_force = false) {
   DeviceAnswer answer;
   answer.last.id = scan;
   answer.last.provenance.part_id = part;
@@ -87,14 +92,17 @@ std::vector<double> marginsOf(const std::vector<DeviceVerdict>& messages) {
 
 TEST(DeviceVerdicts, TheNewestScansAnswerIsTheLastOneAfterALateOneToo) {
   DeviceVerdicts verdicts;
-  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.0), {false, true}, true)), std::vector<double>{1.0});
-  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(2, "", 2.0), {true, false}, true)), std::vector<double>{2.0});
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.0), {false, true}, true)),
+            std::vector<double>{1.0});
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(2, "", 2.0), {true, false}, true)),
+            std::vector<double>{2.0});
   const std::vector<DeviceVerdict> late = verdicts.answer(answerOn(1, "", 1.5), {}, false);
   EXPECT_EQ(marginsOf(late), (std::vector<double>{1.5, 2.0}));
   EXPECT_TRUE(late.front().is_final && !late.back().is_final);
   const std::vector<DeviceVerdict> found = verdicts.answer(answerOn(2, "", 2.5, true), {}, true);
   EXPECT_EQ(marginsOf(found), std::vector<double>{2.5});
-  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.7), {}, false)), (std::vector<double>{1.7, 2.5}));
+  EXPECT_EQ(marginsOf(verdicts.answer(answerOn(1, "", 1.7), {}, false)),
+            (std::vector<double>{1.7, 2.5}));
 }
 
 TEST(DeviceVerdicts, AnAnswerThatNeverCameIsSaidOnlyIfItWasAwaited) {
@@ -110,7 +118,8 @@ TEST(DeviceVerdicts, AnAnswerThatNeverCameIsSaidOnlyIfItWasAwaited) {
   EXPECT_TRUE(verdicts.answer(none, {}, false).empty());
 }
 
-/// A frame says less than the device's own force: of an earlier scan of the part, too, whichever part was scanned since.
+/// A frame says less than the device's own force: of an earlier scan of the part, too, whichever
+/// part was scanned since.
 TEST(DeviceVerdicts, KnowWhetherAPartWasJudgedByTheForceOfTheDevice) {
   DeviceVerdicts verdicts;
   const DeviceAnswer first = answerOn(1, "a", 1.0);
@@ -125,7 +134,8 @@ TEST(DeviceVerdicts, KnowWhetherAPartWasJudgedByTheForceOfTheDevice) {
   EXPECT_FALSE(verdicts.isByDeviceForce(first.last)) << "its newest scan is not judged so yet";
   verdicts.answer(answerOn(5, "", 5.0, true), {}, true);
   EXPECT_TRUE(verdicts.isByDeviceForce(answerOn(5, "", 5.0).last));
-  EXPECT_FALSE(verdicts.isByDeviceForce(answerOn(6, "", 6.0).last)) << "scans without a part are devices of their own";
+  EXPECT_FALSE(verdicts.isByDeviceForce(answerOn(6, "", 6.0).last))
+      << "scans without a part are devices of their own";
 }
 
 }  // namespace

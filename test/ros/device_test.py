@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The force of a device on its topic: that of the core for the same scans, with its verdict, beside predictions that go on."""
+"""The force of a device on its topic: that of the core for the same scans, with its verdict, beside
+predictions that go on."""
 
 import json
 import math
@@ -19,13 +20,38 @@ from mems_stiction.msg import DeviceAdhesion, DeviceVerdict, PartVerdict, Sticti
 from mems_stiction.prediction_text import device_line
 from mems_stiction.srv import SetMechanicalLoad
 from roslib.packages import find_node
-from stiction_client import (PITCH, Collector, OwnNode, Station, Traffic, image_message, info_message, rough_surface, settings_of, wait_for_listener,
-                             wait_until, write_grid)
+from stiction_client import (
+    PITCH,
+    Collector,
+    OwnNode,
+    Station,
+    Traffic,
+    image_message,
+    info_message,
+    rough_surface,
+    settings_of,
+    wait_for_listener,
+    wait_until,
+    write_grid,
+)
 
 CONFIG = pathlib.Path(__file__).with_name("device_part.yaml")
 SMALL = 64  # pixels of a side
-FIGURES = ("pull_off_force", "pull_off_force_lower", "pull_off_force_upper", "apparent_work_of_adhesion", "apparent_work_of_adhesion_lower",
-           "apparent_work_of_adhesion_upper", "linear_pull_off_force", "contacts", "separation_at_rest", "is_conforming", "area", "pitch", "force_deviation")
+FIGURES = (
+    "pull_off_force",
+    "pull_off_force_lower",
+    "pull_off_force_upper",
+    "apparent_work_of_adhesion",
+    "apparent_work_of_adhesion_lower",
+    "apparent_work_of_adhesion_upper",
+    "linear_pull_off_force",
+    "contacts",
+    "separation_at_rest",
+    "is_conforming",
+    "area",
+    "pitch",
+    "force_deviation",
+)
 STICKS = {"no": 0, "marginal": 1, "yes": 2, "unknown": 3}
 
 
@@ -42,8 +68,12 @@ def force_of(surfaces):
             write_grid(file, heights)
         (folder / "config.yaml").write_text(yaml.safe_dump(settings_of(CONFIG)))
         program = find_node("mems_stiction", "predict_device")[0]
-        done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *files], check=True, timeout=60,
-                              stdout=subprocess.PIPE)
+        done = subprocess.run(
+            [program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *files],
+            check=True,
+            timeout=60,
+            stdout=subprocess.PIPE,
+        )
     return json.loads(done.stdout)
 
 
@@ -66,7 +96,11 @@ class DeviceTest(unittest.TestCase):
         for array in reversed(self.reports.messages):
             for status in array.status:
                 if status.name == node + ": device_force":
-                    return dict({entry.key: entry.value for entry in status.values}, level=status.level, message=status.message)
+                    return dict(
+                        {entry.key: entry.value for entry in status.values},
+                        level=status.level,
+                        message=status.message,
+                    )
         return {}
 
     def newest_counts(self):
@@ -82,12 +116,16 @@ class DeviceTest(unittest.TestCase):
         info.part_id, info.serial_id = part
         self.station.height.publish(image_message(heights, stamp))
         self.station.info.publish(info)
-        prediction, device = self.predictions.wait(scans + 1)[scans], self.devices.wait(devices + 1)[devices]
+        prediction, device = (
+            self.predictions.wait(scans + 1)[scans],
+            self.devices.wait(devices + 1)[devices],
+        )
         self.assertEqual((prediction.header.stamp, device.header.stamp), (stamp, stamp))
         return prediction, device
 
     def verdicts_until_the_final_one(self, stamp):
-        """Of the scan of this stamp; those of others may come between, as a half-space that took long."""
+        """Of the scan of this stamp; those of others may come between, as a half-space that took
+        long."""
 
         def said():
             return [message for message in self.verdicts.messages if message.header.stamp == stamp]
@@ -96,21 +134,35 @@ class DeviceTest(unittest.TestCase):
         return said()
 
     def assert_one_answer(self, prediction, device, scan_count):
-        """The topic verdict has a provisional answer with the prediction, and a final one with the device's force."""
+        """The topic verdict has a provisional answer with the prediction, and a final one with the
+        device's force."""
 
         said = self.verdicts_until_the_final_one(prediction.header.stamp)
         first, last = said[0], said[-1]
-        self.assertEqual((first.is_final, first.waits_for, first.word, first.by_device_force), (False, "device_force", "unknown", False))
-        self.assertEqual((last.waits_for, last.by_device_force, last.scan_count), ("", True, scan_count))
-        self.assertEqual((last.part_id, last.serial_id, last.scan_name), (prediction.part_id, prediction.serial_id, prediction.scan_name))
+        self.assertEqual(
+            (first.is_final, first.waits_for, first.word, first.by_device_force),
+            (False, "device_force", "unknown", False),
+        )
+        self.assertEqual(
+            (last.waits_for, last.by_device_force, last.scan_count), ("", True, scan_count)
+        )
+        self.assertEqual(
+            (last.part_id, last.serial_id, last.scan_name),
+            (prediction.part_id, prediction.serial_id, prediction.scan_name),
+        )
         self.assertEqual((last.sticks, STICKS[last.word]), (device.sticks, device.sticks))
         for name in ("margin", "margin_lower", "margin_upper", "settings_hash", "version"):
             self.assertEqual(getattr(last, name), getattr(device, name), name)
 
     def assert_is_force_of(self, device, surfaces):
-        self.assertEqual((device.status, device.message, device.scan_count), (DeviceAdhesion.FOUND, "", len(surfaces)))
+        self.assertEqual(
+            (device.status, device.message, device.scan_count),
+            (DeviceAdhesion.FOUND, "", len(surfaces)),
+        )
         expected = force_of(surfaces)
-        self.assertEqual(list(device.realisations), [made["pull_off_force"] for made in expected["realisations"]])
+        self.assertEqual(
+            list(device.realisations), [made["pull_off_force"] for made in expected["realisations"]]
+        )
         for name in FIGURES:
             self.assertEqual(getattr(device, name), expected[name], name)
         # by several scans the verdict is of the newest frame's doubts, by one the two are the same
@@ -118,7 +170,9 @@ class DeviceTest(unittest.TestCase):
             for name in ("margin", "margin_lower", "margin_upper", "restoring_force"):
                 self.assertEqual(getattr(device, name), expected[name], name)
             self.assertEqual(device.sticks, STICKS[expected["sticks"]])
-        self.assertTrue(device.pull_off_force_lower < device.pull_off_force < device.pull_off_force_upper)
+        self.assertTrue(
+            device.pull_off_force_lower < device.pull_off_force < device.pull_off_force_upper
+        )
 
     def assert_judged(self, device):
         self.assertEqual(device.margin, device.restoring_force / device.pull_off_force)
@@ -128,7 +182,10 @@ class DeviceTest(unittest.TestCase):
     def assert_refused(self, device):
         self.assertEqual(device.status, DeviceAdhesion.REFUSED)
         self.assertNotEqual(device.message, "")
-        self.assertEqual((device.sticks, device.verdict_reason, device.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
+        self.assertEqual(
+            (device.sticks, device.verdict_reason, device.verdict_by),
+            (StictionPrediction.STICKS_UNKNOWN, "", ""),
+        )
         self.assertTrue(math.isnan(device.pull_off_force) and math.isnan(device.margin))
         self.assertEqual(list(device.realisations), [])
 
@@ -146,13 +203,22 @@ class DeviceTest(unittest.TestCase):
             self.assert_one_answer(prediction, device, count)
             for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
                 self.assertEqual(getattr(device, name), getattr(prediction, name), name)
-            self.assertEqual((device.voltage, device.mechanical_load), (prediction.voltage, prediction.mechanical_load))
-            # The frame alone makes no statement on a device of another size, and says where one comes from.
+            self.assertEqual(
+                (device.voltage, device.mechanical_load),
+                (prediction.voltage, prediction.mechanical_load),
+            )
+            # The frame alone makes no statement on a device of another size, and says where one
+            # comes from.
             self.assertEqual(prediction.sticks, StictionPrediction.STICKS_UNKNOWN)
             self.assertIn("device_force", prediction.reason)
             before, after = self.parts.wait(parts + 2)[parts:]
-            self.assertEqual((before.sticks, before.scan_count), (StictionPrediction.STICKS_UNKNOWN, count))
-            self.assertEqual((after.header.stamp, after.scan_count, after.settings_hash), (prediction.header.stamp, count, prediction.settings_hash))
+            self.assertEqual(
+                (before.sticks, before.scan_count), (StictionPrediction.STICKS_UNKNOWN, count)
+            )
+            self.assertEqual(
+                (after.header.stamp, after.scan_count, after.settings_hash),
+                (prediction.header.stamp, count, prediction.settings_hash),
+            )
             for name in ("sticks", "margin", "margin_lower", "margin_upper"):
                 self.assertEqual(getattr(after, name), getattr(device, name), name)
         # Another part, and scans of none, have their own surfaces.
@@ -162,7 +228,9 @@ class DeviceTest(unittest.TestCase):
             prediction, device = self.send(scan)
             self.assert_is_force_of(device, [scan])
             self.assert_one_answer(prediction, device, 1)
-        self.assert_is_force_of(self.send(surfaces[0], ("lot 3", "0013"))[1], [surfaces[1], surfaces[0]])
+        self.assert_is_force_of(
+            self.send(surfaces[0], ("lot 3", "0013"))[1], [surfaces[1], surfaces[0]]
+        )
         self.parts.wait(parts + 2)
         self.assertEqual(len(self.parts.messages), parts + 2)  # none of the scans without a part
 
@@ -176,18 +244,29 @@ class DeviceTest(unittest.TestCase):
             info.part_id, info.serial_id = "fast", str(number)
             self.station.info.publish(info)
             self.station.height.publish(image_message(scan, stamps[-1]))
-        wait_until(lambda: any(message.header.stamp == stamps[-1] for message in self.predictions.messages), "the newest prediction")
+        wait_until(
+            lambda: any(
+                message.header.stamp == stamps[-1] for message in self.predictions.messages
+            ),
+            "the newest prediction",
+        )
         found_before = len(self.devices.messages)
         self.devices.wait(devices + len(scans))
         found = [message.header.stamp for message in self.devices.messages[devices:]]
         self.assertEqual(sorted(found), stamps)
         # one was at hand when the newest came, and its prediction may be seen before it is offered
         self.assertLessEqual(found.index(stamps[-1]) - (found_before - devices), 2)
-        self.assertLess(found_before - devices, len(scans) - 3, "forces came as fast as scans: nothing waited")
+        self.assertLess(
+            found_before - devices, len(scans) - 3, "forces came as fast as scans: nothing waited"
+        )
         for stamp in stamps:
             self.assertTrue(self.verdicts_until_the_final_one(stamp)[-1].by_device_force)
         late = Collector("verdict", DeviceVerdict)
-        self.assertEqual(late.wait(1)[0].header.stamp, stamps[-1], "the latched verdict is that on the newest scan")
+        self.assertEqual(
+            late.wait(1)[0].header.stamp,
+            stamps[-1],
+            "the latched verdict is that on the newest scan",
+        )
         late.close()
 
     def test_3_who_comes_late_finds_the_newest(self):
@@ -196,11 +275,18 @@ class DeviceTest(unittest.TestCase):
         late.close()
         late = Collector("verdict", DeviceVerdict)
         found, newest = late.wait(1)[0], self.verdicts.messages[-1]
-        self.assertEqual((found.header.stamp, found.is_final, found.margin), (newest.header.stamp, newest.is_final, newest.margin))
+        self.assertEqual(
+            (found.header.stamp, found.is_final, found.margin),
+            (newest.header.stamp, newest.is_final, newest.margin),
+        )
         late.close()
 
     def test_3b_the_terminal_has_a_line_for_the_device(self):
-        process = subprocess.Popen([find_node("mems_stiction", "print_predictions")[0]], stdout=subprocess.PIPE, universal_newlines=True)
+        process = subprocess.Popen(
+            [find_node("mems_stiction", "print_predictions")[0]],
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+        )
         try:
             wait_for_listener("prediction", "/print_predictions")
             wait_for_listener("device_force", "/print_predictions")
@@ -210,7 +296,9 @@ class DeviceTest(unittest.TestCase):
             process.terminate()
             process.communicate()
         self.assertTrue(lines[2].startswith("1 scan  "), lines)
-        self.assertEqual(lines[3].rstrip("\n"), device_line("1 scan", device))  # not that of the scan before, which is latched
+        self.assertEqual(
+            lines[3].rstrip("\n"), device_line("1 scan", device)
+        )  # not that of the scan before, which is latched
 
     def test_4_under_other_settings_it_is_judged_again(self):
         prediction, device = self.send(surface(4), ("lot 4", ""))
@@ -221,23 +309,43 @@ class DeviceTest(unittest.TestCase):
             answer = change()
             again = self.devices.wait(devices + 1)[devices]
             part = self.parts.wait(parts + 1)[parts]
-            self.assertEqual((again.status, again.scan_count, again.header.stamp), (DeviceAdhesion.JUDGED_AGAIN, 1, prediction.header.stamp))
-            self.assertEqual((part.settings_hash, part.margin, part.sticks), (again.settings_hash, again.margin, again.sticks))
+            self.assertEqual(
+                (again.status, again.scan_count, again.header.stamp),
+                (DeviceAdhesion.JUDGED_AGAIN, 1, prediction.header.stamp),
+            )
+            self.assertEqual(
+                (part.settings_hash, part.margin, part.sticks),
+                (again.settings_hash, again.margin, again.sticks),
+            )
             self.assert_judged(again)
             return again, answer
 
         loaded, answer = judged_again(lambda: self.set_load(5e-5))
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.prediction.header.stamp, prediction.header.stamp)
-        self.assertEqual((loaded.mechanical_load, loaded.settings_hash), (5e-5, answer.prediction.settings_hash))
+        self.assertEqual(
+            (loaded.mechanical_load, loaded.settings_hash), (5e-5, answer.prediction.settings_hash)
+        )
         self.assertNotEqual(loaded.settings_hash, device.settings_hash)
         # a frame whose summits have flowed holds more strongly, and the device as much more
         self.assertGreater(answer.prediction.pull_off_force, 1.05 * prediction.pull_off_force)
-        self.assertAlmostEqual(loaded.pull_off_force / device.pull_off_force, answer.prediction.pull_off_force / prediction.pull_off_force, places=12)
+        self.assertAlmostEqual(
+            loaded.pull_off_force / device.pull_off_force,
+            answer.prediction.pull_off_force / prediction.pull_off_force,
+            places=12,
+        )
         back, _ = judged_again(lambda: self.set_load(1e-6))
-        self.assertEqual((back.pull_off_force, back.margin, back.settings_hash), (device.pull_off_force, device.margin, device.settings_hash))
-        stronger, _ = judged_again(lambda: self.settings.update_configuration({"spring_stiffness": 20.0}))
-        self.assertEqual((stronger.pull_off_force, stronger.restoring_force), (device.pull_off_force, 2.0 * device.restoring_force))
+        self.assertEqual(
+            (back.pull_off_force, back.margin, back.settings_hash),
+            (device.pull_off_force, device.margin, device.settings_hash),
+        )
+        stronger, _ = judged_again(
+            lambda: self.settings.update_configuration({"spring_stiffness": 20.0})
+        )
+        self.assertEqual(
+            (stronger.pull_off_force, stronger.restoring_force),
+            (device.pull_off_force, 2.0 * device.restoring_force),
+        )
         self.assertEqual(stronger.margin, 2.0 * device.margin)
         judged_again(lambda: self.settings.update_configuration({"spring_stiffness": 10.0}))
         shown = self.newest_counts()
@@ -247,17 +355,28 @@ class DeviceTest(unittest.TestCase):
         refused = self.send(rough_surface(5, rows=4, cols=4))[1]
         self.assert_refused(refused)
         shown = self.newest_counts()
-        self.assertEqual((shown["failed"], shown["last_failure"].replace(",", ";")), ("1", refused.message))
+        self.assertEqual(
+            (shown["failed"], shown["last_failure"].replace(",", ";")), ("1", refused.message)
+        )
         last = self.verdicts_until_the_final_one(refused.header.stamp)[-1]
         self.assertEqual((last.word, last.by_device_force), ("unknown", False))
         self.assert_is_force_of(self.send(surface(6))[1], [surface(6)])
 
-    def test_5b_a_scan_that_does_not_show_what_holds_is_unknown_until_its_part_has_one_that_does(self):
-        coarse = np.random.RandomState(8).normal(scale=5e-9, size=(SMALL, SMALL)).astype(np.float32)  # no pixel knows its neighbour
+    def test_5b_a_scan_that_does_not_show_what_holds_is_unknown_until_its_part_has_one_that_does(
+        self,
+    ):
+        coarse = (
+            np.random.RandomState(8).normal(scale=5e-9, size=(SMALL, SMALL)).astype(np.float32)
+        )  # no pixel knows its neighbour
         prediction, device = self.send(coarse, ("plate", "8"))
         self.assertIn("unresolved", prediction.flags)
-        self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_UNRESOLVED and prediction.needed_pitch < PITCH)
-        self.assertTrue(any("missing is AFM" in warning for warning in prediction.warnings), prediction.warnings)
+        self.assertTrue(
+            prediction.regime_flags & StictionPrediction.FLAG_UNRESOLVED
+            and prediction.needed_pitch < PITCH
+        )
+        self.assertTrue(
+            any("missing is AFM" in warning for warning in prediction.warnings), prediction.warnings
+        )
         self.assertEqual(device.sticks, StictionPrediction.STICKS_UNKNOWN)
         said = self.verdicts_until_the_final_one(prediction.header.stamp)
         self.assertEqual({message.word for message in said}, {"unknown"})
@@ -266,7 +385,9 @@ class DeviceTest(unittest.TestCase):
         self.assertNotIn("unresolved", prediction.flags)
         self.assertEqual(device.scan_count, 2)
         self.assert_judged(device)
-        self.assertNotEqual(self.verdicts_until_the_final_one(prediction.header.stamp)[-1].word, "unknown")
+        self.assertNotEqual(
+            self.verdicts_until_the_final_one(prediction.header.stamp)[-1].word, "unknown"
+        )
 
     def test_6_without_a_contact_area_nothing_is_made(self):
         self.settings.update_configuration({"contact_area": 0.0})
@@ -280,20 +401,37 @@ class DeviceTest(unittest.TestCase):
     def test_7_scans_are_predicted_while_surfaces_are_made_and_every_one_is_counted(self):
         settings = yaml.safe_load(CONFIG.read_text())
         settings["device"]["contact_area"] = 1e-8
-        settings["device_force"] = {"realisations": 1000, "max_cells": 4.0e6}  # beyond the patience of any test
+        settings["device_force"] = {
+            "realisations": 1000,
+            "max_cells": 4.0e6,
+        }  # beyond the patience of any test
         with OwnNode("busy", **settings) as node:
             predictions = Collector("/busy/prediction", StictionPrediction).connect()
             devices = Collector("/busy/device_force", DeviceAdhesion).connect()
             station = Station("/busy/")
             with Traffic(station, [surface(seed) for seed in (8, 9)]) as traffic:
-                wait_until(lambda: self.counts("busy/node").get("time_so_far [s]", "0") != "0", "surfaces that are made")
+                wait_until(
+                    lambda: self.counts("busy/node").get("time_so_far [s]", "0") != "0",
+                    "surfaces that are made",
+                )
                 count = len(predictions.messages)
                 predictions.wait(count + 20)
             predictions.wait(len(traffic.sent))
             self.assertIn("makes surfaces", self.counts("busy/node")["message"])
-            wait_until(lambda: int(self.counts("busy/node")["offered"]) == len(traffic.sent), "every scan to be counted")
-            shown = self.counts("busy/node")  # one at hand, the newest waits, and those between had newer ones
-            self.assertEqual([int(shown[key]) for key in ("found", "judged_again", "failed", "waiting", "skipped")], [0, 0, 0, 1, len(traffic.sent) - 2])
+            wait_until(
+                lambda: int(self.counts("busy/node")["offered"]) == len(traffic.sent),
+                "every scan to be counted",
+            )
+            shown = self.counts(
+                "busy/node"
+            )  # one at hand, the newest waits, and those between had newer ones
+            self.assertEqual(
+                [
+                    int(shown[key])
+                    for key in ("found", "judged_again", "failed", "waiting", "skipped")
+                ],
+                [0, 0, 0, 1, len(traffic.sent) - 2],
+            )
             begin = time.monotonic()
             node.process.terminate()
             node.process.wait(timeout=30)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""half_space/enabled by default: scans whose flags ask for a half-space are solved by themselves, and their device is judged by it."""
+"""half_space/enabled by default: scans whose flags ask for a half-space are solved by themselves,
+and their device is judged by it."""
 
 import math
 import unittest
@@ -7,12 +8,29 @@ import unittest
 import actionlib
 import rospy
 import rostest
-from mems_stiction.msg import (DeviceAdhesion, DeviceVerdict, HalfSpaceAction, HalfSpaceGoal, HalfSpaceSolution, PartVerdict, StictionPrediction)
+from mems_stiction.msg import (
+    DeviceAdhesion,
+    DeviceVerdict,
+    HalfSpaceAction,
+    HalfSpaceGoal,
+    HalfSpaceSolution,
+    PartVerdict,
+    StictionPrediction,
+)
 from mems_stiction.srv import SetMechanicalLoad, SolveHalfSpace, SolveHalfSpaceRequest
-from stiction_client import TIMEOUT, Collector, Station, image_message, info_message, rough_surface, wait_until
+from stiction_client import (
+    TIMEOUT,
+    Collector,
+    Station,
+    image_message,
+    info_message,
+    rough_surface,
+    wait_until,
+)
 
 SMALL = 64  # pixels of a side, as many as the launch file allows
-BY_HALF_SPACE = "by the half-space; as near_bonding asks for it: "  # a comma would end a field of rostopic echo -p
+# a comma would end a field of rostopic echo -p
+BY_HALF_SPACE = "by the half-space; as near_bonding asks for it: "
 VERDICT = ("sticks", "margin", "margin_lower", "margin_upper", "verdict_reason", "verdict_by")
 
 
@@ -55,7 +73,11 @@ class FlaggedTest(unittest.TestCase):
         found = []
 
         def is_there():
-            found[:] = [message for message in collector.messages if message.header.stamp == stamp and accepts(message)]
+            found[:] = [
+                message
+                for message in collector.messages
+                if message.header.stamp == stamp and accepts(message)
+            ]
             return found
 
         wait_until(is_there, what)
@@ -67,20 +89,35 @@ class FlaggedTest(unittest.TestCase):
     def test_1_a_flagged_scan_is_solved_and_judges_device_and_part(self):
         stamp, prediction = self.send(smooth(1), "0012")
         self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
-        self.assertIn("near_bonding asks for the half-space: it follows on the topic half_space", prediction.reason)
+        self.assertIn(
+            "near_bonding asks for the half-space: it follows on the topic half_space",
+            prediction.reason,
+        )
         solution = self.of(self.solutions, stamp, "the half-space")
         self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
         for name in ("version", "settings_hash", "part_id", "serial_id"):
             self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
         device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
         self.assertTrue(device.verdict_reason.startswith(BY_HALF_SPACE), device.verdict_reason)
-        self.assertAlmostEqual(device.margin * device.pull_off_force / device.restoring_force, 1.0, places=12)
+        self.assertAlmostEqual(
+            device.margin * device.pull_off_force / device.restoring_force, 1.0, places=12
+        )
         by_area = solution.pull_off_force * device.area / prediction.nominal_area
         self.assertAlmostEqual(device.linear_pull_off_force / by_area, 1.0, places=9)
-        part = self.of(self.parts, stamp, "the part", lambda message: message.margin == device.margin)
-        self.assertEqual((part.sticks, part.margin_lower, part.scan_count), (device.sticks, device.margin_lower, 1))
-        verdict = self.of(self.verdicts, stamp, "the final verdict", lambda message: message.is_final)
-        self.assertEqual((verdict.verdict_by, verdict.by_device_force, verdict.margin), ("half_space", True, device.margin))
+        part = self.of(
+            self.parts, stamp, "the part", lambda message: message.margin == device.margin
+        )
+        self.assertEqual(
+            (part.sticks, part.margin_lower, part.scan_count),
+            (device.sticks, device.margin_lower, 1),
+        )
+        verdict = self.of(
+            self.verdicts, stamp, "the final verdict", lambda message: message.is_final
+        )
+        self.assertEqual(
+            (verdict.verdict_by, verdict.by_device_force, verdict.margin),
+            ("half_space", True, device.margin),
+        )
         first = next(message for message in self.verdicts.messages if message.header.stamp == stamp)
         self.assertEqual((first.is_final, first.waits_for), (False, "device_force half_space"))
 
@@ -100,11 +137,17 @@ class FlaggedTest(unittest.TestCase):
     def test_4_one_that_is_too_large_is_left_out_with_a_sentence(self):
         stamp, prediction = self.send(smooth(8, rows=SMALL + 1))
         self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
-        self.assertIn("near_bonding asks for the half-space; which does not count: a frame of 65 x 64 pixels is larger than "
-                      "half_space/max_flagged_pixels = 4096", prediction.reason)
+        self.assertIn(
+            "near_bonding asks for the half-space; which does not count: a frame of 65 x 64 pixels "
+            "is larger than "
+            "half_space/max_flagged_pixels = 4096",
+            prediction.reason,
+        )
         device = self.of(self.devices, stamp, "the device")
         self.assertEqual(device.verdict_by, "prediction")
-        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan))  # who asks gets it
+        answer = self.solve(
+            SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)
+        )  # who asks gets it
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.solution.header.stamp, stamp)
         self.assertNotIn(stamp, [solution.header.stamp for solution in self.solutions.messages])
@@ -112,20 +155,30 @@ class FlaggedTest(unittest.TestCase):
     def test_5_service_and_action_know_the_device(self):
         stamp, prediction = self.send(smooth(9))
         device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
-        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)).solution
+        answer = self.solve(
+            SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)
+        ).solution
         action = actionlib.SimpleActionClient("stiction_node/half_space", HalfSpaceAction)
         self.assertTrue(action.wait_for_server(rospy.Duration(TIMEOUT)))
         action.send_goal(HalfSpaceGoal(voltage=math.nan, mechanical_load=math.nan))
         self.assertTrue(action.wait_for_result(rospy.Duration(TIMEOUT)))
         for name in VERDICT:
-            self.assertEqual(getattr(answer, name), getattr(action.get_result().solution, name), name)
+            self.assertEqual(
+                getattr(answer, name), getattr(action.get_result().solution, name), name
+            )
         self.assertEqual(answer.verdict_by, "half_space")
         self.assertNotEqual(answer.sticks, StictionPrediction.STICKS_UNKNOWN)
         for name in ("sticks", "margin", "margin_lower", "margin_upper"):
             self.assertEqual(getattr(answer, name), getattr(device, name), name)
         # The device is known under its own load alone.
-        other = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=2.0 * prediction.mechanical_load)).solution
-        self.assertEqual((other.sticks, math.isnan(other.margin)), (StictionPrediction.STICKS_UNKNOWN, True))
+        other = self.solve(
+            SolveHalfSpaceRequest(
+                voltage=math.nan, mechanical_load=2.0 * prediction.mechanical_load
+            )
+        ).solution
+        self.assertEqual(
+            (other.sticks, math.isnan(other.margin)), (StictionPrediction.STICKS_UNKNOWN, True)
+        )
         self.assertIn("device_force", other.verdict_reason)
 
     def test_6_after_another_load_the_last_scan_is_solved_again(self):
@@ -134,10 +187,19 @@ class FlaggedTest(unittest.TestCase):
         load = 2.0 * prediction.mechanical_load
         self.assertTrue(self.set_load(load).success)
         try:
-            solution = self.of(self.solutions, stamp, "the half-space under the load", lambda one: one.mechanical_load == load)
+            solution = self.of(
+                self.solutions,
+                stamp,
+                "the half-space under the load",
+                lambda one: one.mechanical_load == load,
+            )
             self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
-            device = self.of(self.devices, stamp, "the device under the load",
-                             lambda one: one.mechanical_load == load and one.verdict_by == "half_space")
+            device = self.of(
+                self.devices,
+                stamp,
+                "the device under the load",
+                lambda one: one.mechanical_load == load and one.verdict_by == "half_space",
+            )
             self.assertEqual(device.status, DeviceAdhesion.JUDGED_AGAIN)
         finally:
             self.set_load(prediction.mechanical_load)

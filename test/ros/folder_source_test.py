@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A folder that another program writes into, as AFMs and microscopes do: each content leads to one prediction, whatever happens to files and processes.
+"""A folder that another program writes into, as AFMs and microscopes do: each content leads to one
+prediction, whatever happens to files and processes.
 Longer than ten seconds: settle times are waited for, as instruments make one wait."""
 
 import hashlib
@@ -21,12 +22,33 @@ from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node, get_pkg_dir
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
-from stiction_client import (PITCH, SANITIZER, STATION, TIMEOUT, Collector, Counts, predict_scan, process_of, rough_surface, thread_seconds, unlike,
-                             wait_until, write_grid)
+from stiction_client import (
+    PITCH,
+    SANITIZER,
+    STATION,
+    TIMEOUT,
+    Collector,
+    Counts,
+    predict_scan,
+    process_of,
+    rough_surface,
+    thread_seconds,
+    unlike,
+    wait_until,
+    write_grid,
+)
 
 SETTLE = 0.5  # [s]
 SIDECAR = "pitch_x: %r\npitch_y: %r\n" % (PITCH, PITCH)
-OF_THE_FILE = ("scan_name", "part_id", "serial_id", "lot_id", "acquisition_time", "checksum", "instrument")
+OF_THE_FILE = (
+    "scan_name",
+    "part_id",
+    "serial_id",
+    "lot_id",
+    "acquisition_time",
+    "checksum",
+    "instrument",
+)
 
 
 def grid_bytes(seed, rows=48, cols=64):
@@ -45,7 +67,9 @@ def slowly(path, content, pieces=10, pause=0.1):
     """As an instrument writes: the file stays open and grows, for longer than the settle time."""
     with open(path, "wb", buffering=0) as stream:
         for piece in range(pieces):
-            stream.write(content[piece * len(content) // pieces:(piece + 1) * len(content) // pieces])
+            stream.write(
+                content[piece * len(content) // pieces : (piece + 1) * len(content) // pieces]
+            )
             time.sleep(pause)
 
 
@@ -54,12 +78,25 @@ class Source:
 
     def __init__(self, name, folder, home, **parameters):
         self.name = name
-        self._environment = dict(os.environ, ROS_NAMESPACE="/" + name, ROS_HOME=str(home), MEMS_STICTION_SCAN_FOLDERS=str(folder))
-        for key, value in dict(folder=str(folder), settle_time=0.1, diagnostic_period=0.1, poll_period=0.5, **parameters).items():
+        self._environment = dict(
+            os.environ,
+            ROS_NAMESPACE="/" + name,
+            ROS_HOME=str(home),
+            MEMS_STICTION_SCAN_FOLDERS=str(folder),
+        )
+        for key, value in dict(
+            folder=str(folder),
+            settle_time=0.1,
+            diagnostic_period=0.1,
+            poll_period=0.5,
+            **parameters,
+        ).items():
             rospy.set_param("/%s/source/%s" % (name, key), value)
 
     def start(self):
-        self.process = subprocess.Popen([find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=self._environment)
+        self.process = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=self._environment
+        )
         return self
 
     def end(self, number=signal.SIGTERM):
@@ -82,12 +119,29 @@ class FolderTest(unittest.TestCase):
         cls.home = cls.top / "home"
         cls.folder.mkdir()
         cls.home.mkdir()
-        (cls.top / "source.yaml").write_text(yaml.safe_dump(dict(
-            source="folder", settle_time=SETTLE, diagnostic_period=0.2, name_pattern=r"(?<part_id>[A-Z]+)_(?<serial_id>\d+)", recursive=True)))
+        (cls.top / "source.yaml").write_text(
+            yaml.safe_dump(
+                dict(
+                    source="folder",
+                    settle_time=SETTLE,
+                    diagnostic_period=0.2,
+                    name_pattern=r"(?<part_id>[A-Z]+)_(?<serial_id>\d+)",
+                    recursive=True,
+                )
+            )
+        )
         cls.station = subprocess.Popen(
-            ["roslaunch", get_pkg_dir("mems_stiction") + "/launch/station.launch", "config:=%s" % STATION, "folder:=%s" % cls.folder,
-             "source_config:=%s/source.yaml" % cls.top, "page:=false", "bag_prefix:=%s/day" % cls.top],
-            env=dict(os.environ, ROS_HOME=str(cls.home)))
+            [
+                "roslaunch",
+                get_pkg_dir("mems_stiction") + "/launch/station.launch",
+                "config:=%s" % STATION,
+                "folder:=%s" % cls.folder,
+                "source_config:=%s/source.yaml" % cls.top,
+                "page:=false",
+                "bag_prefix:=%s/day" % cls.top,
+            ],
+            env=dict(os.environ, ROS_HOME=str(cls.home)),
+        )
         cls.addClassCleanup(cls.stop)
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.infos = Collector("scan_info", ScanInfo).connect()
@@ -118,7 +172,9 @@ class FolderTest(unittest.TestCase):
         return self.of_content(content)[-1]
 
     def assert_books(self):
-        found, published, refused, waiting = (int(self.counts.fresh()[key]) for key in ("found", "published", "refused", "waiting"))
+        found, published, refused, waiting = (
+            int(self.counts.fresh()[key]) for key in ("found", "published", "refused", "waiting")
+        )
         self.assertEqual(found, published + refused + waiting)
 
     def test_1_a_file_that_grows_slowly_leads_to_one_prediction_the_command_lines_to_the_bit(self):
@@ -126,8 +182,14 @@ class FolderTest(unittest.TestCase):
         (self.folder / "BEAM_0042 top.txt.yaml").write_text(SIDECAR)
         slowly(self.folder / "BEAM_0042 top.txt", content, pieces=5, pause=1.5 * SETTLE)
         prediction = self.wait_for(content)
-        self.assertEqual((prediction.part_id, prediction.serial_id, prediction.scan_name), ("BEAM", "0042", "BEAM_0042 top"))
-        self.assertEqual(unlike(prediction, predict_scan(rough_surface(1), None, None), leaving_out=OF_THE_FILE), [])
+        self.assertEqual(
+            (prediction.part_id, prediction.serial_id, prediction.scan_name),
+            ("BEAM", "0042", "BEAM_0042 top"),
+        )
+        self.assertEqual(
+            unlike(prediction, predict_scan(rough_surface(1), None, None), leaving_out=OF_THE_FILE),
+            [],
+        )
         self.assertEqual(self.infos.of(prediction.header.stamp).part_id, "BEAM")
         self.counts.wait(published=1, refused=0, waiting=0, found=1)
 
@@ -143,7 +205,9 @@ class FolderTest(unittest.TestCase):
         self.put("below/C_1.txt", first)
         self.counts.wait(repeated=before + 1, waiting=0)
         self.assertEqual([len(self.of_content(one)) for one in (first, second)], [1, 1])
-        (self.folder / "B_1.txt.yaml").write_text(SIDECAR + "serial_id: '77'\n")  # another sidecar makes another scan
+        (self.folder / "B_1.txt.yaml").write_text(
+            SIDECAR + "serial_id: '77'\n"
+        )  # another sidecar makes another scan
         wait_until(lambda: len(self.of_content(second)) == 2, "the scan of the changed sidecar")
         self.assertEqual([one.serial_id for one in self.of_content(second)], ["1", "77"])
         self.assert_books()
@@ -170,7 +234,9 @@ class FolderTest(unittest.TestCase):
         contents = [grid_bytes(100 + seed, 24, 32) for seed in range(60)]
         for number, content in enumerate(contents):
             self.put("many/E_%03d.txt" % number, content)
-        wait_until(lambda: all(self.of_content(content) for content in contents), "a prediction of each")
+        wait_until(
+            lambda: all(self.of_content(content) for content in contents), "a prediction of each"
+        )
         self.assertEqual({len(self.of_content(content)) for content in contents}, {1})
         stamps = [prediction.header.stamp for prediction in self.predictions.messages]
         self.assertEqual(len(set(stamps)), len(stamps))
@@ -191,11 +257,19 @@ class FolderTest(unittest.TestCase):
             time.sleep(0.1)
             begin = time.monotonic()
             path.rename(self.folder / ("F_%d.npy" % seed))
-            wait_until(lambda: checksum(content) in {message.checksum for message in list(self.infos.messages)}, "the scan")
+            wait_until(
+                lambda: (
+                    checksum(content) in {message.checksum for message in list(self.infos.messages)}
+                ),
+                "the scan",
+            )
             sent.append(time.monotonic() - begin)
             self.wait_for(content)
             predicted.append(time.monotonic() - begin)
-        print("from file to scan %s s, to prediction %s s, of which %g s settle" % (*[", ".join("%.2f" % one for one in all) for all in (sent, predicted)], SETTLE))
+        print(
+            "from file to scan %s s, to prediction %s s, of which %g s settle"
+            % (*[", ".join("%.2f" % one for one in all) for all in (sent, predicted)], SETTLE)
+        )
         if os.getloadavg()[0] < os.cpu_count():  # else it waits for its turn of the processor, too
             self.assertLess(min(predicted), SETTLE + 0.5)
         computed = sum(seconds_of(topic) for topic in ("height", "prediction")) - before
@@ -206,7 +280,11 @@ class FolderTest(unittest.TestCase):
         scans = os.environ.get("MEMS_STICTION_SCANS")
         if not scans:
             self.skipTest("MEMS_STICTION_SCANS is not set")
-        files = sorted(path for path in pathlib.Path(scans).iterdir() if path.suffix in (".al3d", ".di", ".opd", ".tiff", ".top", ".x3p"))
+        files = sorted(
+            path
+            for path in pathlib.Path(scans).iterdir()
+            if path.suffix in (".al3d", ".di", ".opd", ".tiff", ".top", ".x3p")
+        )
         self.assertGreater(len(files), 2)
         refused = len(self.refused.messages)
         for path in files:
@@ -214,11 +292,16 @@ class FolderTest(unittest.TestCase):
         contents = {path.name: path.read_bytes() for path in files}
 
         def ended(name):
-            return self.of_content(contents[name]) or any(name in message.data for message in self.refused.messages[refused:])
+            return self.of_content(contents[name]) or any(
+                name in message.data for message in self.refused.messages[refused:]
+            )
 
         wait_until(lambda: all(map(ended, contents)), "an end of each")
         predicted = [name for name in contents if self.of_content(contents[name])]
-        print("predicted: %s; refused: %s" % (predicted, [message.data for message in self.refused.messages[refused:]]))
+        print(
+            "predicted: %s; refused: %s"
+            % (predicted, [message.data for message in self.refused.messages[refused:]])
+        )
         self.assertGreater(len(predicted), 2)
         self.assertEqual({len(self.of_content(contents[name])) for name in predicted}, {1})
         self.assert_books()
@@ -235,7 +318,9 @@ class FolderTest(unittest.TestCase):
             path.write_bytes(content)
             infos.wait(number + 1)
             if number % 4 == 1:
-                wait_until(lambda: checksum(content) in source.state(home), "the note of the content")
+                wait_until(
+                    lambda: checksum(content) in source.state(home), "the note of the content"
+                )
                 source.end(signal.SIGKILL)
                 source.start()
         heights.wait(len(contents))
@@ -246,8 +331,14 @@ class FolderTest(unittest.TestCase):
         counts.wait(waiting=0, published=0)
         counts.fresh()
         source.end()
-        self.assertEqual([message.checksum for message in infos.messages], [checksum(content) for content in contents])
-        self.assertEqual([message.header.stamp for message in heights.messages], [message.header.stamp for message in infos.messages])
+        self.assertEqual(
+            [message.checksum for message in infos.messages],
+            [checksum(content) for content in contents],
+        )
+        self.assertEqual(
+            [message.header.stamp for message in heights.messages],
+            [message.header.stamp for message in infos.messages],
+        )
 
     def test_8_killed_at_any_moment_none_is_lost_and_one_that_comes_again_has_its_stamp(self):
         folder, home = self.top / "any", self.top / "any home"
@@ -268,7 +359,9 @@ class FolderTest(unittest.TestCase):
             source.end(signal.SIGKILL)
             source.start()
         expected = {checksum(content) for content in contents}
-        wait_until(lambda: {message.checksum for message in infos.messages} == expected, "every content")
+        wait_until(
+            lambda: {message.checksum for message in infos.messages} == expected, "every content"
+        )
         source.end()
         stamps = {}
         for message in infos.messages:
@@ -290,20 +383,39 @@ class FolderTest(unittest.TestCase):
         wait_until(lambda: "listens" in counts["hindered_by"], "what it waits for")
         infos, _ = Collector("/old/scan_info", ScanInfo), Collector("/old/height", Image)
         infos.wait(1)
-        self.assertEqual([(message.scan_name, message.header.stamp.to_sec()) for message in infos.messages], [("2", 1.5e9 + 2)])
+        self.assertEqual(
+            [(message.scan_name, message.header.stamp.to_sec()) for message in infos.messages],
+            [("2", 1.5e9 + 2)],
+        )
         counts.wait(waiting=0, published=1)
         source.end()
 
     def test_a_bad_parameters_are_refused_with_their_names(self):
-        for name, value, words in (("folder", "/no/such/folder", "folder"), ("folder", "/etc", "must lie below"), ("name_pattern", "(?<x>.)", "part_id"),
-                                   ("settle_time", -1.0, "settle_time"), ("sauce", 1, "sauce"), ("state_file", "/etc/passwd", "state_file")):
+        for name, value, words in (
+            ("folder", "/no/such/folder", "folder"),
+            ("folder", "/etc", "must lie below"),
+            ("name_pattern", "(?<x>.)", "part_id"),
+            ("settle_time", -1.0, "settle_time"),
+            ("sauce", 1, "sauce"),
+            ("state_file", "/etc/passwd", "state_file"),
+        ):
             parameters = dict(folder=str(self.folder))
             parameters[name] = value
             for key, one in parameters.items():
                 rospy.set_param("/bad/source/" + key, one)
-            done = subprocess.run([find_node("mems_stiction", "scan_source")[0], "__name:=source"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  universal_newlines=True, timeout=TIMEOUT,
-                                  env=dict(os.environ, ROS_NAMESPACE="/bad", ROS_HOME=str(self.home), MEMS_STICTION_SCAN_FOLDERS=str(self.top)))
+            done = subprocess.run(
+                [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                universal_newlines=True,
+                timeout=TIMEOUT,
+                env=dict(
+                    os.environ,
+                    ROS_NAMESPACE="/bad",
+                    ROS_HOME=str(self.home),
+                    MEMS_STICTION_SCAN_FOLDERS=str(self.top),
+                ),
+            )
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(words, done.stdout)
             rospy.delete_param("/bad/source")
@@ -313,8 +425,10 @@ class FolderTest(unittest.TestCase):
         self.stop()
         (bag,) = self.top.glob("day*.bag")
         with rosbag.Bag(str(bag)) as recording:
-            stamps = {topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
-                      for topic in ("/height", "/scan_info", "/prediction")}
+            stamps = {
+                topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
+                for topic in ("/height", "/scan_info", "/prediction")
+            }
         self.assertEqual(stamps["/height"], stamps["/scan_info"])
         self.assertEqual(stamps["/prediction"], stamps["/height"])
         self.assertLessEqual(sent, stamps["/prediction"])

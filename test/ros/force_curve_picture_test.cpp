@@ -15,7 +15,8 @@ namespace {
 int pixelsOf(const sensor_msgs::Image& image, int red, int green, int blue) {
   int count = 0;
   for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
-    count += image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
+    count +=
+        image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
   }
   return count;
 }
@@ -59,7 +60,8 @@ TEST(ForceCurvePicture, ShowsBothWaysAndTheStatedPullOffForceAtTheHighestPointOf
   const sensor_msgs::ImagePtr picture = forceCurvePicture(scan, header);
   EXPECT_EQ(picture->encoding, "bgr8");
   EXPECT_EQ(picture->header.frame_id, "scan");
-  // lines two pixels wide and more across a plot of 860 pixels; where they cross one hides the other
+  // lines two pixels wide and more across a plot of 860 pixels; where they cross one hides the
+  // other
   EXPECT_GT(approachPixels(*picture), 400);
   EXPECT_GT(retractionPixels(*picture), 400);
   EXPECT_EQ(warningPixels(*picture), 0);
@@ -76,8 +78,8 @@ TEST(ForceCurvePicture, SaysWhereItComesFromAlongItsLowerEdge) {
     const sensor_msgs::ImagePtr picture = forceCurvePicture(scan, {});
     const std::size_t edge = picture->data.size() - std::size_t{25} * picture->step;
     // letters are brighter than the background
-    return std::count_if(picture->data.begin() + static_cast<std::ptrdiff_t>(edge), picture->data.end(),
-                         [](std::uint8_t value) { return value > 100; });
+    return std::count_if(picture->data.begin() + static_cast<std::ptrdiff_t>(edge),
+                         picture->data.end(), [](std::uint8_t value) { return value > 100; });
   };
   PredictedScan scan = predicted();
   EXPECT_EQ(written_below(scan), 0);

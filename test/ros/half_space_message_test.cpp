@@ -56,7 +56,9 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
   const std::set<std::string> lines = linesOf(message);
   int visited = 0;
   visitHalfSpaceFields(solved, [&](const Figure& figure, const auto& value) {
-    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value))) << figure.name << " in\n" << message;
+    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value)))
+        << figure.name << " in\n"
+        << message;
     ++visited;
   });
   EXPECT_EQ(visited, 12);
@@ -84,11 +86,13 @@ TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
   EXPECT_TRUE(std::isnan(message.margin) && std::isnan(message.peel_number_upper));
   fillVerdict(verdict, message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason, "two; lines; 95 %");  // commas would be fields for rostopic echo -p
+  EXPECT_EQ(message.verdict_reason,
+            "two; lines; 95 %");  // commas would be fields for rostopic echo -p
   EXPECT_EQ(message.verdict_by, "half_space");
   EXPECT_EQ((std::vector<double>{message.margin, message.margin_lower, message.margin_upper}),
             (std::vector<double>{0.5, 0.4, 0.6}));
-  EXPECT_EQ((std::vector<double>{message.peel_number, message.peel_number_lower, message.peel_number_upper}),
+  EXPECT_EQ((std::vector<double>{message.peel_number, message.peel_number_lower,
+                                 message.peel_number_upper}),
             (std::vector<double>{5.0, 4.0, 6.0}));
 }
 
@@ -113,9 +117,10 @@ TEST(HalfSpaceMessage, ARefusalHasNoFigures) {
   EXPECT_EQ(message.message, "two; lines");
   for (const double figure :
        {message.pull_off_force, message.pull_off_uncertainty, message.pull_off_height,
-        message.apparent_work_of_adhesion, message.adhesion_hysteresis, message.rest_height, message.contact_area,
-        message.contact_fraction, message.mean_gap, message.flowed_volume, message.cohesive_length, message.range,
-        message.processing_time, message.pull_off_force_under_voltage}) {
+        message.apparent_work_of_adhesion, message.adhesion_hysteresis, message.rest_height,
+        message.contact_area, message.contact_fraction, message.mean_gap, message.flowed_volume,
+        message.cohesive_length, message.range, message.processing_time,
+        message.pull_off_force_under_voltage}) {
     EXPECT_TRUE(std::isnan(figure));
   }
   EXPECT_EQ(message.contact_count, -1);
@@ -127,7 +132,8 @@ TEST(HalfSpaceMessage, ARefusalHasNoFigures) {
 int pixelsOf(const sensor_msgs::Image& image, int red, int green, int blue) {
   int count = 0;
   for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
-    count += image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
+    count +=
+        image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
   }
   return count;
 }
@@ -139,7 +145,8 @@ TEST(HalfSpacePictures, EachWayOfTheCurveHasItsColour) {
   // Lines two pixels wide across a plot of 860 pixels; where they cross one hides the other.
   EXPECT_GT(pixelsOf(*picture, 127, 178, 255), 400);
   EXPECT_GT(pixelsOf(*picture, 242, 183, 5), 400);
-  const sensor_msgs::ImagePtr refused = curvePicture(refusedMessage("no valid pixel", someLoad(), {}));
+  const sensor_msgs::ImagePtr refused =
+      curvePicture(refusedMessage("no valid pixel", someLoad(), {}));
   EXPECT_EQ(pixelsOf(*refused, 127, 178, 255) + pixelsOf(*refused, 242, 183, 5), 0);
   EXPECT_EQ(refused->data.size(), picture->data.size());
 }
@@ -148,7 +155,8 @@ TEST(HalfSpacePictures, SayWhereTheyComeFrom) {
   // letters are light on the dark of the lowest 25 rows
   const auto lettersOf = [](const sensor_msgs::ImagePtr& image) {
     const auto from = static_cast<std::ptrdiff_t>(image->step * (image->height - 25));
-    return std::count_if(image->data.begin() + from, image->data.end(), [](std::uint8_t value) { return value > 100; });
+    return std::count_if(image->data.begin() + from, image->data.end(),
+                         [](std::uint8_t value) { return value > 100; });
   };
   HalfSpaceSolution solution = halfSpaceMessage(solvedWithCurve(400), someLoad(), {});
   const cv::Mat map = cv::Mat::zeros(80, 80, CV_8UC1);

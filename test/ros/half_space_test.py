@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The half-space on topic, service and action: the command line's figures, under traffic, cancelled, and with bad input."""
+"""The half-space on topic, service and action: the command line's figures, under traffic,
+cancelled, and with bad input."""
 
 import math
 import threading
@@ -16,26 +17,77 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import (HalfSpaceAction, HalfSpaceFeedback, HalfSpaceGoal, HalfSpacePoint, HalfSpaceSolution, PartVerdict, ScanInfo,
-                               StictionPrediction)
+from mems_stiction.msg import (
+    HalfSpaceAction,
+    HalfSpaceFeedback,
+    HalfSpaceGoal,
+    HalfSpacePoint,
+    HalfSpaceSolution,
+    PartVerdict,
+    ScanInfo,
+    StictionPrediction,
+)
 from mems_stiction.srv import SetLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from sensor_msgs.msg import Image
-from stiction_client import (PITCH, TIMEOUT, Collector, Station, Traffic, image_message, info_message, needs_module, predict_scan, rough_surface,
-                             settings_of, wait_until)
+from stiction_client import (
+    PITCH,
+    TIMEOUT,
+    Collector,
+    Station,
+    Traffic,
+    image_message,
+    info_message,
+    needs_module,
+    predict_scan,
+    rough_surface,
+    settings_of,
+    wait_until,
+)
 
 LOAD = 1e-6
 SOON = 10.0  # a second is meant; the rest is for busy machines, and the work takes more [s]
-WORDS = {getattr(HalfSpaceSolution, word): word
-         for word in ("SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED", "REFUSED")}
+WORDS = {
+    getattr(HalfSpaceSolution, word): word
+    for word in (
+        "SOLVED",
+        "LOAD_NOT_REACHED",
+        "NOT_CONVERGED",
+        "TOO_MANY_STATES",
+        "CANCELLED",
+        "REFUSED",
+    )
+}
 WAYS = {HalfSpacePoint.APPROACH: "APPROACH", HalfSpacePoint.RETRACTION: "RETRACTION"}
 # As in the launch file.
-DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=4e-13, beam_type="cantilever", beam_length=100e-6,
-              beam_thickness=2e-6, beam_gap=2e-6, beam_modulus=160e9)
-STICKS = {"no": StictionPrediction.STICKS_NO, "marginal": StictionPrediction.STICKS_MARGINAL, "yes": StictionPrediction.STICKS_YES,
-          "unknown": StictionPrediction.STICKS_UNKNOWN}
-VERDICT = ("margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper")
-FIGURES = [name for name, kind in zip(HalfSpaceSolution.__slots__, HalfSpaceSolution._slot_types)
-           if kind == "float64" and name not in ("voltage", "mechanical_load")]
+DEVICE = dict(
+    spring_stiffness=1.0,
+    travel=1e-6,
+    contact_area=4e-13,
+    beam_type="cantilever",
+    beam_length=100e-6,
+    beam_thickness=2e-6,
+    beam_gap=2e-6,
+    beam_modulus=160e9,
+)
+STICKS = {
+    "no": StictionPrediction.STICKS_NO,
+    "marginal": StictionPrediction.STICKS_MARGINAL,
+    "yes": StictionPrediction.STICKS_YES,
+    "unknown": StictionPrediction.STICKS_UNKNOWN,
+}
+VERDICT = (
+    "margin",
+    "margin_lower",
+    "margin_upper",
+    "peel_number",
+    "peel_number_lower",
+    "peel_number_upper",
+)
+FIGURES = [
+    name
+    for name, kind in zip(HalfSpaceSolution.__slots__, HalfSpaceSolution._slot_types)
+    if kind == "float64" and name not in ("voltage", "mechanical_load")
+]
 
 
 def slow_surface():
@@ -45,8 +97,17 @@ def slow_surface():
 
 def record_of(surface, load=LOAD, voltage=0.0):
     """The half-space's figures, and under "verdict" the verdict."""
-    record = predict_scan(surface, load, voltage, arguments=["--half-space"], settings=settings_of(device=DEVICE, device_force={"enabled": False}))
-    return dict(record["half_space"], verdict={name: record[name] for name in VERDICT + ("sticks", "reason", "verdict_by")})
+    record = predict_scan(
+        surface,
+        load,
+        voltage,
+        arguments=["--half-space"],
+        settings=settings_of(device=DEVICE, device_force={"enabled": False}),
+    )
+    return dict(
+        record["half_space"],
+        verdict={name: record[name] for name in VERDICT + ("sticks", "reason", "verdict_by")},
+    )
 
 
 class HalfSpaceTest(unittest.TestCase):
@@ -66,8 +127,12 @@ class HalfSpaceTest(unittest.TestCase):
 
     def asked(self, kind, surface, voltage=math.nan, mechanical_load=math.nan, stamp=rospy.Time(7)):
         encodings = {"float32": "32FC1", "float64": "64FC1"}
-        return kind(height=image_message(surface, stamp, encodings[str(surface.dtype)]), scan_info=info_message(stamp),
-                    voltage=voltage, mechanical_load=mechanical_load)
+        return kind(
+            height=image_message(surface, stamp, encodings[str(surface.dtype)]),
+            scan_info=info_message(stamp),
+            voltage=voltage,
+            mechanical_load=mechanical_load,
+        )
 
     def run_goal(self, goal):
         feedback = []
@@ -96,20 +161,31 @@ class HalfSpaceTest(unittest.TestCase):
         return int(self.counts()[0].get(key, -1))
 
     def assert_solved_as(self, solution, record):
-        """Every figure that the command line prints, to the bit; of these only the time is another."""
+        """Every figure that the command line prints, to the bit; of these only the time is
+        another."""
         self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
         for name, expected in record.items():
-            if name not in ("curve", "status", "processing_time", "verdict", "contact_stiffness"):  # the last is not in the message
+            if name not in (
+                "curve",
+                "status",
+                "processing_time",
+                "verdict",
+                "contact_stiffness",
+            ):  # the last is not in the message
                 self.assertEqual(getattr(solution, name), expected, name)
         self.assertEqual(WORDS[solution.status], record["status"])
         verdict = record["verdict"]
         for name in VERDICT:
             self.assertEqual(getattr(solution, name), verdict[name], name)
-        self.assertEqual((solution.sticks, solution.verdict_reason, solution.verdict_by),
-                         (STICKS[verdict["sticks"]], verdict["reason"].replace(",", ";"), verdict["verdict_by"]))  # for rostopic echo -p
+        self.assertEqual(
+            (solution.sticks, solution.verdict_reason, solution.verdict_by),
+            (STICKS[verdict["sticks"]], verdict["reason"].replace(",", ";"), verdict["verdict_by"]),
+        )  # for rostopic echo -p
         self.assertIn("half-space", solution.verdict_reason)
-        self.assertEqual([(point.height, point.force, WAYS[point.direction]) for point in solution.curve],
-                         [(point["height"], point["force"], point["direction"]) for point in record["curve"]])
+        self.assertEqual(
+            [(point.height, point.force, WAYS[point.direction]) for point in solution.curve],
+            [(point["height"], point["force"], point["direction"]) for point in record["curve"]],
+        )
         self.assertGreater(solution.processing_time, 0.0)
 
     def assert_refused(self, solution, reason):
@@ -119,7 +195,10 @@ class HalfSpaceTest(unittest.TestCase):
         for name in FIGURES:
             self.assertTrue(math.isnan(getattr(solution, name)), name)
         self.assertEqual((solution.contact_count, len(solution.curve)), (-1, 0))
-        self.assertEqual((solution.sticks, solution.verdict_reason, solution.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
+        self.assertEqual(
+            (solution.sticks, solution.verdict_reason, solution.verdict_by),
+            (StictionPrediction.STICKS_UNKNOWN, "", ""),
+        )
 
     def test_1_without_a_scan_everybody_says_so(self):
         answer = self.solve(SolveHalfSpaceRequest())
@@ -149,13 +228,19 @@ class HalfSpaceTest(unittest.TestCase):
             request = SolveHalfSpaceRequest(voltage=voltage, mechanical_load=load)
             answer = self.solve(request)
             self.assert_solved_as(answer.solution, record_of(surface, load, voltage))
-            self.assertEqual((answer.solution.voltage, answer.solution.mechanical_load), (voltage, load))
-            self.assertEqual(answer.solution.header.stamp, self.predictions.messages[-1].header.stamp)
+            self.assertEqual(
+                (answer.solution.voltage, answer.solution.mechanical_load), (voltage, load)
+            )
+            self.assertEqual(
+                answer.solution.header.stamp, self.predictions.messages[-1].header.stamp
+            )
         self.assert_solved_as(self.live(surface), expected)
 
         # Beside it the other scan of a call is forgotten.
         other = rough_surface(2, rows=48, cols=64).astype(float)
-        self.assert_solved_as(self.solve(self.asked(SolveHalfSpaceRequest, other)).solution, record_of(other))
+        self.assert_solved_as(
+            self.solve(self.asked(SolveHalfSpaceRequest, other)).solution, record_of(other)
+        )
         last = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan))
         self.assert_solved_as(last.solution, expected)
 
@@ -166,7 +251,9 @@ class HalfSpaceTest(unittest.TestCase):
             info = info_message(stamp)
             info.scan_name, info.part_id, info.serial_id = "place %d" % place, "lot 3", "0012"
             count, solved = len(parts.messages), len(self.solutions.messages)
-            surface = rough_surface(place, rows=64, cols=64, rms_height=2e-9)  # whose contact is more than a pixel, so that it counts
+            surface = rough_surface(
+                place, rows=64, cols=64, rms_height=2e-9
+            )  # whose contact is more than a pixel, so that it counts
             self.station.height.publish(image_message(surface, stamp))
             self.station.info.publish(info)
             solution = self.solutions.wait(solved + 1)[solved]
@@ -175,19 +262,35 @@ class HalfSpaceTest(unittest.TestCase):
             for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
                 self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
             self.assertEqual(solution.scan_name, "place %d" % place)
-            self.assertEqual((before.header.stamp, after.header.stamp, after.scan_count), (stamp, stamp, place))
+            self.assertEqual(
+                (before.header.stamp, after.header.stamp, after.scan_count), (stamp, stamp, place)
+            )
             self.assertEqual(after.verdict_by, "half_space")
-            self.assertEqual(before.verdict_by, "prediction" if place == 1 else "prediction and half_space")
+            self.assertEqual(
+                before.verdict_by, "prediction" if place == 1 else "prediction and half_space"
+            )
             if place == 1:
-                self.assertEqual((after.margin, after.margin_lower, after.sticks), (solution.margin, solution.margin_lower, solution.sticks))
-        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)).solution
-        self.assertEqual((answer.scan_name, answer.part_id, answer.settings_hash), ("place 2", "lot 3", prediction.settings_hash))
+                self.assertEqual(
+                    (after.margin, after.margin_lower, after.sticks),
+                    (solution.margin, solution.margin_lower, solution.sticks),
+                )
+        answer = self.solve(
+            SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)
+        ).solution
+        self.assertEqual(
+            (answer.scan_name, answer.part_id, answer.settings_hash),
+            ("place 2", "lot 3", prediction.settings_hash),
+        )
         parts.close()
 
     def test_3_under_traffic_each_solution_belongs_to_the_prediction_of_its_stamp(self):
         surfaces = [rough_surface(seed, rows=64, cols=64) for seed in range(3, 6)]
         loads = (LOAD, 3e-6)
-        expected = {(index, load): record_of(surface, load) for index, surface in enumerate(surfaces) for load in loads}
+        expected = {
+            (index, load): record_of(surface, load)
+            for index, surface in enumerate(surfaces)
+            for load in loads
+        }
         first = len(self.solutions.messages)
         solved_by_calls = []
         with Traffic(self.station, surfaces, period=0.005, predictions=self.predictions) as traffic:
@@ -196,19 +299,33 @@ class HalfSpaceTest(unittest.TestCase):
                 count = len(self.solutions.messages)
                 self.solutions.wait(count + 4)
                 given = len(solved_by_calls) % len(surfaces)
-                state, result, _ = self.run_goal(self.asked(HalfSpaceGoal, surfaces[given], mechanical_load=load))
+                state, result, _ = self.run_goal(
+                    self.asked(HalfSpaceGoal, surfaces[given], mechanical_load=load)
+                )
                 self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
                 self.assert_solved_as(result.solution, expected[given, load])
-                state, result, _ = self.run_goal(HalfSpaceGoal(voltage=math.nan, mechanical_load=load))
+                state, result, _ = self.run_goal(
+                    HalfSpaceGoal(voltage=math.nan, mechanical_load=load)
+                )
                 self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
                 answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=load))
                 self.assertTrue(answer.success, answer.message)
                 solved_by_calls += [result.solution, answer.solution]
         self.assertTrue(self.set_load(0.0, LOAD).success)
-        wait_until(lambda: len(self.predictions.messages) and
-                   self.predictions.messages[-1].header.stamp == max(traffic.sent), "the last prediction")
-        wait_until(lambda: self.solutions.messages[-1].header.stamp == max(traffic.sent), "the solution of the newest scan")
-        predictions = {prediction.header.stamp: prediction for prediction in self.predictions.messages}
+        wait_until(
+            lambda: (
+                len(self.predictions.messages)
+                and self.predictions.messages[-1].header.stamp == max(traffic.sent)
+            ),
+            "the last prediction",
+        )
+        wait_until(
+            lambda: self.solutions.messages[-1].header.stamp == max(traffic.sent),
+            "the solution of the newest scan",
+        )
+        predictions = {
+            prediction.header.stamp: prediction for prediction in self.predictions.messages
+        }
         solutions = self.solutions.messages[first:]
         stamps = [solution.header.stamp for solution in solutions]
         self.assertEqual(stamps, sorted(set(stamps)))
@@ -221,18 +338,28 @@ class HalfSpaceTest(unittest.TestCase):
             self.assert_solved_as(solution, expected[index, solution.mechanical_load])
         self.assertEqual({solution.mechanical_load for solution in solutions}, set(loads))
         solved = len(self.solutions.messages)
-        wait_until(lambda: (self.count("offered"), self.count("solved"), self.count("failed")) == (len(predictions), solved, 0),
-                   "the count of every scan")
+        wait_until(
+            lambda: (
+                (self.count("offered"), self.count("solved"), self.count("failed"))
+                == (len(predictions), solved, 0)
+            ),
+            "the count of every scan",
+        )
         self.assertEqual(self.count("skipped"), len(predictions) - solved)
 
     def test_4_bad_input_gets_a_sentence_and_the_node_goes_on(self):
         surface = rough_surface(6, rows=64, cols=64)
         large = np.zeros((1025, 1024), np.float32)
-        cases = [(self.asked(SolveHalfSpaceRequest, np.full_like(surface, np.nan)), "valid"),
-                 (self.asked(SolveHalfSpaceRequest, large), "half_space/max_pixels = 1048576"),
-                 (self.asked(SolveHalfSpaceRequest, surface, voltage=math.inf), "load/voltage"),
-                 (self.asked(SolveHalfSpaceRequest, surface, voltage=51.0), "load/voltage"),
-                 (self.asked(SolveHalfSpaceRequest, surface, mechanical_load=-1e-9), "load/mechanical_load")]
+        cases = [
+            (self.asked(SolveHalfSpaceRequest, np.full_like(surface, np.nan)), "valid"),
+            (self.asked(SolveHalfSpaceRequest, large), "half_space/max_pixels = 1048576"),
+            (self.asked(SolveHalfSpaceRequest, surface, voltage=math.inf), "load/voltage"),
+            (self.asked(SolveHalfSpaceRequest, surface, voltage=51.0), "load/voltage"),
+            (
+                self.asked(SolveHalfSpaceRequest, surface, mechanical_load=-1e-9),
+                "load/mechanical_load",
+            ),
+        ]
         request = self.asked(SolveHalfSpaceRequest, surface)
         request.scan_info = ScanInfo()
         cases.append((request, "pitch"))
@@ -244,7 +371,9 @@ class HalfSpaceTest(unittest.TestCase):
             self.assertFalse(answer.success)
             self.assertIn(reason, answer.message)
             self.assert_refused(answer.solution, reason)
-            goal = HalfSpaceGoal(request.height, request.scan_info, request.voltage, request.mechanical_load)
+            goal = HalfSpaceGoal(
+                request.height, request.scan_info, request.voltage, request.mechanical_load
+            )
             state, result, _ = self.run_goal(goal)
             self.assertEqual(state, GoalStatus.ABORTED)
             self.assertIn(reason, result.message)
@@ -279,7 +408,9 @@ class HalfSpaceTest(unittest.TestCase):
     def test_6_an_action_is_cancelled_soon_while_scans_go_on(self):
         surface = rough_surface(8, rows=64, cols=64)
         feedback = []
-        self.action.send_goal(self.asked(HalfSpaceGoal, slow_surface()), feedback_cb=feedback.append)
+        self.action.send_goal(
+            self.asked(HalfSpaceGoal, slow_surface()), feedback_cb=feedback.append
+        )
         wait_until(lambda: len(feedback) > 3, "progress")
         self.assertEqual(self.live(surface).status, HalfSpaceSolution.SOLVED)
         self.assertTrue(self.solve(self.asked(SolveHalfSpaceRequest, surface)).success)
@@ -290,7 +421,9 @@ class HalfSpaceTest(unittest.TestCase):
         self.assertLess(time.monotonic() - begin, SOON)
         self.assertEqual(self.action.get_state(), GoalStatus.PREEMPTED)
         result = self.action.get_result()
-        self.assertEqual((result.message, result.solution.status), ("cancelled", HalfSpaceSolution.CANCELLED))
+        self.assertEqual(
+            (result.message, result.solution.status), ("cancelled", HalfSpaceSolution.CANCELLED)
+        )
         self.assertTrue(math.isnan(result.solution.pull_off_force))
         self.assertGreater(len(result.solution.curve), 0)
         shares = [message.progress for message in feedback]
@@ -298,7 +431,9 @@ class HalfSpaceTest(unittest.TestCase):
         self.assertTrue(all(0.0 <= share <= 1.0 for share in shares), shares)
         self.assertEqual(feedback[0].phase, HalfSpaceFeedback.APPROACH)
         # A new goal takes the place of one that runs.
-        self.action.send_goal(self.asked(HalfSpaceGoal, slow_surface()), feedback_cb=feedback.append)
+        self.action.send_goal(
+            self.asked(HalfSpaceGoal, slow_surface()), feedback_cb=feedback.append
+        )
         wait_until(lambda: len(feedback) > len(shares), "progress")
         state, result, _ = self.run_goal(self.asked(HalfSpaceGoal, surface))
         self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
@@ -314,7 +449,9 @@ class HalfSpaceTest(unittest.TestCase):
 
         def call():
             try:
-                answers.append(self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)))
+                answers.append(
+                    self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan))
+                )
             except rospy.ServiceException as error:  # the connection may go before the answer
                 answers.append(error)
 
@@ -325,8 +462,13 @@ class HalfSpaceTest(unittest.TestCase):
         master = rosgraph.Master("half_space_test")
         begin = time.monotonic()
         rosnode.kill_nodes(["/stiction_node"])  # of a nodelet this is the loader, which unloads it
-        wait_until(lambda: "/stiction_node/solve_half_space" not in [name for name, _ in master.getSystemState()[2]],
-                   "the node to end")
+        wait_until(
+            lambda: (
+                "/stiction_node/solve_half_space"
+                not in [name for name, _ in master.getSystemState()[2]]
+            ),
+            "the node to end",
+        )
         self.assertLess(time.monotonic() - begin, SOON)
         caller.join(TIMEOUT)
         self.assertFalse(caller.is_alive())

@@ -38,7 +38,8 @@ int rawValue(int row, int col) { return 1 + 7 * row + col; }
 
 /// @param padding unused bytes at the end of each row; a multiple of the scalar's size
 template <typename Scalar>
-sensor_msgs::ImagePtr image(const std::string& encoding, int channels = 1, std::size_t padding = 0) {
+sensor_msgs::ImagePtr image(const std::string& encoding, int channels = 1,
+                            std::size_t padding = 0) {
   auto message = boost::make_shared<sensor_msgs::Image>();
   message->header.stamp = ros::Time(12, 34);
   message->header.frame_id = "stage";
@@ -50,10 +51,12 @@ sensor_msgs::ImagePtr image(const std::string& encoding, int channels = 1, std::
   for (int row = 0; row < kRows; ++row) {
     for (int col = 0; col < kCols; ++col) {
       const auto value = static_cast<Scalar>(rawValue(row, col));
-      std::memcpy(&message->data[row * message->step + col * channels * sizeof(Scalar)], &value, sizeof value);
+      std::memcpy(&message->data[row * message->step + col * channels * sizeof(Scalar)], &value,
+                  sizeof value);
       const Scalar quality = 1;
       if (channels == 2) {
-        std::memcpy(&message->data[row * message->step + (col * 2 + 1) * sizeof(Scalar)], &quality, sizeof quality);
+        std::memcpy(&message->data[row * message->step + (col * 2 + 1) * sizeof(Scalar)], &quality,
+                    sizeof quality);
       }
     }
   }
@@ -61,7 +64,8 @@ sensor_msgs::ImagePtr image(const std::string& encoding, int channels = 1, std::
 }
 
 void swapBytes(sensor_msgs::Image& message, std::size_t scalar_size) {
-  for (auto at = message.data.begin(); at != message.data.end(); at += static_cast<std::ptrdiff_t>(scalar_size)) {
+  for (auto at = message.data.begin(); at != message.data.end();
+       at += static_cast<std::ptrdiff_t>(scalar_size)) {
     std::reverse(at, at + static_cast<std::ptrdiff_t>(scalar_size));
   }
   message.is_bigendian = message.is_bigendian ? 0 : 1;
@@ -74,7 +78,8 @@ void expectHeights(const HeightMap& surface, double scale, double offset) {
   EXPECT_EQ(surface.pitchY(), 20e-9);
   for (int row = 0; row < kRows; ++row) {
     for (int col = 0; col < kCols; ++col) {
-      EXPECT_DOUBLE_EQ(surface.height(row, col), rawValue(row, col) * scale + offset) << row << ", " << col;
+      EXPECT_DOUBLE_EQ(surface.height(row, col), rawValue(row, col) * scale + offset)
+          << row << ", " << col;
     }
   }
 }
@@ -95,7 +100,8 @@ void expectRoundTrip(const std::string& encoding, int channels = 1) {
 }
 
 /// The text of the refusal; empty if there was none.
-std::string refusal(const sensor_msgs::ImagePtr& message, const ScanOptions& options = calibration()) {
+std::string refusal(const sensor_msgs::ImagePtr& message,
+                    const ScanOptions& options = calibration()) {
   try {
     receiveScan(message, options);
   } catch (const SurfaceError& error) {
@@ -104,7 +110,9 @@ std::string refusal(const sensor_msgs::ImagePtr& message, const ScanOptions& opt
   return "";
 }
 
-bool names(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool names(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(ImageConversion, EveryEncodingComesThroughInBothByteOrdersAndWithPaddedRows) {
   expectRoundTrip<float>(enc::TYPE_32FC1);
@@ -137,7 +145,8 @@ TEST(ImageConversion, AReceivedScanKeepsItsPixelsAlive) {
 
 TEST(ImageConversion, NonFiniteFloatsAndTheInvalidValueAreInvalid) {
   auto message = image<float>(enc::TYPE_32FC1);
-  const float values[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+  const float values[] = {std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity(),
                           -std::numeric_limits<float>::infinity()};
   std::memcpy(message->data.data(), values, sizeof values);
   ScanOptions options = calibration(1e-9);
@@ -158,7 +167,8 @@ TEST(ImageConversion, NumbersBeyondAHeightAreInvalidInBothByteOrders) {
     EXPECT_EQ(surface.height(0, 2), static_cast<double>(9e19F));
     EXPECT_EQ(heightStatistics(surface).valid_count, kRows * kCols - 2);
     // In metres, as files have it: the same pixels in a smaller unit are heights.
-    EXPECT_EQ(heightStatistics(receiveScan(message, calibration(1e-30)).surface).valid_count, kRows * kCols);
+    EXPECT_EQ(heightStatistics(receiveScan(message, calibration(1e-30)).surface).valid_count,
+              kRows * kCols);
   }
 }
 
@@ -170,8 +180,9 @@ TEST(ImageConversion, SignedCountsKeepTheirSign) {
 }
 
 TEST(ImageConversion, RefusesOtherEncodingsAndListsWhatItTakes) {
-  for (const std::string& encoding : {std::string("rgb8"), std::string("bayer_rggb8"), std::string("64FC2"),
-                                      std::string(""), std::string("nonsense")}) {
+  for (const std::string& encoding :
+       {std::string("rgb8"), std::string("bayer_rggb8"), std::string("64FC2"), std::string(""),
+        std::string("nonsense")}) {
     auto message = image<float>(enc::TYPE_32FC1);
     message->encoding = encoding;
     const std::string text = refusal(message);
@@ -259,12 +270,14 @@ TEST(ScanInfoMessage, NamesThatNobodyReadsAreRefused) {
   header.frame_id += "a";
   EXPECT_THROW(identityOf(header, nullptr), SurfaceError);
   header.frame_id = "scan";
-  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id, &info.lot_id, &info.wafer_id,
-                            &info.acquisition_time, &info.instrument, &info.operator_name, &info.checksum}) {
+  for (std::string* name :
+       {&info.scan_name, &info.part_id, &info.serial_id, &info.lot_id, &info.wafer_id,
+        &info.acquisition_time, &info.instrument, &info.operator_name, &info.checksum}) {
     *name = longest;
   }
   EXPECT_EQ(identityOf(header, &info).checksum, longest);
-  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id, &info.operator_name, &info.checksum}) {
+  for (std::string* name :
+       {&info.scan_name, &info.part_id, &info.serial_id, &info.operator_name, &info.checksum}) {
     *name += "a";
     EXPECT_THROW(identityOf(header, &info), SurfaceError);
     *name = longest;
@@ -274,14 +287,17 @@ TEST(ScanInfoMessage, NamesThatNobodyReadsAreRefused) {
     identityOf(header, &info);
     FAIL();
   } catch (const SurfaceError& error) {
-    EXPECT_STREQ(error.what(), "scan_info.part_id: a name of 1001000 bytes is not allowed, must have at most 1000");
+    EXPECT_STREQ(
+        error.what(),
+        "scan_info.part_id: a name of 1001000 bytes is not allowed, must have at most 1000");
   }
 }
 
 TEST(ScanInfoMessage, ASiteIsStatedAsAWholeOrNotAtAll) {
   std_msgs::Header header;
   ScanInfo info;
-  EXPECT_TRUE(std::isnan(identityOf(header, &info).site_x)) << "what a publisher leaves that knows of no site";
+  EXPECT_TRUE(std::isnan(identityOf(header, &info).site_x))
+      << "what a publisher leaves that knows of no site";
   info.has_site = true;
   EXPECT_EQ(identityOf(header, &info).site_x, 0.0) << "the middle of the wafer";
   EXPECT_EQ(identityOf(header, &info).site_y, 0.0);
@@ -294,7 +310,8 @@ TEST(ScanInfoMessage, ASiteIsStatedAsAWholeOrNotAtAll) {
     identityOf(header, &info);
     FAIL();
   } catch (const SurfaceError& error) {
-    EXPECT_STREQ(error.what(), "scan_info.site_y: -0.01 is stated without site_x: state both, or none");
+    EXPECT_STREQ(error.what(),
+                 "scan_info.site_y: -0.01 is stated without site_x: state both, or none");
   }
   info.site_y = kNaN;
   EXPECT_TRUE(std::isnan(identityOf(header, &info).site_y));
@@ -318,11 +335,12 @@ TEST(ScanInfoMessage, WhatIsStatedOfAScanComesBack) {
     text << value;
     stated.push_back(text.str());
   });
-  visitScanIdentityFields(back, [&, place = std::size_t{0}](const Figure& figure, const auto& value) mutable {
-    std::ostringstream text;
-    text << value;
-    EXPECT_EQ(text.str(), stated[place++]) << figure.name;
-  });
+  visitScanIdentityFields(
+      back, [&, place = std::size_t{0}](const Figure& figure, const auto& value) mutable {
+        std::ostringstream text;
+        text << value;
+        EXPECT_EQ(text.str(), stated[place++]) << figure.name;
+      });
   fillIdentity({}, info);
   EXPECT_FALSE(info.has_site);
   EXPECT_TRUE(std::isnan(identityOf({}, &info).site_x));

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Line scanners on a stage, whose drivers publish a line in each PointCloud2, imitated message for message: by tf, joint, speed and count."""
+"""Line scanners on a stage, whose drivers publish a line in each PointCloud2, imitated message for
+message: by tf, joint, speed and count."""
 
 import os
 import pathlib
@@ -27,24 +28,40 @@ SENSOR = "sensor_optical_frame"
 
 
 def surface(seed=0):
-    """LINES x POINTS float32 [m] in the order of the map: a cap on a tilted plane, off the middle, with noise; row 0 has the largest y."""
+    """LINES x POINTS float32 [m] in the order of the map: a cap on a tilted plane, off the middle,
+    with noise; row 0 has the largest y."""
     rows, cols = np.mgrid[0:LINES, 0:POINTS]
-    cap = np.maximum(0.0, 1e-5 - ((cols * PITCH - 1.5e-4) ** 2 + (rows * LINE_PITCH - 4e-4) ** 2) / 3e-3)
+    cap = np.maximum(
+        0.0, 1e-5 - ((cols * PITCH - 1.5e-4) ** 2 + (rows * LINE_PITCH - 4e-4) ** 2) / 3e-3
+    )
     noise = np.random.RandomState(seed).normal(scale=1e-6, size=cap.shape)
     return (0.02 * cols * PITCH - 0.01 * rows * LINE_PITCH + cap + noise).astype(np.float32)
 
 
 def line(heights, stamp, size=16, missing=np.nan):
-    """One line as the drivers fill it: PCL's PointXYZ (16 bytes) of the LJ-V7000 with NaN, PointXYZI (32) of the scanCONTROL with +infinity."""
-    kind = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")] + ([("intensity", "<f4"), ("more", "<f4", 3)] if size == 32 else [])
+    """One line as the drivers fill it: PCL's PointXYZ (16 bytes) of the LJ-V7000 with NaN,
+    PointXYZI (32) of the scanCONTROL with +infinity."""
+    kind = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")] + (
+        [("intensity", "<f4"), ("more", "<f4", 3)] if size == 32 else []
+    )
     points = np.zeros(heights.size, dtype=kind)
     points["x"] = np.arange(heights.size) * PITCH
     points["z"] = np.where(np.isnan(heights), missing, heights)
-    message = PointCloud2(height=1, width=heights.size, is_bigendian=False, point_step=size, row_step=size * heights.size, is_dense=False,
-                          data=points.tobytes())
+    message = PointCloud2(
+        height=1,
+        width=heights.size,
+        is_bigendian=False,
+        point_step=size,
+        row_step=size * heights.size,
+        is_dense=False,
+        data=points.tobytes(),
+    )
     message.header.stamp, message.header.frame_id = stamp, SENSOR
     names = [("x", 0), ("y", 4), ("z", 8)] + ([("intensity", 16)] if size == 32 else [])
-    message.fields = [PointField(name=name, offset=offset, datatype=PointField.FLOAT32, count=1) for name, offset in names]
+    message.fields = [
+        PointField(name=name, offset=offset, datatype=PointField.FLOAT32, count=1)
+        for name, offset in names
+    ]
     return message
 
 
@@ -57,12 +74,20 @@ class Scanner:
     """A scan_source in a namespace of its own, with the sensor and stage that the test imitates."""
 
     def __init__(self, test, name, **parameters):
-        for key, value in dict(source="lines", diagnostic_period=0.1, transform_timeout=3.0, **parameters).items():
+        for key, value in dict(
+            source="lines", diagnostic_period=0.1, transform_timeout=3.0, **parameters
+        ).items():
             rospy.set_param("/%s/source/%s" % (name, key), value)
-        process = subprocess.Popen([find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=dict(os.environ, ROS_NAMESPACE="/" + name))
+        process = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=dict(os.environ, ROS_NAMESPACE="/" + name),
+        )
         test.addCleanup(process.wait)
         test.addCleanup(process.terminate)
-        self.heights, self.infos = Collector("/%s/height" % name, Image), Collector("/%s/scan_info" % name, ScanInfo)
+        self.heights, self.infos = (
+            Collector("/%s/height" % name, Image),
+            Collector("/%s/scan_info" % name, ScanInfo),
+        )
         self.refused = Collector("/%s/source/refused" % name, String).connect()
         self.counts = Counts()
         self.counts._name = name + "/source: scan_source"
@@ -70,13 +95,19 @@ class Scanner:
         self.trigger = rospy.Publisher("/%s/trigger" % name, Bool, queue_size=10)
         self.joints = rospy.Publisher("/%s/joint_states" % name, JointState, queue_size=1000)
         self.frames = rospy.Publisher("/tf", TFMessage, queue_size=1000)
-        self.begin, self.end = (rospy.ServiceProxy("/%s/source/%s_scan" % (name, what), Trigger) for what in ("begin", "end"))
-        used = [self.sensor, self.trigger] + {"joint": [self.joints], "tf": [self.frames]}.get(parameters["motion"], [])
+        self.begin, self.end = (
+            rospy.ServiceProxy("/%s/source/%s_scan" % (name, what), Trigger)
+            for what in ("begin", "end")
+        )
+        used = [self.sensor, self.trigger] + {"joint": [self.joints], "tf": [self.frames]}.get(
+            parameters["motion"], []
+        )
         wait_until(lambda: all(one.get_num_connections() for one in used), "the source to listen")
         wait_until(lambda: self.counts["found"] and not self.counts["hindered_by"], "listeners")
 
     def send(self, rows, first=1000.0, period=0.01, **how):
-        """The lines of the map, from the lowest y up, as the stage moves along y; 40 are one scan."""
+        """The lines of the map, from the lowest y up, as the stage moves along y; 40 are one
+        scan."""
         for number, heights in enumerate(rows[::-1]):
             self.sensor.publish(line(heights, rospy.Time.from_sec(first + number * period), **how))
 
@@ -114,7 +145,16 @@ class LinesTest(unittest.TestCase):
         scanner.counts.wait(found=2, published=2, waiting=0)
 
     def test_3_a_joint_that_turns_back_and_lines_that_are_lost_or_doubled(self):
-        scanner = Scanner(self, "joint", motion="joint", joint="stage", joint_scale=1e-3, line_pitch=LINE_PITCH, end_at_turn=True, pause=2.0)
+        scanner = Scanner(
+            self,
+            "joint",
+            motion="joint",
+            joint="stage",
+            joint_scale=1e-3,
+            line_pitch=LINE_PITCH,
+            end_at_turn=True,
+            pause=2.0,
+        )
         expected = surface(3)
         order = list(range(LINES))
         lost = 20
@@ -123,7 +163,13 @@ class LinesTest(unittest.TestCase):
         lowest = expected[::-1]
 
         def joint(stamp, place):
-            scanner.joints.publish(JointState(header=rospy.Header(stamp=stamp), name=["other", "stage"], position=[9.0, 1e3 * place]))
+            scanner.joints.publish(
+                JointState(
+                    header=rospy.Header(stamp=stamp),
+                    name=["other", "stage"],
+                    position=[9.0, 1e3 * place],
+                )
+            )
 
         for number, row in enumerate(order):
             stamp = rospy.Time.from_sec(1000.0 + 0.01 * number)
@@ -139,9 +185,12 @@ class LinesTest(unittest.TestCase):
         whole[LINES - 1 - lost] = np.nan
         np.testing.assert_allclose(heights_of(first), whole, rtol=0, atol=1e-10)
         self.assertEqual(np.isnan(heights_of(second)).sum(), 0)
-        # The line at which the turn shows is the first of the next scan; the one before it lay over another.
-        np.testing.assert_allclose(heights_of(second), expected[-(LINES - 2):], rtol=0, atol=1e-10)
-        scanner.counts.wait(lines_lost_by_position=1, lines_doubled=2, found=2, published=2, waiting=0)
+        # The line at which the turn shows is the first of the next scan; the one before it lay over
+        # another.
+        np.testing.assert_allclose(heights_of(second), expected[-(LINES - 2) :], rtol=0, atol=1e-10)
+        scanner.counts.wait(
+            lines_lost_by_position=1, lines_doubled=2, found=2, published=2, waiting=0
+        )
 
     def test_4_tf_places_the_lines_and_the_trigger_says_when(self):
         scanner = Scanner(self, "moved", motion="tf", frame="stage", line_pitch=LINE_PITCH)
@@ -151,7 +200,11 @@ class LinesTest(unittest.TestCase):
 
         def place(stamp, way):
             transform = TransformStamped()
-            transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, "stage", SENSOR
+            transform.header.stamp, transform.header.frame_id, transform.child_frame_id = (
+                stamp,
+                "stage",
+                SENSOR,
+            )
             transform.transform.rotation.w = 1.0
             transform.transform.translation.y = way
             scanner.frames.publish(TFMessage([transform]))
@@ -161,7 +214,9 @@ class LinesTest(unittest.TestCase):
             scanner.sensor.publish(line(heights, stamp, size=32, missing=np.inf))
             place(stamp, number * LINE_PITCH)  # behind the line, as tf comes late
         scanner.counts.wait(lines_of_this_scan=LINES)
-        scanner.sensor.publish(line(expected[0], rospy.Time(9000)))  # a line of which tf knows nothing
+        scanner.sensor.publish(
+            line(expected[0], rospy.Time(9000))
+        )  # a line of which tf knows nothing
         scanner.counts.wait(lines_without_place=1)
         scanner.trigger.publish(False)
         self.check(scanner, expected, tolerance=1e-11)
@@ -182,19 +237,34 @@ class LinesTest(unittest.TestCase):
     def test_6_the_station_predicts_the_scan_of_a_line_scanner(self):
         with tempfile.TemporaryDirectory() as name:
             top = pathlib.Path(name)
-            settings = yaml.safe_load(pathlib.Path(get_pkg_dir("mems_stiction"), "config", "source_lines.yaml").read_text())
+            settings = yaml.safe_load(
+                pathlib.Path(
+                    get_pkg_dir("mems_stiction"), "config", "source_lines.yaml"
+                ).read_text()
+            )
             settings.update(motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
             (top / "source.yaml").write_text(yaml.safe_dump(settings))
             station = subprocess.Popen(
-                ["roslaunch", get_pkg_dir("mems_stiction") + "/launch/station.launch", "config:=%s" % STATION, "points:=/profiles",
-                 "source_config:=%s/source.yaml" % top, "page:=false", "record:=false"], env=dict(os.environ, ROS_HOME=name))
+                [
+                    "roslaunch",
+                    get_pkg_dir("mems_stiction") + "/launch/station.launch",
+                    "config:=%s" % STATION,
+                    "points:=/profiles",
+                    "source_config:=%s/source.yaml" % top,
+                    "page:=false",
+                    "record:=false",
+                ],
+                env=dict(os.environ, ROS_HOME=name),
+            )
             try:
                 predictions = Collector("prediction", StictionPrediction).connect()
                 counts = Counts()
                 counts._name = "scan_source: scan_source"
                 sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
                 wait_until(sensor.get_num_connections, "the source to listen")
-                wait_until(lambda: counts["found"] and not counts["hindered_by"], "the node to listen")
+                wait_until(
+                    lambda: counts["found"] and not counts["hindered_by"], "the node to listen"
+                )
                 for number, heights in enumerate(surface(6)[::-1]):
                     sensor.publish(line(heights, rospy.Time.from_sec(1000.0 + 0.01 * number)))
                 self.assertEqual(predictions.wait(1)[0].header.stamp, rospy.Time(1000))

@@ -16,7 +16,9 @@
 namespace mems_stiction {
 namespace {
 
-ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, std::nullopt, {}}; }
+ReceivedScan scanOf(const HeightMap& surface) {
+  return {std_msgs::Header(), surface, std::nullopt, {}};
+}
 
 ReceivedScan roughScan(int seed = 3) {
   GaussianSurfaceOptions options;
@@ -144,7 +146,8 @@ void expectSameAsCycles(const Configuration& configuration, const ReceivedScan& 
     EXPECT_EQ(contact.contact_fraction, cycle.contact_fraction) << cycle.cycle;
     EXPECT_EQ(contact.asperity_count, cycle.asperity_count) << cycle.cycle;
   }
-  EXPECT_NE(cycled.cycles[1].pull_off_force, cycled.cycles[0].pull_off_force) << "a contact that leaves no mark";
+  EXPECT_NE(cycled.cycles[1].pull_off_force, cycled.cycles[0].pull_off_force)
+      << "a contact that leaves no mark";
 }
 
 TEST(LivePredictor, AccumulatedDeformationIsThatOfCyclesToTheBit) {
@@ -168,7 +171,8 @@ TEST(LivePredictor, TheSoftCounterSurfaceIsWornToo) {
   Configuration configuration = softConfiguration();
   configuration.model.load.mechanical_load = 1e-4;
   std::swap(configuration.model.lower.hardness, configuration.model.upper.hardness);
-  configuration.model.lower.hardness = 100.0 * configuration.model.upper.hardness;  // the plane alone flows
+  configuration.model.lower.hardness =
+      100.0 * configuration.model.upper.hardness;  // the plane alone flows
   expectSameAsCycles(configuration, roughScan());
 }
 
@@ -195,12 +199,15 @@ TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
   const ReceivedScan flat = roughScan();
   cv::Mat tilted = flat.surface.heights().clone();
   for (int col = 0; col < tilted.cols; ++col) tilted.col(col) += 1e-9 * col + 1e-6;
-  const ReceivedScan tilted_scan = scanOf(HeightMap(tilted, flat.surface.pitchX(), flat.surface.pitchY()));
-  const ReceivedScan levelled_scan = scanOf(ScanPreparer(configuration).prepare(flat.surface).surfaces.lower);
+  const ReceivedScan tilted_scan =
+      scanOf(HeightMap(tilted, flat.surface.pitchX(), flat.surface.pitchY()));
+  const ReceivedScan levelled_scan =
+      scanOf(ScanPreparer(configuration).prepare(flat.surface).surfaces.lower);
   plain.predictScan(levelled_scan, OutputOptions());
   levelling.predictScan(tilted_scan, OutputOptions());
   const double once = plain.predictScan(levelled_scan, OutputOptions()).prediction.pull_off_force;
-  const double levelled = levelling.predictScan(tilted_scan, OutputOptions()).prediction.pull_off_force;
+  const double levelled =
+      levelling.predictScan(tilted_scan, OutputOptions()).prediction.pull_off_force;
   EXPECT_NEAR(levelled, once, 1e-6 * once);
 }
 
@@ -213,7 +220,8 @@ TEST(LivePredictor, AnotherSizeIsAnotherSurface) {
   options.correlation_length_x = options.correlation_length_y = 40e-9;
   const ReceivedScan other = scanOf(gaussianSurface(options));
   LivePredictor fresh(softConfiguration(), true);
-  expectSame(predictor.predictScan(other, OutputOptions()), fresh.predictScan(other, OutputOptions()));
+  expectSame(predictor.predictScan(other, OutputOptions()),
+             fresh.predictScan(other, OutputOptions()));
 }
 
 TEST(LivePredictor, WaitsForTheCounterSurfaceOfTheTopic) {
@@ -237,19 +245,22 @@ TEST(LivePredictor, AScanIsCleanedOnceForAllWhoAskForIt) {
   configuration.preprocessing.refine.factor = 2;
   configuration.counter_surface.type = CounterSurfaceType::kTopic;
   configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
-  configuration.device.spring_stiffness = configuration.device.travel = configuration.device.contact_area = 1e-6;
+  configuration.device.spring_stiffness = configuration.device.travel =
+      configuration.device.contact_area = 1e-6;
   LivePredictor predictor(configuration, true);
   predictor.setCounterSurface(roughScan(4));
   std::uint64_t expected = 1;  // the counter-surface
   for (int scan = 0; scan < 3; ++scan) {
-    const PredictedScan live = predictor.predictScan(roughScan(3), OutputOptions());  // worn from the second on
+    const PredictedScan live =
+        predictor.predictScan(roughScan(3), OutputOptions());  // worn from the second on
     EXPECT_EQ(predictor.cleanings(), ++expected);
     EXPECT_EQ(predictor.lastSurface().rows(), 96);  // the preview
     RunningSettings settings = predictor.settings().current();
     settings.interface.work_of_adhesion *= 1.5;
     settings.load.voltage = 1.0;
     predictor.settings().change(settings);
-    EXPECT_NE(predictor.predictLastScan()->prediction.pull_off_force, live.prediction.pull_off_force);
+    EXPECT_NE(predictor.predictLastScan()->prediction.pull_off_force,
+              live.prediction.pull_off_force);
     const StationCase station_case = predictor.stationCase(nullptr);
     EXPECT_EQ(station_case.scan.model_surfaces.lower.rows(), 2 * 96);
     EXPECT_EQ(station_case.settings->model.load.voltage, 1.0);
@@ -258,7 +269,8 @@ TEST(LivePredictor, AScanIsCleanedOnceForAllWhoAskForIt) {
   const ReceivedScan given = roughScan(5);
   predictor.stationCase(&given);
   predictor.predictOnce(given, 0.0, 1e-6);
-  EXPECT_EQ(predictor.cleanings(), expected += 2) << "of scans that are not kept, once for each call";
+  EXPECT_EQ(predictor.cleanings(), expected += 2)
+      << "of scans that are not kept, once for each call";
   predictor.setCounterSurface(roughScan(6));
   predictor.predictLastScan();
   predictor.stationCase(nullptr);
@@ -283,12 +295,15 @@ TEST(LivePredictor, TheLastScanMeetsTheNewestCounterSurfaceAndForgetsItsWear) {
   EXPECT_NE(predictor.predictLastScan()->prediction.pull_off_force, worn);
   predictor.resetSurface();
   EXPECT_EQ(predictor.predictLastScan()->prediction.pull_off_force,
-            ScanPredictor(configuration).predict(roughScan(3).surface, roughScan(5).surface).pull_off_force);
+            ScanPredictor(configuration)
+                .predict(roughScan(3).surface, roughScan(5).surface)
+                .pull_off_force);
 
   GaussianSurfaceOptions other;
   other.rows = other.cols = 64;
   predictor.setCounterSurface(scanOf(gaussianSurface(other)));
-  for (int i = 0; i < 2; ++i) EXPECT_THROW(predictor.predictLastScan(), SurfaceError) << "its grid is another";
+  for (int i = 0; i < 2; ++i)
+    EXPECT_THROW(predictor.predictLastScan(), SurfaceError) << "its grid is another";
   EXPECT_EQ(predictor.lastSurface().rows(), 96);
   predictor.setCounterSurface(roughScan(4));
   EXPECT_TRUE(predictor.predictLastScan());
@@ -346,7 +361,8 @@ TEST(LivePredictor, EverySettingChangesAtOnceOrNone) {
   predictor.settings().change(options);
   const PredictedScan after = *predictor.predictLastScan();
   EXPECT_GT(after.prediction.pull_off_force, before.prediction.pull_off_force);
-  EXPECT_NEAR(after.verdict.margin, 1e-12 / after.prediction.pull_off_force, 1e-9 * after.verdict.margin);
+  EXPECT_NEAR(after.verdict.margin, 1e-12 / after.prediction.pull_off_force,
+              1e-9 * after.verdict.margin);
   EXPECT_EQ(after.verdict.sticks, Sticks::kYes);
   expectSame(predictor.predictOnce(scan, 0.0, 2e-6), after);
 }
@@ -427,17 +443,20 @@ TEST(DisplayConversion, FillsTheViewWhateverTheSizeOfTheScan) {
   header.frame_id = "stage";
   for (const double pitch : {1e-9, 1e-6}) {
     const HeightMap surface(heights, pitch, pitch);
-    const Prediction prediction =
-        LivePredictor(softConfiguration(), false).predictScan(scanOf(surface), OutputOptions()).prediction;
+    const Prediction prediction = LivePredictor(softConfiguration(), false)
+                                      .predictScan(scanOf(surface), OutputOptions())
+                                      .prediction;
     DisplayOptions display;
     const auto cloud = surfacePoints(prediction, surface, header, display);
     EXPECT_EQ(cloud.header.frame_id, "stiction_view");
     sensor_msgs::PointCloud2ConstIterator<float> first(cloud, "x");
-    // The first pixel is the upper left one: 127 and 95 pitches across, about the origin, the longer side 128 of 10 m.
+    // The first pixel is the upper left one: 127 and 95 pitches across, about the origin, the
+    // longer side 128 of 10 m.
     EXPECT_NEAR(first[0], -0.5 * 127 / 128 * kViewSize, 1e-5);
     EXPECT_NEAR(first[1], 0.5 * 95 / 128 * kViewSize, 1e-5);
     const auto markers = asperityMarkers(prediction, surface, header, display);
-    EXPECT_NE(markers.markers[1].text.find(pitch < 1e-8 ? "128 nm x 96 nm" : "128 um x 96 um"), std::string::npos)
+    EXPECT_NE(markers.markers[1].text.find(pitch < 1e-8 ? "128 nm x 96 nm" : "128 um x 96 um"),
+              std::string::npos)
         << markers.markers[1].text;
 
     display.frame = "";
@@ -448,8 +467,9 @@ TEST(DisplayConversion, FillsTheViewWhateverTheSizeOfTheScan) {
     sensor_msgs::PointCloud2ConstIterator<float> corner(stated, "x");
     EXPECT_NEAR(corner[0] / (-63.5 * pitch * 1e6), 1.0, 1e-6);
     EXPECT_NEAR(corner[2] / (corner[3] * 4e6), 1.0, 1e-6);  // z against the height about the mean
-    EXPECT_NE(asperityMarkers(prediction, surface, header, display).markers[1].text.find("heights x 4,"),
-              std::string::npos);
+    EXPECT_NE(
+        asperityMarkers(prediction, surface, header, display).markers[1].text.find("heights x 4,"),
+        std::string::npos);
   }
 }
 
@@ -502,7 +522,8 @@ TEST(LivePredictor, AnotherLookAtTheSameScanCountsOnce) {
   predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions());
   EXPECT_FALSE(predictor.predictLastScan()->part);
   EXPECT_FALSE(predictor.predictOnce(scanOfPart(4, "lot 3"), 0.0, 2e-6).part);
-  EXPECT_EQ(predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions()).part->scan_count, 1);  // played again
+  EXPECT_EQ(predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions()).part->scan_count,
+            1);  // played again
   EXPECT_EQ(predictor.predictScan(scanOfPart(5, "lot 3"), OutputOptions()).part->scan_count, 2);
 }
 
@@ -511,8 +532,9 @@ TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
   const auto predicted = [&](int seed, const std::string& part) {
     const ReceivedScan scan = scanOfPart(seed, part);
     const PredictedScan result = predictor.predictScan(scan, OutputOptions());
-    return std::pair(ScanOfPart{scan.header, result.provenance, result.pool_settings_hash, result.scan_id},
-                     result.verdict);
+    return std::pair(
+        ScanOfPart{scan.header, result.provenance, result.pool_settings_hash, result.scan_id},
+        result.verdict);
   };
   auto [first, verdict] = predicted(3, "lot 3");
   const ScanOfPart second = predicted(4, "lot 3").first;
@@ -521,7 +543,8 @@ TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
   ASSERT_TRUE(news);
   EXPECT_EQ(news->verdict.scan_count, 2);
   EXPECT_EQ(news->verdict.verdict_by, "prediction and half_space");
-  EXPECT_EQ(news->last.provenance.scan_name, "place 4");  // the scan that came last, not the one that was judged
+  EXPECT_EQ(news->last.provenance.scan_name,
+            "place 4");  // the scan that came last, not the one that was judged
   EXPECT_EQ(news->last.header.stamp, second.header.stamp);
 
   predicted(5, "another");
@@ -540,11 +563,13 @@ TEST(LivePredictor, ScansWithoutAStampAreJudgedAgainEachByItself) {
     const PredictedScan predicted = predictor.predictScan(scan, OutputOptions());
     EXPECT_EQ(predicted.part->scan_count, seed - 2);
     EXPECT_EQ(predictor.predictLastScan()->scan_id, predicted.scan_id);
-    scans.push_back({scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id});
+    scans.push_back(
+        {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id});
     verdict = predicted.verdict;
   }
   verdict.judge = Judge::kHalfSpace;
-  EXPECT_EQ(predictor.judgeAgain(scans[0], verdict)->verdict.verdict_by, "prediction and half_space");
+  EXPECT_EQ(predictor.judgeAgain(scans[0], verdict)->verdict.verdict_by,
+            "prediction and half_space");
   EXPECT_EQ(predictor.judgeAgain(scans[1], verdict)->verdict.verdict_by, "half_space");
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A roscore of the test's own is killed and started again on the same port: while a bag is played to the node, and as soon
-as the node answers."""
+"""A roscore of the test's own is killed and started again on the same port: while a bag is played
+to the node, and as soon as the node answers."""
 
 import pathlib
 import signal
@@ -18,7 +18,17 @@ from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import TIMEOUT, Collector, Counts, Station, make_bag, predict_scan, rough_surface, wait_for_listener, wait_until
+from stiction_client import (
+    TIMEOUT,
+    Collector,
+    Counts,
+    Station,
+    make_bag,
+    predict_scan,
+    rough_surface,
+    wait_for_listener,
+    wait_until,
+)
 
 CONFIG = pathlib.Path(__file__).parent / "station.yaml"
 NODELET = "true" in sys.argv
@@ -28,12 +38,24 @@ SCANS = 60
 
 
 def launch_node():
-    return subprocess.Popen(["roslaunch", "mems_stiction", "stiction.launch", "config:=%s" % CONFIG,
-                             "nodelet:=%s" % str(NODELET).lower(), "--wait"])
+    return subprocess.Popen(
+        [
+            "roslaunch",
+            "mems_stiction",
+            "stiction.launch",
+            "config:=%s" % CONFIG,
+            "nodelet:=%s" % str(NODELET).lower(),
+            "--wait",
+        ]
+    )
 
 
 def services_of(process):
-    return sorted(name for name, nodes in rosgraph.Master("/master_test").getSystemState()[2] if process in nodes)
+    return sorted(
+        name
+        for name, nodes in rosgraph.Master("/master_test").getSystemState()[2]
+        if process in nodes
+    )
 
 
 class MasterTest(unittest.TestCase):
@@ -51,8 +73,12 @@ class MasterTest(unittest.TestCase):
         cls.roscore.kill()
 
     def master_reports(self, word):
-        return [status for message in self.diagnostics.messages for status in message.status
-                if status.name == "stiction_node: master" and word in status.message]
+        return [
+            status
+            for message in self.diagnostics.messages
+            for status in message.status
+            if status.name == "stiction_node: master" and word in status.message
+        ]
 
     def test_a_node_outlives_its_master_and_is_found_at_the_next(self):
         rospy.wait_for_service("/stiction_node/set_load", timeout=TIMEOUT)
@@ -63,21 +89,31 @@ class MasterTest(unittest.TestCase):
         station = Station()
         set_load = rospy.ServiceProxy("/stiction_node/set_load", SetLoad, persistent=True)
         self.assertTrue(set_load(3.0, 2 * LOAD).success)
-        wait_until(lambda: rospy.get_param("/stiction_node/reconfigure/voltage") == 3.0, "the mirror of the load")
+        wait_until(
+            lambda: rospy.get_param("/stiction_node/reconfigure/voltage") == 3.0,
+            "the mirror of the load",
+        )
         stated = rospy.get_param("/stiction_node")
         with_first_master = rosgraph.Master("/master_test").getSystemState()
 
         with tempfile.TemporaryDirectory() as folder:
             bag = folder + "/scans.bag"
             make_bag(bag, "-n", str(SCANS), "--rate", "5", "--rows", "48", "--cols", "64")
-            play = subprocess.Popen(["rosbag", "play", "--quiet", "--wait-for-subscribers", bag], stdin=subprocess.DEVNULL,
-                                    stdout=subprocess.DEVNULL)
+            play = subprocess.Popen(
+                ["rosbag", "play", "--quiet", "--wait-for-subscribers", bag],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+            )
             try:
                 predictions.wait(5)
                 self.roscore.kill()
-                wait_until(lambda: self.master_reports("does not answer"), "a report that the master is gone")
+                wait_until(
+                    lambda: self.master_reports("does not answer"),
+                    "a report that the master is gone",
+                )
                 self.assertTrue(set_load(3.0, 2 * LOAD).success)
-                # Scans go on without a master. How many are left for the next one depends on the machine.
+                # Scans go on without a master. How many are left for the next one depends on the
+                # machine.
                 predictions.wait(min(len(predictions.messages) + 5, SCANS))
                 self.roscore.start()
                 rospy.wait_for_service("/stiction_node/get_load", timeout=TIMEOUT)
@@ -88,21 +124,31 @@ class MasterTest(unittest.TestCase):
         # Every scan of the bag, also those of the time without a master; one prediction each.
         counts.wait(received=SCANS, predicted=SCANS, rejected=0, dropped=0, waiting=0)
         self.assertEqual(len(predictions.wait(SCANS)), SCANS)
-        wait_until(lambda: self.master_reports("knows this node")[-1].values[0].value == "1", "a report of the registration")
+        wait_until(
+            lambda: self.master_reports("knows this node")[-1].values[0].value == "1",
+            "a report of the registration",
+        )
         self.assertTrue([line for line in log.messages if "does not answer" in line.msg])
 
         # What the master holds is what the first one held.
         def ours(state):
             return [sorted(name for name, nodes in kind if PROCESS in nodes) for kind in state]
 
-        wait_until(lambda: ours(rosgraph.Master("/master_test").getSystemState()) == ours(with_first_master),
-                   "all registrations")
+        wait_until(
+            lambda: (
+                ours(rosgraph.Master("/master_test").getSystemState()) == ours(with_first_master)
+            ),
+            "all registrations",
+        )
         self.assertEqual(rospy.get_param("/stiction_node"), stated)
         # Whoever comes now finds the services and the topics, with the load that was set.
         load = rospy.ServiceProxy("/stiction_node/get_load", GetLoad)()
         self.assertEqual((load.voltage, load.mechanical_load), (3.0, 2 * LOAD))
-        newcomer = subprocess.Popen(["rostopic", "echo", "-n", "1", "/prediction/pull_off_force"], stdout=subprocess.PIPE,
-                                    universal_newlines=True)
+        newcomer = subprocess.Popen(
+            ["rostopic", "echo", "-n", "1", "/prediction/pull_off_force"],
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+        )
         surface = rough_surface(7)
         wait_for_listener("/prediction", "/rostopic")
         stamp = station.send(surface)
@@ -113,13 +159,16 @@ class MasterTest(unittest.TestCase):
         self.assertEqual(last.pull_off_force, record["pull_off_force"])
         self.assertEqual(float(echoed), record["pull_off_force"])
 
-    def test_a_node_that_loses_its_master_at_its_first_answer_is_found_with_all_services_at_the_next(self):
+    def test_a_node_that_loses_its_master_at_its_first_answer_is_found_with_all_services_at_the_next(  # noqa: E501
+        self,
+    ):
         cls = type(self)
         cls.launch.send_signal(signal.SIGINT)
         cls.launch.wait(timeout=TIMEOUT)
         cls.launch = launch_node()
         rospy.wait_for_service("/stiction_node/set_load", timeout=TIMEOUT)
-        # A service answers only once the node has started: before its first regular look at the master.
+        # A service answers only once the node has started: before its first regular look at the
+        # master.
         self.assertTrue(rospy.ServiceProxy("/stiction_node/set_load", SetLoad)(2.0, LOAD).success)
         services = services_of(PROCESS)
         self.assertIn("/stiction_node/get_load", services)

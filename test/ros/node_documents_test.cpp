@@ -10,8 +10,9 @@ namespace {
 
 TEST(NodeDocuments, ParametersAreThoseOfTheCode) {
   NodeOptions options;
-  documents::expectUpToDate(MEMS_STICTION_SOURCE_DIR "/doc/parameters.md", "node",
-                            documents::parameterTables([&](OptionVisitor& visitor) { options.describe(visitor); }));
+  documents::expectUpToDate(
+      MEMS_STICTION_SOURCE_DIR "/doc/parameters.md", "node",
+      documents::parameterTables([&](OptionVisitor& visitor) { options.describe(visitor); }));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-"""A roscore of a test's own, on a port that was free. To be imported before rospy, which reads ROS_MASTER_URI then."""
+"""A roscore of a test's own, on a port that was free. To be imported before rospy, which reads
+ROS_MASTER_URI then."""
 
 import os
 import signal
@@ -26,12 +27,18 @@ class Roscore:
     """roscore and the processes that it starts."""
 
     def start(self):
-        self.process = subprocess.Popen(["roscore", "-p", str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen(
+            ["roscore", "-p", str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         wait_until(master_is_there, "roscore")
-        wait_until(lambda: "/rosout" in str(rosgraph.Master("/own_roscore").getSystemState()), "rosout")
+        wait_until(
+            lambda: "/rosout" in str(rosgraph.Master("/own_roscore").getSystemState()), "rosout"
+        )
 
     def _send(self, number):
-        children = subprocess.run(["pgrep", "-P", str(self.process.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout
+        children = subprocess.run(
+            ["pgrep", "-P", str(self.process.pid)], stdout=subprocess.PIPE, universal_newlines=True
+        ).stdout
         for process in [self.process.pid] + [int(child) for child in children.split()]:
             os.kill(process, number)
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Drivers whose stamps do not tell their scans apart: no scan gets the scan_info of another in silence, and each counts once."""
+"""Drivers whose stamps do not tell their scans apart: no scan gets the scan_info of another in
+silence, and each counts once."""
 
 import time
 import unittest
@@ -8,7 +9,16 @@ import rospy
 import rostest
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from sensor_msgs.msg import Image
-from stiction_client import Collector, Counts, OwnNode, Station, image_message, info_message, rough_surface, wait_until
+from stiction_client import (
+    Collector,
+    Counts,
+    OwnNode,
+    Station,
+    image_message,
+    info_message,
+    rough_surface,
+    wait_until,
+)
 
 SCANS = 60
 
@@ -41,7 +51,8 @@ class PairingTest(unittest.TestCase):
         rospy.init_node("pairing_test")
 
     def check(self, name, stamps, names, lost=(None, None), period=0.05):
-        """Sends the scans; gives the predictions and the counts, each prediction with the scan_info of its image."""
+        """Sends the scans; gives the predictions and the counts, each prediction with the scan_info
+        of its image."""
         with OwnNode(name):
             counts = Counts(name + "/node")
             predictions = Collector("/%s/prediction" % name, StictionPrediction).connect()
@@ -50,12 +61,20 @@ class PairingTest(unittest.TestCase):
             for number in range(SCANS):
                 driver.send(number, names(number), number != lost[0], number != lost[1])
                 time.sleep(period)
-            wait_until(lambda: counts["waiting_for_partner"] == "0" and counts["waiting"] == "0"
-                       and int(counts["predicted"] or 0) + int(counts["rejected"] or 0) >= SCANS, "the end of the scans")
+            wait_until(
+                lambda: (
+                    counts["waiting_for_partner"] == "0"
+                    and counts["waiting"] == "0"
+                    and int(counts["predicted"] or 0) + int(counts["rejected"] or 0) >= SCANS
+                ),
+                "the end of the scans",
+            )
             time.sleep(4.0)  # whatever were counted twice would be by now
             crossed = [m for m in predictions.messages if m.header.frame_id != m.scan_name]
             self.assertEqual(crossed, [])
-            figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped")}
+            figures = {
+                key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped")
+            }
             self.assertEqual(figures["predicted"] + figures["rejected"], SCANS, figures)
             self.assertEqual(figures["received"], SCANS, figures)
             return figures, counts.reasons()
@@ -85,7 +104,10 @@ class PairingTest(unittest.TestCase):
                 driver.send(number, "b%d" % number, with_image=False)
                 driver.send(number, "a%d" % number, with_image=False)
                 time.sleep(0.02)
-            wait_until(lambda: counts["waiting_for_partner"] == "0" and int(counts["rejected"] or 0) > 0, "the end of the scans")
+            wait_until(
+                lambda: counts["waiting_for_partner"] == "0" and int(counts["rejected"] or 0) > 0,
+                "the end of the scans",
+            )
             counts.wait(received=2 * SCANS, rejected=2 * SCANS, predicted=0)
             self.assertEqual(predictions.messages, [])
 
@@ -94,7 +116,10 @@ class PairingTest(unittest.TestCase):
             counts = Counts("late/node")
             height = rospy.Publisher("/late/height", Image, queue_size=10)
             info = rospy.Publisher("/late/scan_info", ScanInfo, queue_size=10)
-            wait_until(lambda: height.get_num_connections() and info.get_num_connections(), "the node to subscribe")
+            wait_until(
+                lambda: height.get_num_connections() and info.get_num_connections(),
+                "the node to subscribe",
+            )
             stamp = rospy.Time(1000)
             height.publish(image_message(rough_surface(1), stamp))
             counts.wait(received=1, rejected=1)

@@ -16,9 +16,13 @@
 namespace mems_stiction {
 namespace {
 
-NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) { return statedConfiguration(tree).configuration; }
+NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) {
+  return statedConfiguration(tree).configuration;
+}
 
-NodeConfiguration fromText(const std::string& text) { return nodeConfigurationFromYaml(YAML::Load(text)); }
+NodeConfiguration fromText(const std::string& text) {
+  return nodeConfigurationFromYaml(YAML::Load(text));
+}
 
 std::string violations(const std::string& text) {
   try {
@@ -30,7 +34,8 @@ std::string violations(const std::string& text) {
 }
 
 TEST(Parameters, AnEmptyNamespaceGivesTheDefaults) {
-  const NodeConfiguration configuration = nodeConfigurationFromYaml(YAML::Node(YAML::NodeType::Map));
+  const NodeConfiguration configuration =
+      nodeConfigurationFromYaml(YAML::Node(YAML::NodeType::Map));
   EXPECT_EQ(configuration.node.queue_size, 10);
   EXPECT_EQ(configuration.node.drop_policy, DropPolicy::kAll);
   EXPECT_TRUE(configuration.node.use_scan_info);
@@ -39,7 +44,8 @@ TEST(Parameters, AnEmptyNamespaceGivesTheDefaults) {
 
 TEST(Parameters, NodeAndCoreKeysStandSideBySide) {
   const NodeConfiguration configuration = fromText(
-      "{queue_size: 3, drop_policy: latest, lower: {hardness: 2.0e9}, load: {mechanical_load: 1e-6}, "
+      "{queue_size: 3, drop_policy: latest, lower: {hardness: 2.0e9}, load: {mechanical_load: "
+      "1e-6}, "
       "display: {max_points: 100}}");
   EXPECT_EQ(configuration.node.queue_size, 3);
   EXPECT_EQ(configuration.node.drop_policy, DropPolicy::kLatest);
@@ -50,9 +56,10 @@ TEST(Parameters, NodeAndCoreKeysStandSideBySide) {
 
 TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
   const std::string text = violations(
-      "{queue_sise: 3, drop_policy: newest, lower: {hardness: -1}, pairing_timeout: soon, load: {voltage: 5}}");
-  for (const char* key :
-       {"queue_sise", "drop_policy", "lower/hardness", "pairing_timeout", "interface/insulator_thickness"}) {
+      "{queue_sise: 3, drop_policy: newest, lower: {hardness: -1}, pairing_timeout: soon, load: "
+      "{voltage: 5}}");
+  for (const char* key : {"queue_sise", "drop_policy", "lower/hardness", "pairing_timeout",
+                          "interface/insulator_thickness"}) {
     EXPECT_NE(text.find(key), std::string::npos) << key << " in\n" << text;
   }
   EXPECT_NE(text.find("newest"), std::string::npos) << text;
@@ -61,7 +68,8 @@ TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
 TEST(Parameters, LongValuesAndNamesAreRefusedInShort) {
   EXPECT_LT(violations("{drop_policy: " + std::string(100000, 'a') + "}").size(), 1000U);
   EXPECT_LT(violations("{queue_size: " + std::string(100000, 'a') + "}").size(), 1000U);
-  EXPECT_LT(violations("{" + std::string(1000, 'k') + ": " + std::string(100000, 'a') + "}").size(), 1000U);
+  EXPECT_LT(violations("{" + std::string(1000, 'k') + ": " + std::string(100000, 'a') + "}").size(),
+            1000U);
   const std::string longest(1000, 'p');
   for (const std::string key : {"id", "serial", "lot", "wafer"}) {
     EXPECT_EQ(violations("{part: {" + key + ": " + longest + "p}}"),
@@ -86,7 +94,8 @@ TEST(Parameters, TenThousandUnknownOnesAreRefusedWithinASecond) {
     statedConfiguration(yamlFromParameters(tree));
     ADD_FAILURE() << "none of them is a setting";
   } catch (const OptionsError& error) {
-    EXPECT_NE(error.violations().back().find("9900 more keys"), std::string::npos) << error.violations().back();
+    EXPECT_NE(error.violations().back().find("9900 more keys"), std::string::npos)
+        << error.violations().back();
   }
   // 12 s and more where each key was compared with all before; a tenth of a second else
   EXPECT_LT((ros::WallTime::now() - begin).toSec(), 3.0);
@@ -95,7 +104,8 @@ TEST(Parameters, TenThousandUnknownOnesAreRefusedWithinASecond) {
 TEST(Parameters, TenThousandOfNoTypeAreNamedInShort) {
   XmlRpc::XmlRpcValue tree;
   std::tm date = {};
-  for (int number = 0; number < 10000; ++number) tree["date_" + std::to_string(number)] = XmlRpc::XmlRpcValue(&date);
+  for (int number = 0; number < 10000; ++number)
+    tree["date_" + std::to_string(number)] = XmlRpc::XmlRpcValue(&date);
   try {
     yamlFromParameters(tree);
     ADD_FAILURE() << "a date is no setting";
@@ -114,18 +124,21 @@ TEST(Parameters, TimersHaveAShortestPeriod) {
 
 TEST(Parameters, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
   const std::string text = violations("{approach: {formulation: corrected}}");
-  EXPECT_NE(text.find("approach/formulation: 'corrected' is no longer there"), std::string::npos) << text;
+  EXPECT_NE(text.find("approach/formulation: 'corrected' is no longer there"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("`paper`"), std::string::npos) << text;
   EXPECT_EQ(violations("{approach: {formulation: paper}}"), "");
 }
 
 TEST(Parameters, ImageTransportMayKeepItsOwnKeys) {
-  EXPECT_EQ(violations("{image_transport: raw, deformed_height: {disable_pub_plugins: [image_transport/theora]}, "
+  EXPECT_EQ(violations("{image_transport: raw, deformed_height: {disable_pub_plugins: "
+                       "[image_transport/theora]}, "
                        "contact_map: {compressed: {format: png}}}"),
             "");
   EXPECT_NE(violations("{contact_map: {color: red}}").find("contact_map/color"), std::string::npos);
-  EXPECT_NE(violations("{prediction: {disable_pub_plugins: []}}").find("prediction/disable_pub_plugins"),
-            std::string::npos);
+  EXPECT_NE(
+      violations("{prediction: {disable_pub_plugins: []}}").find("prediction/disable_pub_plugins"),
+      std::string::npos);
 }
 
 /// Their plugins allocate what a message states: 43 bytes took 4 GB.
@@ -154,7 +167,8 @@ YAML::Node withFile(const std::string& text) {
 }
 
 TEST(Parameters, TheTextOfAFileIsReadAsTheCommandLineReadsIt) {
-  const StatedConfiguration stated = statedConfiguration(withFile("part: {id: 0012}\nload: {mechanical_load: 1e-6}\n"));
+  const StatedConfiguration stated =
+      statedConfiguration(withFile("part: {id: 0012}\nload: {mechanical_load: 1e-6}\n"));
   EXPECT_EQ(stated.configuration.core.part.id, "0012");
   EXPECT_EQ(stated.configuration.core.model.load.mechanical_load, 1e-6);
   EXPECT_EQ(stated.from_files, (std::vector<std::string>{"load/mechanical_load", "part/id"}));
@@ -163,10 +177,12 @@ TEST(Parameters, TheTextOfAFileIsReadAsTheCommandLineReadsIt) {
 
 TEST(Parameters, AKeyThatAFileHasTwiceIsRefusedWithFileAndLines) {
   try {
-    statedConfiguration(withFile("preprocessing: {level: plane}\npreprocessing: {fill: {enabled: true}}\n"));
+    statedConfiguration(
+        withFile("preprocessing: {level: plane}\npreprocessing: {fill: {enabled: true}}\n"));
     ADD_FAILURE();
   } catch (const OptionsError& error) {
-    EXPECT_NE(std::string(error.what()).find("part.yaml: preprocessing: given in line 2 and before in line 1"),
+    EXPECT_NE(std::string(error.what())
+                  .find("part.yaml: preprocessing: given in line 2 and before in line 1"),
               std::string::npos)
         << error.what();
   }
@@ -184,20 +200,23 @@ TEST(Parameters, WhatIsNoYamlIsNamedByItsFile) {
 TEST(Parameters, RelativePathsOfAFileGoByItsFolder) {
   YAML::Node tree = withFile("counter_surface: {type: file, file: upper.npy, facing: up}\n");
   tree["config"]["file"] = "/data/line 1/part.yaml";
-  EXPECT_EQ(statedConfiguration(tree).configuration.core.counter_surface.file, "/data/line 1/upper.npy");
+  EXPECT_EQ(statedConfiguration(tree).configuration.core.counter_surface.file,
+            "/data/line 1/upper.npy");
   tree["config"]["file"] = "part.yaml";  // which the node's own folder does not hold
   try {
     statedConfiguration(tree);
     ADD_FAILURE();
   } catch (const OptionsError& error) {
-    EXPECT_EQ(std::string(error.what()).find("part.yaml: counter_surface/file: 'upper.npy' goes by the folder of this"),
+    EXPECT_EQ(std::string(error.what())
+                  .find("part.yaml: counter_surface/file: 'upper.npy' goes by the folder of this"),
               0u)
         << error.what();
   }
   tree["config"]["text"] = "counter_surface: {type: file, file: /data/upper.npy, facing: up}\n";
   EXPECT_EQ(statedConfiguration(tree).configuration.core.counter_surface.file, "/data/upper.npy");
   const std::string here = std::filesystem::current_path().string();
-  EXPECT_EQ(fromText("{preprocessing: {region: {mask_file: mask.png}}}").core.preprocessing.region.mask_file,
+  EXPECT_EQ(fromText("{preprocessing: {region: {mask_file: mask.png}}}")
+                .core.preprocessing.region.mask_file,
             here + "/mask.png");
 }
 
@@ -210,8 +229,11 @@ TEST(Parameters, TextsThatContainThemselvesAreRefused) {
     }
     return std::string();
   };
-  EXPECT_EQ(refusal(withFile("scan: &x {b: *x}")).find("part.yaml: line 1: an alias stands inside what it names"), 0u);
-  EXPECT_NE(refusal(withFile("# " + std::string(1000000, 'x'))).find("more than the 1000000 of"), std::string::npos);
+  EXPECT_EQ(refusal(withFile("scan: &x {b: *x}"))
+                .find("part.yaml: line 1: an alias stands inside what it names"),
+            0u);
+  EXPECT_NE(refusal(withFile("# " + std::string(1000000, 'x'))).find("more than the 1000000 of"),
+            std::string::npos);
   YAML::Node taken;
   taken["load"]["max_voltage"] = "5";
   for (const char* text : {"&x {b: *x}", "a: [1"}) {
@@ -233,7 +255,8 @@ TEST(Parameters, ParametersBesideAFileGoBeforeItAndAreNamed) {
 }
 
 TEST(Parameters, WithoutFilesWhatAnEarlierRunHasLeftDoesNotMixWithWhatWasSetSince) {
-  YAML::Node tree = YAML::Load("{load: {mechanical_load: 1e-6, max_voltage: 5}, lower: {hardness: 2e9}}");
+  YAML::Node tree =
+      YAML::Load("{load: {mechanical_load: 1e-6, max_voltage: 5}, lower: {hardness: 2e9}}");
   tree["taken_at_start"] = statedConfiguration(tree).taken;
   EXPECT_NO_THROW(statedConfiguration(tree));  // started again
   tree["load"]["max_voltage"] = "6";
@@ -242,7 +265,9 @@ TEST(Parameters, WithoutFilesWhatAnEarlierRunHasLeftDoesNotMixWithWhatWasSetSinc
     ADD_FAILURE();
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 2u) << error.what();
-    EXPECT_EQ(error.violations()[0].find("load/mechanical_load: 1e-6 lies there since an earlier run"), 0u)
+    EXPECT_EQ(
+        error.violations()[0].find("load/mechanical_load: 1e-6 lies there since an earlier run"),
+        0u)
         << error.what();
     EXPECT_EQ(error.violations()[1].find("lower/hardness"), 0u) << error.what();
   }
@@ -282,7 +307,9 @@ TEST(Parameters, ATextThatArrivesAsANumberIsRefused) {
     ADD_FAILURE();
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 4u) << error.what();
-    EXPECT_EQ(error.violations()[0].find("part/id: 15 came as a number or a flag, must be a text: quote it ('15')"), 0u)
+    EXPECT_EQ(error.violations()[0].find(
+                  "part/id: 15 came as a number or a flag, must be a text: quote it ('15')"),
+              0u)
         << error.what();
   }
   tree = XmlRpc::XmlRpcValue();
@@ -319,9 +346,11 @@ TEST(Parameters, TypesThatAreNoSettingAreNamed) {
 /// The file is the documentation of the parameters, so it must show every key with its default.
 TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
   const YAML::Node shipped = YAML::LoadFile(MEMS_STICTION_SOURCE_DIR "/config/node.yaml");
-  const YAML::Node defaults = YAML::Load(toYaml([](OptionVisitor& visitor) { NodeOptions().describe(visitor); }));
+  const YAML::Node defaults =
+      YAML::Load(toYaml([](OptionVisitor& visitor) { NodeOptions().describe(visitor); }));
   std::size_t compared = 0;
-  const auto compare = [&](const YAML::Node& left, const YAML::Node& right, const std::string& where) {
+  const auto compare = [&](const YAML::Node& left, const YAML::Node& right,
+                           const std::string& where) {
     ASSERT_EQ(left.size(), right.size()) << where;
     for (const auto& entry : right) {
       const std::string key = entry.first.Scalar();

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A recording of scans of two parts through the node: what part_verdict says is what stiction_batch pools of the same scans, to the bit."""
+"""A recording of scans of two parts through the node: what part_verdict says is what stiction_batch
+pools of the same scans, to the bit."""
 
 import json
 import pathlib
@@ -17,10 +18,20 @@ from roslib.packages import find_node
 from stiction_client import NODE_KEYS, TIMEOUT, Collector, Counts, make_bag, play_bag
 
 # of each scan; the first part comes back after the second, and the last scan states none
-IDS = [("lot 3", "0012"), ("lot 3", "0012"), ("lot 3", "0013"), ("lot 3", "0012"), ("lot 3", "0013"), ("lot 3", "0012"), ("", "")]
+IDS = [
+    ("lot 3", "0012"),
+    ("lot 3", "0012"),
+    ("lot 3", "0013"),
+    ("lot 3", "0012"),
+    ("lot 3", "0013"),
+    ("lot 3", "0012"),
+    ("", ""),
+]
 FIGURES = ["scan_count", "counted_scans", "regime_flags"] + [
-    name % ratio for ratio in ("margin", "peel_number")
-    for name in ("%s", "%s_lower", "%s_upper", "%s_spread", "%s_place_spread", "worst_%s")]
+    name % ratio
+    for ratio in ("margin", "peel_number")
+    for name in ("%s", "%s_lower", "%s_upper", "%s_spread", "%s_place_spread", "worst_%s")
+]
 STICKS = {"no": 0, "marginal": 1, "yes": 2, "unknown": 3}
 
 
@@ -33,7 +44,22 @@ class PartsTest(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.bag = str(cls.folder / "parts.bag")
         plain = str(cls.folder / "scans.bag")
-        make_bag(plain, "--count", str(len(IDS)), "--rows", "96", "--cols", "96", "--rate", "20", "--rms-height", "3e-9", "6e-9", "--seed", "5")
+        make_bag(
+            plain,
+            "--count",
+            str(len(IDS)),
+            "--rows",
+            "96",
+            "--cols",
+            "96",
+            "--rate",
+            "20",
+            "--rms-height",
+            "3e-9",
+            "6e-9",
+            "--seed",
+            "5",
+        )
         with rosbag.Bag(cls.bag, "w") as target, rosbag.Bag(plain) as source:
             places = {}
             for topic, message, stamp in source.read_messages():
@@ -49,11 +75,30 @@ class PartsTest(unittest.TestCase):
     def batch(self, load):
         """Rows of the parts by stiction_batch, by serial number."""
         config = (pathlib.Path(__file__).parent / "device_station.yaml").read_text()
-        config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS)
+        config = "".join(
+            line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS
+        )
         (self.folder / "config.yaml").write_text(config)
-        rows, parts = (str(self.folder / ("%s%g.jsonl" % (name, load))) for name in ("rows", "parts"))
-        subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-c", str(self.folder / "config.yaml"), "--load", repr(load), "-o", rows,
-                        "--parts", parts, self.bag], check=True, timeout=TIMEOUT, stdout=subprocess.DEVNULL)
+        rows, parts = (
+            str(self.folder / ("%s%g.jsonl" % (name, load))) for name in ("rows", "parts")
+        )
+        subprocess.run(
+            [
+                find_node("mems_stiction", "stiction_batch")[0],
+                "-c",
+                str(self.folder / "config.yaml"),
+                "--load",
+                repr(load),
+                "-o",
+                rows,
+                "--parts",
+                parts,
+                self.bag,
+            ],
+            check=True,
+            timeout=TIMEOUT,
+            stdout=subprocess.DEVNULL,
+        )
         with open(parts) as stream:
             return {row["serial_id"]: row for row in map(json.loads, stream)}
 
@@ -89,7 +134,17 @@ class PartsTest(unittest.TestCase):
         self.assertGreater(messages[5].margin_spread, 0.0)
 
         first = self.predictions.messages[0]  # one scan says what it says itself
-        for name in ("margin", "margin_lower", "margin_upper", "sticks", "reason", "regime_flags", "settings_hash", "version", "scan_name"):
+        for name in (
+            "margin",
+            "margin_lower",
+            "margin_upper",
+            "sticks",
+            "reason",
+            "regime_flags",
+            "settings_hash",
+            "version",
+            "scan_name",
+        ):
             self.assertEqual(getattr(messages[0], name), getattr(first, name), name)
 
     def test_2_who_comes_late_finds_the_last_and_a_recording_that_is_played_again_counts_once(self):

@@ -1,4 +1,5 @@
-/// Every figure of the tables exists in its message, under its name, with its unit and with its value.
+/// Every figure of the tables exists in its message, under its name, with its unit and with its
+/// value.
 
 #include <map>
 #include <set>
@@ -52,7 +53,8 @@ class InPrint {
   template <typename Value>
   void operator()(const Figure& figure, const Value& value) {
     const std::string line = std::string(figure.name) + ": " + text(value) + "\n";
-    EXPECT_TRUE(print_.find("\n" + line) != std::string::npos || print_.find("\n  " + line) != std::string::npos)
+    EXPECT_TRUE(print_.find("\n" + line) != std::string::npos ||
+                print_.find("\n  " + line) != std::string::npos)
         << line << " in " << print_;
     ++seen;
   }
@@ -72,7 +74,9 @@ struct Fill {
   void operator()(const Figure&, int& value) { value = static_cast<int>(++next_count); }
   void operator()(const Figure&, std::uint32_t& value) { value = ++next_count; }
   void operator()(const Figure&, bool& value) { value = true; }
-  void operator()(const Figure& figure, std::string& value) { value = std::string("text of ") + figure.name; }
+  void operator()(const Figure& figure, std::string& value) {
+    value = std::string("text of ") + figure.name;
+  }
   void operator()(const Figure&, Status& value) { value = Status::kBonded; }
   void operator()(const Figure&, Regime& value) { value = Regime::kPlastic; }
   void operator()(const Figure&, BondingRegime& value) { value = BondingRegime::kAdherence; }
@@ -87,7 +91,8 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
   visitRoughnessFields(scan.prediction.roughness, fill);
   visitSpatialRoughnessFields(scan.prediction.spatial_roughness, fill);
   visitVerdictFields(scan.verdict, fill);
-  // the message has one field for it: the device's, which is the prediction's unless it was measured
+  // the message has one field for it: the device's, which is the prediction's unless it was
+  // measured
   scan.prediction.apparent_work_of_adhesion = scan.verdict.apparent_work_of_adhesion;
   scan.preprocessing.tip_unreached_fraction = 0.125;
   scan.preprocessing.steps.resize(2);
@@ -137,7 +142,8 @@ std::map<std::string, std::string> commentsOf() {
 /// Visitor: each figure has its field, and the unit behind it, "[-]" for a number without one.
 class InDefinition {
  public:
-  explicit InDefinition(std::map<std::string, std::string> comments) : comments_(std::move(comments)) {}
+  explicit InDefinition(std::map<std::string, std::string> comments)
+      : comments_(std::move(comments)) {}
 
   template <typename Value>
   void operator()(const Figure& figure, const Value& /*value*/) {
@@ -146,7 +152,8 @@ class InDefinition {
       return;
     }
     ASSERT_EQ(comments_.count(figure.name), 1u) << figure.name << " has no field";
-    const std::string unit = *figure.unit == '\0' && std::is_same_v<Value, double> ? "-" : figure.unit;
+    const std::string unit =
+        *figure.unit == '\0' && std::is_same_v<Value, double> ? "-" : figure.unit;
     ++seen;
     if (unit.empty()) return;
     EXPECT_NE(comments_[figure.name].find("[" + unit + "]"), std::string::npos) << figure.name;
@@ -156,7 +163,8 @@ class InDefinition {
 
  private:
   std::map<std::string, std::string> comments_;
-  const std::set<std::string> without_ = {"is_at_border", "rest_force", "residual", "state_count"};  // Python's alone
+  const std::set<std::string> without_ = {"is_at_border", "rest_force", "residual",
+                                          "state_count"};  // Python's alone
 };
 
 TEST(Definitions, haveAFieldForEachFigureWithItsUnit) {
@@ -169,7 +177,8 @@ TEST(Definitions, haveAFieldForEachFigureWithItsUnit) {
   visitVerdictFields(scan.verdict, prediction);
   visitProvenanceFields(scan.provenance, prediction);
   EXPECT_GT(prediction.seen, 70);
-  InDefinition roughness(commentsOf<RoughnessStatistics>()), spatial(commentsOf<SpatialRoughnessStatistics>());
+  InDefinition roughness(commentsOf<RoughnessStatistics>()),
+      spatial(commentsOf<SpatialRoughnessStatistics>());
   visitRoughnessFields(scan.prediction.roughness, roughness);
   visitSpatialRoughnessFields(scan.prediction.spatial_roughness, spatial);
   EXPECT_EQ(roughness.seen + spatial.seen, 18);
@@ -182,7 +191,8 @@ TEST(Definitions, haveAFieldForEachFigureWithItsUnit) {
   visitHalfSpaceFields({}, half_space);
   visitHalfSpaceDetails({}, half_space);
   EXPECT_EQ(part.seen + half_space.seen, 42);
-  InDefinition sweep(commentsOf<SweepPoint>()), summary(commentsOf<SweepSummary>()), cycle(commentsOf<CyclePoint>());
+  InDefinition sweep(commentsOf<SweepPoint>()), summary(commentsOf<SweepSummary>()),
+      cycle(commentsOf<CyclePoint>());
   visitSweepFields({}, sweep);
   visitSummaryFields({}, summary);
   visitCycleFields({}, cycle);
@@ -200,7 +210,8 @@ TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
   scan.provenance.settings_hash = "with a pose";
   scan.pool_settings_hash = "without";
 
-  const PartVerdict message = partVerdictMessage(*scan.part, {{}, scan.provenance, scan.pool_settings_hash});
+  const PartVerdict message =
+      partVerdictMessage(*scan.part, {{}, scan.provenance, scan.pool_settings_hash});
   InPrint print(message);
   const PooledVerdict& filled = *scan.part;
   visitPartVerdictFields(filled, print);

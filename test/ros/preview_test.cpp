@@ -1,4 +1,5 @@
-/// The picture of the prepared scan that the node publishes: which pixels it shows, and in which shape.
+/// The picture of the prepared scan that the node publishes: which pixels it shows, and in which
+/// shape.
 
 #include <cmath>
 #include <vector>
@@ -13,7 +14,8 @@ namespace {
 TEST(Preview, IsAPictureOfTheValidPixels) {
   cv::Mat heights(6, 10, CV_32FC1);
   for (int row = 0; row < 6; ++row) {
-    for (int col = 0; col < 10; ++col) heights.at<float>(row, col) = static_cast<float>(1e-9 * (10 * row + col));
+    for (int col = 0; col < 10; ++col)
+      heights.at<float>(row, col) = static_cast<float>(1e-9 * (10 * row + col));
   }
   heights.at<float>(0, 0) = std::nanf("");
   heights.at<float>(5, 9) = HUGE_VALF;
@@ -40,7 +42,8 @@ TEST(Preview, IsAPictureOfTheValidPixels) {
   EXPECT_EQ(thinned.data[0], 0);
 
   const cv::Mat nothing(4, 4, CV_32FC1, cv::Scalar(std::nanf("")));
-  for (const std::uint8_t pixel : previewImage(HeightMap(nothing, 1e-8, 1e-8), header, display).data) {
+  for (const std::uint8_t pixel :
+       previewImage(HeightMap(nothing, 1e-8, 1e-8), header, display).data) {
     EXPECT_EQ(pixel, 0);
   }
 }
@@ -76,7 +79,9 @@ TEST(Preview, ABarSaysWhichGreyIsWhichHeight) {
   ASSERT_GT(image.width, 60U + 12U);
   ASSERT_EQ(image.data.size(), static_cast<std::size_t>(image.step) * image.height);
   EXPECT_EQ(image.step, image.width);
-  const auto at = [&](std::size_t row, std::size_t col) { return image.data[row * image.step + col]; };
+  const auto at = [&](std::size_t row, std::size_t col) {
+    return image.data[row * image.step + col];
+  };
   for (std::size_t row = 0; row < 100; ++row) {
     for (std::size_t col = 0; col < 60; ++col) ASSERT_EQ(at(row, col), alone.data[row * 60 + col]);
     EXPECT_NEAR(at(row, 60 + 8), 255.0 - 254.0 * static_cast<double>(row) / 99.0, 0.6);
@@ -92,8 +97,8 @@ TEST(Preview, ABarSaysWhichGreyIsWhichHeight) {
 /// A disc of height 1 nm and of the given diameter in the middle of a plane of 0.6 um.
 HeightMap disc(double diameter, double pitch_x, double pitch_y) {
   const double size = 0.6e-6;
-  cv::Mat heights(static_cast<int>(std::lround(size / pitch_y)), static_cast<int>(std::lround(size / pitch_x)),
-                  CV_64FC1);
+  cv::Mat heights(static_cast<int>(std::lround(size / pitch_y)),
+                  static_cast<int>(std::lround(size / pitch_x)), CV_64FC1);
   for (int row = 0; row < heights.rows; ++row) {
     for (int col = 0; col < heights.cols; ++col) {
       const double x = (col + 0.5) * pitch_x - 0.5 * size;
@@ -121,7 +126,8 @@ Reach reachOf(const sensor_msgs::Image& image) {
 }
 
 TEST(Preview, ADiscIsRoundWhateverThePitches) {
-  for (const auto& [pitch_x, pitch_y] : {std::pair(2e-9, 10e-9), std::pair(12e-9, 3e-9), std::pair(4e-9, 5e-9)}) {
+  for (const auto& [pitch_x, pitch_y] :
+       {std::pair(2e-9, 10e-9), std::pair(12e-9, 3e-9), std::pair(4e-9, 5e-9)}) {
     for (const int most : {1024, 120}) {
       DisplayOptions display;
       display.max_preview_size = most;
@@ -145,7 +151,8 @@ TEST(Preview, AFrameOfOneLongLineKeepsItsSize) {
   const sensor_msgs::Image image = previewImage(surface, {}, display);
   EXPECT_EQ(image.width, 100U);
   EXPECT_EQ(image.height, 1U);
-  const sensor_msgs::Image slip = previewImage(HeightMap(cv::Mat::zeros(4, 4, CV_64FC1), 20.0, 1e-15), {}, display);
+  const sensor_msgs::Image slip =
+      previewImage(HeightMap(cv::Mat::zeros(4, 4, CV_64FC1), 20.0, 1e-15), {}, display);
   EXPECT_EQ(slip.width, 100U);
   EXPECT_EQ(slip.height, 1U);
 }

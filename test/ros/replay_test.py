@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A bag of 20 scans through the node: 20 predictions, in order, with the scans' stamps; twice the same."""
+"""A bag of 20 scans through the node: 20 predictions, in order, with the scans' stamps; twice the
+same."""
 
 import os
 import tempfile
@@ -21,7 +22,9 @@ KINDS = {"32FC1": np.float32, "64FC1": np.float64, "mono8": np.uint8}
 
 
 def pixels(message):
-    return np.frombuffer(message.data, dtype=KINDS[message.encoding]).reshape(message.height, message.width)
+    return np.frombuffer(message.data, dtype=KINDS[message.encoding]).reshape(
+        message.height, message.width
+    )
 
 
 class ReplayTest(unittest.TestCase):
@@ -30,8 +33,22 @@ class ReplayTest(unittest.TestCase):
         rospy.init_node("replay_test")
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = os.path.join(cls.folder.name, "scans.bag")
-        make_bag(cls.path, "--count", str(COUNT), "--rows", str(ROWS), "--cols", str(COLS), "--rate", "40",
-                 "--rms-height", "1e-9", "8e-9", "--seed", "5")
+        make_bag(
+            cls.path,
+            "--count",
+            str(COUNT),
+            "--rows",
+            str(ROWS),
+            "--cols",
+            str(COLS),
+            "--rate",
+            "40",
+            "--rms-height",
+            "1e-9",
+            "8e-9",
+            "--seed",
+            "5",
+        )
         with rosbag.Bag(cls.path) as bag:
             cls.scans = [message for _, message, _ in bag.read_messages(topics=["/height"])]
 
@@ -45,7 +62,9 @@ class ReplayTest(unittest.TestCase):
         predictions = Collector("prediction", StictionPrediction).connect()
         play_bag(self.path)
         first = list(predictions.wait(COUNT))
-        counts.wait(received=COUNT, predicted=COUNT, dropped=0, rejected=0, waiting=0, missing_by_sequence=0)
+        counts.wait(
+            received=COUNT, predicted=COUNT, dropped=0, rejected=0, waiting=0, missing_by_sequence=0
+        )
         self.assertEqual([p.header.stamp for p in first], [s.header.stamp for s in self.scans])
         self.assertEqual([p.header.frame_id for p in first], ["scan"] * COUNT)
         for prediction, scan in zip(first, self.scans):
@@ -64,7 +83,9 @@ class ReplayTest(unittest.TestCase):
         counts.wait(received=2 * COUNT, predicted=2 * COUNT, rejected=0, dropped=0)
 
         for maps in (deformed, counter, contact_maps, asperities):
-            self.assertEqual([m.header.stamp for m in maps.wait(COUNT)], [s.header.stamp for s in self.scans])
+            self.assertEqual(
+                [m.header.stamp for m in maps.wait(COUNT)], [s.header.stamp for s in self.scans]
+            )
         for index, prediction in enumerate(second):
             scan = pixels(self.scans[index]).astype(np.float32)  # as the deformed surface is sent
             after = pixels(deformed.messages[index])
@@ -75,8 +96,11 @@ class ReplayTest(unittest.TestCase):
             self.assertEqual(contact.shape, (ROWS, COLS))
             self.assertLessEqual(contact.max(), 3)
             # Whole cells stand for the real area, contact by contact.
-            self.assertAlmostEqual(np.count_nonzero(contact), prediction.contact_area / (10e-9 * 10e-9),
-                                   delta=prediction.asperity_count + 0.3 * np.count_nonzero(contact))
+            self.assertAlmostEqual(
+                np.count_nonzero(contact),
+                prediction.contact_area / (10e-9 * 10e-9),
+                delta=prediction.asperity_count + 0.3 * np.count_nonzero(contact),
+            )
             # Only cells in contact change, and they are pressed down.
             self.assertTrue(np.array_equal(after[contact == 0], scan[contact == 0]))
             self.assertLessEqual((after - scan).max(), 0.0)

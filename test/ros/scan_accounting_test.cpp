@@ -86,8 +86,8 @@ class Warnings : public ros::console::LogAppender {
  public:
   Warnings() { ros::console::register_appender(this); }
   ~Warnings() override { ros::console::deregister_appender(this); }
-  void log(ros::console::Level level, const char* text, const char* /*file*/, const char* /*function*/,
-           int /*line*/) override {
+  void log(ros::console::Level level, const char* text, const char* /*file*/,
+           const char* /*function*/, int /*line*/) override {
     if (level == ros::console::levels::Warn) texts.emplace_back(text);
   }
 
@@ -105,7 +105,8 @@ TEST(ScanAccounting, WhatAMessageSaysMakesNoNewKindOfWarning) {
   reject(""), reject("'"), reject("a' or 'b"), reject("it's"), reject("x 'y");
   finishLog();
   EXPECT_EQ(warnings.texts.size(), 1U);
-  for (const char* frame : {"left", "right"}) books.rejected(header, '"' + std::string(frame) + "\" does not exist");
+  for (const char* frame : {"left", "right"})
+    books.rejected(header, '"' + std::string(frame) + "\" does not exist");
   finishLog();
   EXPECT_EQ(warnings.texts.size(), 2U);
   books.warn(header, "the scan's pitch is odd, and the counter's too");
@@ -118,7 +119,8 @@ TEST(OwnLogDeathTest, AProcessEndsBehindTheLinesThatWait) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(
       {
-        for (int line = 0; line < 50; ++line) logSoon(ros::console::levels::Warn, "line " + std::to_string(line));
+        for (int line = 0; line < 50; ++line)
+          logSoon(ros::console::levels::Warn, "line " + std::to_string(line));
         std::exit(0);
       },
       testing::ExitedWithCode(0), "line 49");

@@ -41,9 +41,10 @@ TEST(ScanFolders, NoWordOfAFileIsInTheMessage) {
   const ScratchFolder folder;
   const Stated stated(folder.file(""));
   const std::string secret = "hunter2";
-  for (const char* name :
-       {"secret.txt", "secret.csv", "secret.xyz", "secret.asc", "secret.gwy", "secret.png", "secret"}) {
-    const std::string text = whyNot(under(folder.write(name, secret + " " + secret + "\n1 " + secret + "\n")));
+  for (const char* name : {"secret.txt", "secret.csv", "secret.xyz", "secret.asc", "secret.gwy",
+                           "secret.png", "secret"}) {
+    const std::string text =
+        whyNot(under(folder.write(name, secret + " " + secret + "\n1 " + secret + "\n")));
     EXPECT_NE(text.find("counter_surface/file: "), std::string::npos) << name << ": " << text;
     EXPECT_EQ(text.find(secret), std::string::npos) << text;
   }
@@ -54,7 +55,8 @@ TEST(ScanFolders, NoWordOfAFileIsInTheMessage) {
   Configuration region;
   region.preprocessing.region.polygon_file = folder.write("corners.txt", secret + "\n");
   EXPECT_EQ(whyNot(region).find(secret), std::string::npos);
-  EXPECT_NE(whyNot(region).find("preprocessing/region/polygon_file: "), std::string::npos) << whyNot(region);
+  EXPECT_NE(whyNot(region).find("preprocessing/region/polygon_file: "), std::string::npos)
+      << whyNot(region);
 }
 
 TEST(ScanFolders, FilesAreReadBelowTheStatedFoldersOnly) {
@@ -71,7 +73,8 @@ TEST(ScanFolders, FilesAreReadBelowTheStatedFoldersOnly) {
   EXPECT_EQ(whyNot(under(here)), "");
   EXPECT_EQ(whyNot(under(inside.file("a/../grid.txt"))), "");
   const std::string missing = outside.file("missing.txt");
-  for (const std::string& path : {there, link, inside.file("../grid.txt"), missing, std::string("/etc/passwd")}) {
+  for (const std::string& path :
+       {there, link, inside.file("../grid.txt"), missing, std::string("/etc/passwd")}) {
     const std::string text = whyNot(under(path));
     EXPECT_NE(text.find(path + " is not allowed, must lie below"), std::string::npos) << text;
     EXPECT_NE(text.find(kScanFoldersVariable), std::string::npos) << text;
@@ -89,7 +92,8 @@ TEST(ScanFolders, AFolderWithALongerNameIsAnother) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.file("scans"));
   std::filesystem::create_directory(folder.file("scans2"));
-  const std::vector<std::filesystem::path> folders = {std::filesystem::canonical(folder.file("scans"))};
+  const std::vector<std::filesystem::path> folders = {
+      std::filesystem::canonical(folder.file("scans"))};
   EXPECT_EQ(filesElsewhere(under(folder.file("scans2/grid.txt")), folders).size(), 1U);
   EXPECT_EQ(filesElsewhere(under(folder.file("scans/grid.txt")), folders).size(), 0U);
 }
@@ -101,7 +105,8 @@ TEST(ScanFolders, WithoutAWordItIsTheHome) {
   setenv("HOME", home.file("").c_str(), 1);
   const std::vector<std::filesystem::path> folders = scanFolders();
   setenv("HOME", before.c_str(), 1);
-  EXPECT_EQ(folders, (std::vector<std::filesystem::path>{std::filesystem::canonical(home.file(""))}));
+  EXPECT_EQ(folders,
+            (std::vector<std::filesystem::path>{std::filesystem::canonical(home.file(""))}));
   const Stated nothing("");
   EXPECT_TRUE(scanFolders().empty());
 }
@@ -112,7 +117,8 @@ TEST(ScanFolders, NothingElsewhereIsReadWithAFile) {
   const Stated stated(inside.file(""));
   const std::string grid = "0 1e-9 0\n1e-9 0 1e-9\n0 1e-9 0\n";
   const std::string scan = inside.write("grid.txt", grid);
-  std::filesystem::create_symlink(inside.write("mine.yaml", "pitch_x: 2.0e-8\n"), inside.file("grid.yaml"));
+  std::filesystem::create_symlink(inside.write("mine.yaml", "pitch_x: 2.0e-8\n"),
+                                  inside.file("grid.yaml"));
   std::filesystem::create_symlink(outside.write("other.txt", grid), inside.file("other.txt"));
   EXPECT_EQ(whyNot(under(scan)), "");
 
@@ -120,12 +126,13 @@ TEST(ScanFolders, NothingElsewhereIsReadWithAFile) {
   for (const char* name : {"grid.txt.yaml", "GRID_0001.mtrx"}) {
     std::filesystem::create_symlink(theirs, inside.file(name));
     const std::string text = whyNot(under(scan));
-    EXPECT_NE(text.find("has the link " + std::string(name) + " beside it"), std::string::npos) << text;
+    EXPECT_NE(text.find("has the link " + std::string(name) + " beside it"), std::string::npos)
+        << text;
     std::filesystem::remove(inside.file(name));
   }
   std::filesystem::create_symlink(theirs, inside.file("data.int"));
-  for (const char* header :
-       {"FileName : data.int\n", "FileName : ../data.int\n", "NRRD0004\ntype: float\ndata file: /etc/passwd\n"}) {
+  for (const char* header : {"FileName : data.int\n", "FileName : ../data.int\n",
+                             "NRRD0004\ntype: float\ndata file: /etc/passwd\n"}) {
     const std::string text = whyNot(under(inside.write("header.int.txt", header)));
     EXPECT_TRUE(text.find("data.int beside it") != std::string::npos ||
                 text.find("names files of other folders") != std::string::npos)

@@ -29,7 +29,8 @@ class ScanPairerTest : public ::testing::Test {
     pairer_.add(message, now_);
   }
   /// A driver's whole scan, whose two halves bear one name.
-  void scan(std::uint32_t stamp, const std::string& name, bool with_image = true, bool with_info = true) {
+  void scan(std::uint32_t stamp, const std::string& name, bool with_image = true,
+            bool with_info = true) {
     if (with_image) image(stamp, name);
     if (with_info) info(stamp, name);
   }
@@ -92,8 +93,10 @@ TEST_F(ScanPairerTest, NamesTheStampOfAPartnerThatMissesByALittle) {
   image(1), info(2);
   wait(6.0);
   ASSERT_EQ(reasons_.size(), 2U);
-  EXPECT_NE(reasons_[0].find("one came with the stamp 2.000000000, 1 s later"), std::string::npos) << reasons_[0];
-  EXPECT_NE(reasons_[1].find("one came with the stamp 1.000000000, 1 s earlier"), std::string::npos) << reasons_[1];
+  EXPECT_NE(reasons_[0].find("one came with the stamp 2.000000000, 1 s later"), std::string::npos)
+      << reasons_[0];
+  EXPECT_NE(reasons_[1].find("one came with the stamp 1.000000000, 1 s earlier"), std::string::npos)
+      << reasons_[1];
   image(10);
   wait(6.0);
   EXPECT_EQ(reasons_[2].find("one came"), std::string::npos) << reasons_[2];
@@ -104,7 +107,8 @@ TEST(ScanPairer, RejectsTheOldestBeyondItsMemoryButNeverTheNewestAndCountsEachSc
   Stamps paired, rejected;
   std::string last_reason;
   ScanPairer pairer(
-      ros::WallDuration(5.0), [&](const auto& image, const auto&) { paired.push_back(image->header.stamp.sec); },
+      ros::WallDuration(5.0),
+      [&](const auto& image, const auto&) { paired.push_back(image->header.stamp.sec); },
       [&](const auto& header, const auto& reason) {
         rejected.push_back(header.stamp.sec);
         last_reason = reason;
@@ -132,7 +136,8 @@ TEST(ScanPairer, RejectsTheOldestBeyondItsMemoryButNeverTheNewestAndCountsEachSc
   info(1, 0), info(5, 0);  // the partner of one that was rejected, and of one that waits
   EXPECT_EQ(paired, (Stamps{5}));
   image(6, 40000);
-  EXPECT_EQ(pairer.waiting(), 1U);  // image 4 was older than the pair; the newest stays, whatever it holds
+  EXPECT_EQ(pairer.waiting(),
+            1U);  // image 4 was older than the pair; the newest stays, whatever it holds
   for (std::uint32_t stamp = 11; stamp <= 15; ++stamp) info(stamp, 4000);
   EXPECT_EQ(pairer.waiting(), 3U);
   for (const double later : {4.0, 5.0, 6.0}) pairer.expire(now + ros::WallDuration(later));
@@ -188,7 +193,8 @@ TEST_F(ScanPairerTest, AScanWithoutAStampThatIsAloneIsPairedOnceTheTimeoutIsOver
   expectNoneCrossed();
 }
 
-// A half that was never sent leaves no gap in header.seq, and the order of arrival goes on as before.
+// A half that was never sent leaves no gap in header.seq, and the order of arrival goes on as
+// before.
 TEST_F(ScanPairerTest, WithoutStampsNoScanGetsTheScanInfoOfAnotherWhicheverHalfIsLost) {
   for (const bool image_first : {true, false}) {
     for (const bool is_image_lost : {true, false}) {
@@ -221,7 +227,8 @@ TEST_F(ScanPairerTest, WithoutStampsALostHalfCostsOnlyScansWhileEveryScanInfoSay
   EXPECT_GE(paired_.size(), 58U);
   paired_.clear(), rejected_.clear();
   for (int number = 0; number < 60; ++number) {
-    scan(0, number > 20 && number < 23 ? "b" : "a", true, number != 21);  // the info of a "b" is lost
+    scan(0, number > 20 && number < 23 ? "b" : "a", true,
+         number != 21);  // the info of a "b" is lost
     wait(0.05);
   }
   wait(30.0);
@@ -235,7 +242,8 @@ TEST_F(ScanPairerTest, TwoPublishersWithOneStampAreNotCrossed) {
     for (const std::uint32_t stamp : {0U, 100U + static_cast<std::uint32_t>(number)}) {
       const std::string a = "a" + std::to_string(number);
       const std::string b = "b" + std::to_string(number);
-      std::vector<std::pair<std::string, bool>> halves = {{a, true}, {a, false}, {b, true}, {b, false}};
+      std::vector<std::pair<std::string, bool>> halves = {
+          {a, true}, {a, false}, {b, true}, {b, false}};
       std::shuffle(halves.begin(), halves.end(), random);
       for (const auto& [name, is_image] : halves) scan(stamp, name, is_image, !is_image);
     }
@@ -243,21 +251,26 @@ TEST_F(ScanPairerTest, TwoPublishersWithOneStampAreNotCrossed) {
   }
   wait(30.0);
   EXPECT_EQ(paired_.size() + rejected_.size(), 1200U);
-  // What is together before anything else of the stamp has come is taken for a scan; the next one then says so.
-  const auto doubtful = std::count_if(reasons_.begin(), reasons_.end(), [](const std::string& reason) {
-    return reason.find("that was predicted before may have got") != std::string::npos;
-  });
+  // What is together before anything else of the stamp has come is taken for a scan; the next one
+  // then says so.
+  const auto doubtful =
+      std::count_if(reasons_.begin(), reasons_.end(), [](const std::string& reason) {
+        return reason.find("that was predicted before may have got") != std::string::npos;
+      });
   EXPECT_GE(static_cast<std::size_t>(doubtful), paired_.size());
 }
 
-// A clock in whole seconds, or one that stands still: the first scan of a stamp is one, until another bears it.
+// A clock in whole seconds, or one that stands still: the first scan of a stamp is one, until
+// another bears it.
 TEST_F(ScanPairerTest, StampsThatRepeatAreRejectedAndSaidAndThoseAfterThemWait) {
   scan(7, "a"), scan(7, "b");
   EXPECT_EQ(paired_, (Stamps{7}));
   EXPECT_EQ(rejected_, (Stamps{7}));
-  EXPECT_NE(reasons_.back().find("predicted before may have got"), std::string::npos) << reasons_.back();
+  EXPECT_NE(reasons_.back().find("predicted before may have got"), std::string::npos)
+      << reasons_.back();
   for (std::uint32_t second = 8; second < 20; ++second) {
-    scan(second, "c", false), wait(0.4), scan(second, "d"), wait(0.6);  // the first image of each is lost
+    scan(second, "c", false), wait(0.4), scan(second, "d"),
+        wait(0.6);  // the first image of each is lost
   }
   wait(60.0);
   expectNoneCrossed();
@@ -319,7 +332,8 @@ TEST_F(ScanPairerTest, AHalfThatCannotBeReadIsOneScanWithItsPartner) {
   EXPECT_EQ(pairer_.waiting(), 0U);
 }
 
-// Scans that cross: all of them pair, whatever the order in which the halves of the two publishers come.
+// Scans that cross: all of them pair, whatever the order in which the halves of the two publishers
+// come.
 TEST_F(ScanPairerTest, StampsOfTwoPublishersMayCross) {
   pairer_.setSeveralPublishers(true);
   image(501), image(1001), info(1001), info(501);
@@ -358,14 +372,16 @@ TEST_F(ScanPairerTest, AScanWhoseHalvesAreGivenUpOneAfterTheOtherCountsOnce) {
   EXPECT_EQ(pairer_.waiting(), 0U);
 }
 
-// Every image counts once: accepted or rejected, in whatever order the halves come, with losses and jumps.
+// Every image counts once: accepted or rejected, in whatever order the halves come, with losses and
+// jumps.
 TEST_F(ScanPairerTest, EveryImageCountsOnceWhateverTheOrder) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 300; ++trial) {
     paired_.clear(), rejected_.clear();
     pairer_.setSeveralPublishers(trial % 2 == 1);
     std::size_t sent = 0;
-    for (int round = 0; round < 3; ++round) {  // of one bag; what is late in one comes among the next one's
+    for (int round = 0; round < 3;
+         ++round) {  // of one bag; what is late in one comes among the next one's
       std::vector<std::pair<std::uint32_t, bool>> halves;
       for (std::uint32_t scan = 0; scan < 20; ++scan) {
         const std::uint32_t stamp = scan % 2 == 0 ? 1000 + scan : 500 + scan;

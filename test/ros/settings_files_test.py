@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The node takes what its configuration file states, whatever ran before under its name, and refuses what is ambiguous."""
+"""The node takes what its configuration file states, whatever ran before under its name, and
+refuses what is ambiguous."""
 
 import pathlib
 import signal
@@ -12,7 +13,16 @@ import rosservice
 import rostest
 from mems_stiction.srv import Predict
 from roslib.packages import find_node
-from stiction_client import TIMEOUT, image_message, info_message, predict_scan, rough_surface, settings_of, unlike, wait_until
+from stiction_client import (
+    TIMEOUT,
+    image_message,
+    info_message,
+    predict_scan,
+    rough_surface,
+    settings_of,
+    unlike,
+    wait_until,
+)
 
 NODE = "settings_node"
 STATION = pathlib.Path(__file__).with_name("station.yaml")
@@ -36,8 +46,19 @@ class SettingsFilesTest(unittest.TestCase):
         path.write_text(text)
         self.log = open(str(self.folder / "log"), "w+")
         self.launched = subprocess.Popen(
-            ["roslaunch", "--wait", "mems_stiction", "stiction.launch", "config:=%s" % path, "name:=" + NODE] + list(arguments),
-            stdout=self.log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+            [
+                "roslaunch",
+                "--wait",
+                "mems_stiction",
+                "stiction.launch",
+                "config:=%s" % path,
+                "name:=" + NODE,
+            ]
+            + list(arguments),
+            stdout=self.log,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+        )
 
     def said(self):
         self.log.flush()
@@ -54,20 +75,31 @@ class SettingsFilesTest(unittest.TestCase):
     def prediction(self):
         rospy.wait_for_service(NODE + "/predict", timeout=TIMEOUT)
         stamp = rospy.Time(1)
-        answer = rospy.ServiceProxy(NODE + "/predict", Predict)(image_message(rough_surface(1), stamp), info_message(stamp), 0.0, LOAD)
+        answer = rospy.ServiceProxy(NODE + "/predict", Predict)(
+            image_message(rough_surface(1), stamp), info_message(stamp), 0.0, LOAD
+        )
         self.assertTrue(answer.success, answer.message)
         return answer.prediction
 
     def test_nothing_of_an_earlier_launch_acts(self):
         plain = STATION.read_text()
-        self.launch(plain + "preprocessing: {level: plane, low_pass: {cutoff_wavelength: 2.0e-7}}\n")
+        self.launch(
+            plain + "preprocessing: {level: plane, low_pass: {cutoff_wavelength: 2.0e-7}}\n"
+        )
         smoothed = self.prediction()
         self.stop()
         self.launch(plain)
         prediction = self.prediction()
         self.assertEqual(prediction.preprocessing, [])
         cleaning = {"level": "plane", "low_pass": {"cutoff_wavelength": 2e-7}}
-        self.assertEqual(unlike(smoothed, predict_scan(rough_surface(1), LOAD, settings=settings_of(preprocessing=cleaning)), ["preprocessing"]), [])
+        self.assertEqual(
+            unlike(
+                smoothed,
+                predict_scan(rough_surface(1), LOAD, settings=settings_of(preprocessing=cleaning)),
+                ["preprocessing"],
+            ),
+            [],
+        )
         self.assertEqual(unlike(prediction, predict_scan(rough_surface(1), LOAD)), [])
 
     def test_what_the_file_states_lies_beside_the_node_for_scripts(self):
@@ -77,17 +109,38 @@ class SettingsFilesTest(unittest.TestCase):
         self.assertEqual(rospy.get_param(NODE + "/load/max_voltage"), 50.0)
 
     def test_a_section_that_stands_twice_ends_the_node(self):
-        self.launch("preprocessing: {level: plane}\nload: {max_voltage: 5}\npreprocessing: {fill: {enabled: true}}\n")
-        wait_until(lambda: "preprocessing: given in line 3 and before in line 1" in self.said(), "the refusal")
+        self.launch(
+            "preprocessing: {level: plane}\nload: {max_voltage: 5}\npreprocessing: {fill: "
+            "{enabled: true}}\n"
+        )
+        wait_until(
+            lambda: "preprocessing: given in line 3 and before in line 1" in self.said(),
+            "the refusal",
+        )
 
     def test_keys_that_rosparam_loaded_for_an_earlier_run_are_named(self):
         def started(text):
-            """What it says and its status once it has ended by itself, or None for the status once it serves."""
+            """What it says and its status once it has ended by itself, or None for the status once
+            it serves."""
             (self.folder / "part.yaml").write_text(text)
-            subprocess.run(["rosparam", "load", str(self.folder / "part.yaml"), "/loaded_node"], check=True, timeout=TIMEOUT)
-            node = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=loaded_node"],
-                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-            wait_until(lambda: node.poll() is not None or "/loaded_node/get_load" in rosservice.get_service_list(), "the node")
+            subprocess.run(
+                ["rosparam", "load", str(self.folder / "part.yaml"), "/loaded_node"],
+                check=True,
+                timeout=TIMEOUT,
+            )
+            node = subprocess.Popen(
+                [find_node("mems_stiction", "stiction_node")[0], "__name:=loaded_node"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                universal_newlines=True,
+            )
+            wait_until(
+                lambda: (
+                    node.poll() is not None
+                    or "/loaded_node/get_load" in rosservice.get_service_list()
+                ),
+                "the node",
+            )
             if node.poll() is not None:
                 return node.communicate()[0], node.returncode
             node.send_signal(signal.SIGINT)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The test station's part: actions with progress and cancel beside live scans, and settings that change in one place."""
+"""The test station's part: actions with progress and cancel beside live scans, and settings that
+change in one place."""
 
 import math
 import threading
@@ -11,12 +12,35 @@ import dynamic_reconfigure.client
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalID, GoalStatus
-from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPrediction, SweepLoadAction,
-                               SweepLoadActionGoal, SweepLoadActionResult, SweepLoadGoal, SweepPoint)
+from mems_stiction.msg import (
+    CycleContactAction,
+    CycleContactGoal,
+    StictionPrediction,
+    SweepLoadAction,
+    SweepLoadActionGoal,
+    SweepLoadActionResult,
+    SweepLoadGoal,
+    SweepPoint,
+)
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import (TIMEOUT, BytesPublisher, Collector, Counts, Station, Traffic, bytes_of, image_message, info_message,
-                             peak_memory, predict_scan, process_of, rough_surface, stating, wait_until)
+from stiction_client import (
+    TIMEOUT,
+    BytesPublisher,
+    Collector,
+    Counts,
+    Station,
+    Traffic,
+    bytes_of,
+    image_message,
+    info_message,
+    peak_memory,
+    predict_scan,
+    process_of,
+    rough_surface,
+    stating,
+    wait_until,
+)
 
 LOAD = 1e-6
 DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16, electrode_area=1e-8)
@@ -34,7 +58,9 @@ class StationTest(unittest.TestCase):
         cls.station = Station()
         cls.sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         cls.cycle = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
-        assert cls.sweep.wait_for_server(rospy.Duration(TIMEOUT)) and cls.cycle.wait_for_server(rospy.Duration(TIMEOUT))
+        assert cls.sweep.wait_for_server(rospy.Duration(TIMEOUT)) and cls.cycle.wait_for_server(
+            rospy.Duration(TIMEOUT)
+        )
         cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
 
     def live(self, surface):
@@ -55,13 +81,17 @@ class StationTest(unittest.TestCase):
         return client.get_state(), client.get_result(), feedback
 
     def assert_progress(self, feedback, total):
-        # Feedback and result travel on topics of their own: of a short goal the last ones may come too late.
+        # Feedback and result travel on topics of their own: of a short goal the last ones may come
+        # too late.
         done = [message.done for message in feedback]
         self.assertEqual(done, sorted(set(done)))
-        self.assertTrue(all(1 <= message.done <= message.total == total for message in feedback), feedback)
+        self.assertTrue(
+            all(1 <= message.done <= message.total == total for message in feedback), feedback
+        )
 
     def assert_first_contacts(self, points, surface, loads, counter=None):
-        """The first contact at each load is what the command line predicts for this surface, to the bit."""
+        """The first contact at each load is what the command line predicts for this surface, to the
+        bit."""
         first = {}
         for point in points:
             first.setdefault(point.mechanical_load, point)
@@ -100,24 +130,45 @@ class StationTest(unittest.TestCase):
         answer = self.settings.update_configuration({"voltage": 12.0})
         self.assertEqual((answer["voltage"], self.get_load().voltage), (12.0, 12.0))
         self.assertTrue(self.set_load(3.0, LOAD).success)
-        wait_until(lambda: self.settings.get_configuration()["voltage"] == 3.0, "reconfigure to show the service's change")
-        # A refused value takes the whole request back, the client sees what is set, and a warning says why.
+        wait_until(
+            lambda: self.settings.get_configuration()["voltage"] == 3.0,
+            "reconfigure to show the service's change",
+        )
+        # A refused value takes the whole request back, the client sees what is set, and a warning
+        # says why.
         log = Collector("/rosout", Log).connect()
         for refused, reason in (
-                ({"voltage": 51.0}, "load/voltage: 51 V is not allowed, must be in [-50, 50] V"),
-                ({"insulator_thickness": 0.0}, "interface/insulator_thickness"),
-                ({"work_of_adhesion": -1.0}, "interface/work_of_adhesion: -1 J/m^2 is not allowed, must be >= 0"),
-                ({"travel": 2e-6, "electrode_gap": 1e-7}, "device/travel: 2e-06 m is not allowed, must not exceed"),
-                ({"beam_type": "cantilever"}, "device/beam_length: 0 is not allowed"),
-                ({"beam_type": "bridge"}, "device/beam_type: 'bridge' is not allowed, must be one of none cantilever"),
-                ({"mechanical_load": math.nan}, "load/mechanical_load: nan N is not allowed")):
+            ({"voltage": 51.0}, "load/voltage: 51 V is not allowed, must be in [-50, 50] V"),
+            ({"insulator_thickness": 0.0}, "interface/insulator_thickness"),
+            (
+                {"work_of_adhesion": -1.0},
+                "interface/work_of_adhesion: -1 J/m^2 is not allowed, must be >= 0",
+            ),
+            (
+                {"travel": 2e-6, "electrode_gap": 1e-7},
+                "device/travel: 2e-06 m is not allowed, must not exceed",
+            ),
+            ({"beam_type": "cantilever"}, "device/beam_length: 0 is not allowed"),
+            (
+                {"beam_type": "bridge"},
+                "device/beam_type: 'bridge' is not allowed, must be one of none cantilever",
+            ),
+            ({"mechanical_load": math.nan}, "load/mechanical_load: nan N is not allowed"),
+        ):
             asked = dict(refused, hamaker_constant=1e-20)
             del log.messages[:]
             before = self.settings.get_configuration()
             answer = self.settings.update_configuration(asked)
-            wait_until(lambda: any(message.level == Log.WARN and message.msg.startswith("reconfigure refused, nothing changed: ")
-                                   and reason in message.msg for message in log.messages),
-                       "a warning with '%s'; there are %s" % (reason, [message.msg for message in log.messages]))
+            wait_until(
+                lambda: any(
+                    message.level == Log.WARN
+                    and message.msg.startswith("reconfigure refused, nothing changed: ")
+                    and reason in message.msg
+                    for message in log.messages
+                ),
+                "a warning with '%s'; there are %s"
+                % (reason, [message.msg for message in log.messages]),
+            )
             self.assertEqual(answer, before, refused)
             self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
         load = self.get_load()
@@ -139,9 +190,19 @@ class StationTest(unittest.TestCase):
         try:
             for number in range(40):
                 work = 0.05 + 0.001 * (number % 5 + 1)
-                self.assertEqual(self.settings.update_configuration({"work_of_adhesion": work})["work_of_adhesion"], work)
+                self.assertEqual(
+                    self.settings.update_configuration({"work_of_adhesion": work})[
+                        "work_of_adhesion"
+                    ],
+                    work,
+                )
                 time.sleep(0.01)
-                self.assertEqual(self.settings.update_configuration({"hamaker_constant": 65e-21})["work_of_adhesion"], work)
+                self.assertEqual(
+                    self.settings.update_configuration({"hamaker_constant": 65e-21})[
+                        "work_of_adhesion"
+                    ],
+                    work,
+                )
         finally:
             is_over.set()
             setter.join()
@@ -153,19 +214,31 @@ class StationTest(unittest.TestCase):
         self.assertEqual(self.get_load().voltage, 0.0)
         live = self.live(surface)
         cleaned = self.cleaned()
-        state, result, feedback = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 20.0]))
+        state, result, feedback = self.run_goal(
+            self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 20.0])
+        )
         self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
         self.assertEqual(result.header.stamp, live.header.stamp)
         self.assertEqual([point.voltage for point in result.points], [0.0, 10.0, 20.0, 10.0, 0.0])
-        self.assertEqual([point.direction for point in result.points], [SweepPoint.UP] * 3 + [SweepPoint.DOWN] * 2)
+        self.assertEqual(
+            [point.direction for point in result.points],
+            [SweepPoint.UP] * 3 + [SweepPoint.DOWN] * 2,
+        )
         self.assertEqual(result.points[0].pull_off_force, live.pull_off_force)
         self.assertEqual(len(result.summaries), 1)
         self.assertGreater(result.pull_in_voltage, 0.0)
         self.assert_progress(feedback, 5)
         # A given scan, and the sweep leaves no trace.
         other = image_message(rough_surface(3), rospy.Time(5))
-        state, given, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0], mechanical_loads=[LOAD, 2 * LOAD],
-                                                                  height=other, scan_info=info_message(rospy.Time(5))))
+        state, given, _ = self.run_goal(
+            self.sweep,
+            SweepLoadGoal(
+                voltages=[0.0],
+                mechanical_loads=[LOAD, 2 * LOAD],
+                height=other,
+                scan_info=info_message(rospy.Time(5)),
+            ),
+        )
         self.assertEqual(state, GoalStatus.SUCCEEDED, given.message)
         self.assertEqual(len(given.points), 2)
         self.assertEqual(given.header.stamp, rospy.Time(5))
@@ -177,34 +250,68 @@ class StationTest(unittest.TestCase):
 
     def test_4b_a_sweep_of_a_beam_says_where_it_lands_and_opens(self):
         surface = rough_surface(2)
-        beam = dict(beam_type="cantilever", beam_length=1e-4, beam_width=2e-5, beam_thickness=2e-6, beam_gap=1e-6, beam_modulus=160e9,
-                    electrode_start=2e-5, electrode_length=8e-5)
-        self.settings.update_configuration(dict(beam, spring_stiffness=0.0, travel=0.0, electrode_area=0.0))
+        beam = dict(
+            beam_type="cantilever",
+            beam_length=1e-4,
+            beam_width=2e-5,
+            beam_thickness=2e-6,
+            beam_gap=1e-6,
+            beam_modulus=160e9,
+            electrode_start=2e-5,
+            electrode_length=8e-5,
+        )
+        self.settings.update_configuration(
+            dict(beam, spring_stiffness=0.0, travel=0.0, electrode_area=0.0)
+        )
         try:
             self.assertGreater(self.live(surface).peel_number, 0.0)
-            state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 40.0], mechanical_loads=[0.0, LOAD]))
+            state, result, _ = self.run_goal(
+                self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 40.0], mechanical_loads=[0.0, LOAD])
+            )
             self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
             self.assertEqual(result.pull_in_reason, "")
             self.assertTrue(10.0 < result.pull_in_voltage < 40.0, result.pull_in_voltage)
-            self.assertEqual([point.lands for point in result.points[:3]], [SweepPoint.LANDS_NO, SweepPoint.LANDS_NO, SweepPoint.LANDS_YES])
+            self.assertEqual(
+                [point.lands for point in result.points[:3]],
+                [SweepPoint.LANDS_NO, SweepPoint.LANDS_NO, SweepPoint.LANDS_YES],
+            )
             pressed = result.points[5]
             self.assertEqual(pressed.mechanical_load, LOAD)
             self.assertTrue(pressed.margin > 1.0 and pressed.peel_number > 1.0, pressed)
             last = result.points[4]
-            self.assertTrue(last.is_open, "nothing but adhesion holds at 0 V, and the beam is stronger: margin %g, peel number %g" % (last.margin, last.peel_number))
-            self.assertEqual((last.lands, result.summaries[0].opening_voltage), (SweepPoint.LANDS_NO, max(point.voltage for point in result.points[:5] if point.is_open)))
+            self.assertTrue(
+                last.is_open,
+                "nothing but adhesion holds at 0 V, and the beam is stronger: margin %g, peel "
+                "number %g" % (last.margin, last.peel_number),
+            )
+            self.assertEqual(
+                (last.lands, result.summaries[0].opening_voltage),
+                (
+                    SweepPoint.LANDS_NO,
+                    max(point.voltage for point in result.points[:5] if point.is_open),
+                ),
+            )
             self.settings.update_configuration({"electrode_area": 1e-8})
-            self.assertEqual(self.settings.get_configuration()["electrode_area"], 0.0, "refused: the beam's electrode is stated otherwise")
+            self.assertEqual(
+                self.settings.get_configuration()["electrode_area"],
+                0.0,
+                "refused: the beam's electrode is stated otherwise",
+            )
             self.settings.update_configuration({"electrode_length": 0.0})
             state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0]))
-            self.assertEqual((state, result.pull_in_reason), (GoalStatus.SUCCEEDED, "device/electrode_length"))
+            self.assertEqual(
+                (state, result.pull_in_reason), (GoalStatus.SUCCEEDED, "device/electrode_length")
+            )
             self.assertEqual(result.points[0].lands, SweepPoint.LANDS_UNKNOWN)
         finally:
             self.settings.update_configuration(dict(DEVICE, beam_type="none"))
 
     def test_5_refused_goals_say_why(self):
-        for goal, reason in ((SweepLoadGoal(), "voltages"), (SweepLoadGoal(voltages=[51.0]), "voltage"),
-                             (SweepLoadGoal(voltages=[2.0, 1.0]), "voltages")):
+        for goal, reason in (
+            (SweepLoadGoal(), "voltages"),
+            (SweepLoadGoal(voltages=[51.0]), "voltage"),
+            (SweepLoadGoal(voltages=[2.0, 1.0]), "voltages"),
+        ):
             state, result, _ = self.run_goal(self.sweep, goal)
             self.assertEqual(state, GoalStatus.ABORTED)
             self.assertIn(reason, result.message)
@@ -238,7 +345,11 @@ class StationTest(unittest.TestCase):
         before = peak_memory(process)
         results = Collector("stiction_node/sweep_load/result", SweepLoadActionResult).connect()
         hostile = BytesPublisher("stiction_node/sweep_load/goal", SweepLoadActionGoal)
-        hostile.publish(stating(2**29 - 1, bytes_of(goal), len(bytes_of(goal.header)) + len(bytes_of(goal.goal_id))))
+        hostile.publish(
+            stating(
+                2**29 - 1, bytes_of(goal), len(bytes_of(goal.header)) + len(bytes_of(goal.goal_id))
+            )
+        )
         status = results.wait(1)[0].status
         self.assertEqual((status.goal_id.id, status.status), ("hostile", GoalStatus.REJECTED))
         self.assertIn("states 536870911 elements", status.text)
@@ -257,8 +368,10 @@ class StationTest(unittest.TestCase):
         surface = rough_surface(4, rows=128, cols=128)
         self.live(surface)
         predicted = len(self.predictions.messages)
-        for client, goal in ((self.cycle, CycleContactGoal(count=1000000)),
-                             (self.sweep, SweepLoadGoal(voltages=[i * 1e-4 for i in range(200000)]))):
+        for client, goal in (
+            (self.cycle, CycleContactGoal(count=1000000)),
+            (self.sweep, SweepLoadGoal(voltages=[i * 1e-4 for i in range(200000)])),
+        ):
             feedback = []
             client.send_goal(goal, feedback_cb=feedback.append)
             wait_until(lambda: len(feedback) > 1, "progress")
@@ -278,7 +391,8 @@ class StationTest(unittest.TestCase):
         self.counts.wait(predicted=predicted, dropped=0, rejected=0)
 
     def test_7_the_figures_of_an_action_are_those_of_the_command_line_under_traffic(self):
-        # 64FC1 and 32FC1 are shown, not copied: nothing may change or go while an action works on them
+        # 64FC1 and 32FC1 are shown, not copied: nothing may change or go while an action works on
+        # them
         self.set_load(0.0, LOAD)
         surfaces = [rough_surface(seed, rows=96, cols=128) for seed in range(20, 24)]
         surfaces[2:] = [surface.astype(float) for surface in surfaces[2:]]
@@ -287,8 +401,13 @@ class StationTest(unittest.TestCase):
         stamp = rospy.Time(7)
         goals = []
         for surface in surfaces:
-            given = dict(height=image_message(surface, stamp, encodings[str(surface.dtype)]), scan_info=info_message(stamp))
-            goals.append((SweepLoadGoal(voltages=[0.0, 5.0], **given), CycleContactGoal(count=3, **given)))
+            given = dict(
+                height=image_message(surface, stamp, encodings[str(surface.dtype)]),
+                scan_info=info_message(stamp),
+            )
+            goals.append(
+                (SweepLoadGoal(voltages=[0.0, 5.0], **given), CycleContactGoal(count=3, **given))
+            )
         quiet = [self.run_goal(self.cycle, cycle)[1].cycles for _, cycle in goals]
         with Traffic(self.station, surfaces[:2], predictions=self.predictions) as traffic:
             for (sweep, cycle), record, alone in list(zip(goals, expected, quiet)) * 3:
@@ -299,7 +418,9 @@ class StationTest(unittest.TestCase):
                 state, cycled, _ = self.run_goal(self.cycle, cycle)
                 self.assertEqual(state, GoalStatus.SUCCEEDED, cycled.message)
                 self.assertEqual(cycled.cycles[0].pull_off_force, record["pull_off_force"])
-                self.assertEqual(str(cycled.cycles), str(alone))  # NaN differs from itself, its digits do not
+                self.assertEqual(
+                    str(cycled.cycles), str(alone)
+                )  # NaN differs from itself, its digits do not
             for _ in range(6):  # the last scan, whichever that is
                 state, swept, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 5.0]))
                 self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
@@ -325,7 +446,13 @@ class StationTest(unittest.TestCase):
         cancel = rospy.Publisher("stiction_node/sweep_load/cancel", GoalID, queue_size=1)
         wait_until(cancel.get_num_connections, "the node to listen to cancels")
         cancel.publish(GoalID(stamp=rospy.Time(2**32 - 1)))
-        wait_until(lambda: any("a cancel of sweep_load has a stamp that is yet to come" in message.msg for message in log.messages), "the warning")
+        wait_until(
+            lambda: any(
+                "a cancel of sweep_load has a stamp that is yet to come" in message.msg
+                for message in log.messages
+            ),
+            "the warning",
+        )
         self.assertEqual(self.run_goal(self.sweep, goal)[0], GoalStatus.SUCCEEDED)
         # a goal of such a stamp is not for ever newer than those that follow
         wild = SweepLoadActionGoal(goal=goal)
@@ -335,7 +462,9 @@ class StationTest(unittest.TestCase):
         self.assertEqual(results.wait(1)[0].status.status, GoalStatus.SUCCEEDED)
         self.assertEqual(self.run_goal(self.sweep, goal)[0], GoalStatus.SUCCEEDED)
         # one of the time of a goal that runs cancels it, as ever
-        self.sweep.send_goal(SweepLoadGoal(voltages=[0.001 * step for step in range(10000)], mechanical_loads=[LOAD]))
+        self.sweep.send_goal(
+            SweepLoadGoal(voltages=[0.001 * step for step in range(10000)], mechanical_loads=[LOAD])
+        )
         wait_until(lambda: self.sweep.get_state() == GoalStatus.ACTIVE, "the goal to run")
         cancel.publish(GoalID(stamp=rospy.Time.now()))
         self.assertTrue(self.sweep.wait_for_result(rospy.Duration(TIMEOUT)))

@@ -26,21 +26,44 @@ from rospy.msg import AnyMsg
 from sensor_msgs.msg import Image
 
 PITCH = 10e-9
-NODE_KEYS = ("diagnostic_period", "pairing_timeout")  # of station.yaml, which the command line does not have
-SANITIZER = os.environ.get("MEMS_STICTION_SANITIZER")  # of scripts/sanitize: memory that is freed stays, and all takes longer
-TIMEOUT = 120.0 if SANITIZER is None else 300.0  # for what is certain to come, on a busy machine, too [s]
+NODE_KEYS = (
+    "diagnostic_period",
+    "pairing_timeout",
+)  # of station.yaml, which the command line does not have
+SANITIZER = os.environ.get(
+    "MEMS_STICTION_SANITIZER"
+)  # of scripts/sanitize: memory that is freed stays, and all takes longer
+TIMEOUT = (
+    120.0 if SANITIZER is None else 300.0
+)  # for what is certain to come, on a busy machine, too [s]
 STATION = pathlib.Path(__file__).with_name("station.yaml")
 # The words of a record's enumerations as the message has them: NON_BONDING is REGIME_NON_BONDING.
-WORDS = {"status": "", "bonding_regime": "REGIME_", "contact_theory": "THEORY_", "sticks": "STICKS_"}
+WORDS = {
+    "status": "",
+    "bonding_regime": "REGIME_",
+    "contact_theory": "THEORY_",
+    "sticks": "STICKS_",
+}
 # Of a record alone: its file. And of both, what is not the surface's.
-NOT_COMPARED = ("file", "rows", "cols", "pitch_x", "pitch_y", "regime_flag_names", "processing_time")
+NOT_COMPARED = (
+    "file",
+    "rows",
+    "cols",
+    "pitch_x",
+    "pitch_y",
+    "regime_flag_names",
+    "processing_time",
+)
 
 try:
     from mems_stiction import _core  # noqa: F401
+
     HAS_MODULE = True
 except ImportError:
     HAS_MODULE = False
-needs_module = unittest.skipUnless(HAS_MODULE, "the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+needs_module = unittest.skipUnless(
+    HAS_MODULE, "the Python module is not built: MEMS_STICTION_WITH_PYTHON is off"
+)
 
 
 def wait_until(condition, what, timeout=TIMEOUT):
@@ -80,7 +103,8 @@ def info_message(stamp, pitch=PITCH):
 
 
 def figures(prediction):
-    """Every field as it was sent, bit for bit, but the wall time and header.seq, which is the publisher's."""
+    """Every field as it was sent, bit for bit, but the wall time and header.seq, which is the
+    publisher's."""
     import io
 
     copy_of = StictionPrediction()
@@ -95,15 +119,20 @@ def figures(prediction):
 
 
 def listeners(topic):
-    """Names of the nodes that the publishers of a topic send its messages to, as these say themselves."""
+    """Names of the nodes that the publishers of a topic send its messages to, as these say
+    themselves."""
     topic = rospy.resolve_name(topic)
     master = rosgraph.Master(rospy.get_name())
     found = set()
-    for name in next((nodes for published, nodes in master.getSystemState()[0] if published == topic), []):
+    for name in next(
+        (nodes for published, nodes in master.getSystemState()[0] if published == topic), []
+    ):
         if name == rospy.get_name():
             continue
         try:
-            _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo(rospy.get_name())
+            _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo(
+                rospy.get_name()
+            )
         except (OSError, rosgraph.MasterError):  # a node that has gone
             continue
         found.update(one[1] for one in connections if one[2] == "o" and one[4] == topic)
@@ -111,8 +140,12 @@ def listeners(topic):
 
 
 def wait_for_listener(topic, node):
-    """Until a publisher of the topic has counted the node, whose name may begin so, as a listener."""
-    wait_until(lambda: any(name.startswith(node) for name in listeners(topic)), "%s to listen to %s" % (node, topic))
+    """Until a publisher of the topic has counted the node, whose name may begin so, as a
+    listener."""
+    wait_until(
+        lambda: any(name.startswith(node) for name in listeners(topic)),
+        "%s to listen to %s" % (node, topic),
+    )
 
 
 class Collector:
@@ -127,8 +160,12 @@ class Collector:
         self.open[self._topic] += 1
 
     def connect(self):
-        wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic)
-        wait_for_listener(self._topic, rospy.get_name())  # roscpp answers a listener before it counts it
+        wait_until(
+            lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic
+        )
+        wait_for_listener(
+            self._topic, rospy.get_name()
+        )  # roscpp answers a listener before it counts it
         return self
 
     def close(self):
@@ -136,7 +173,10 @@ class Collector:
         self._subscriber.unregister()
         self.open[self._topic] -= 1
         if not self.open[self._topic]:
-            wait_until(lambda: rospy.get_name() not in listeners(self._topic), "the publisher of %s to hear of the end" % self._topic)
+            wait_until(
+                lambda: rospy.get_name() not in listeners(self._topic),
+                "the publisher of %s to hear of the end" % self._topic,
+            )
 
     def of(self, stamp):
         """The newest message of this stamp; topics do not wait for each other."""
@@ -150,7 +190,10 @@ class Collector:
         return found[-1]
 
     def wait(self, count):
-        wait_until(lambda: len(self.messages) >= count, "message %d of %s, got %d" % (count, self._topic, len(self.messages)))
+        wait_until(
+            lambda: len(self.messages) >= count,
+            "message %d of %s, got %d" % (count, self._topic, len(self.messages)),
+        )
         return self.messages
 
 
@@ -205,7 +248,10 @@ class Station:
     def __init__(self, prefix=""):
         self.height = rospy.Publisher(prefix + "height", Image, queue_size=1000)
         self.info = rospy.Publisher(prefix + "scan_info", ScanInfo, queue_size=1000)
-        wait_until(lambda: self.height.get_num_connections() and self.info.get_num_connections(), "the node to subscribe")
+        wait_until(
+            lambda: self.height.get_num_connections() and self.info.get_num_connections(),
+            "the node to subscribe",
+        )
         self._second = 1000
 
     def stamp(self):
@@ -225,7 +271,9 @@ class Station:
 
 def write_grid(path, heights):
     """A text grid from which every height comes back to the bit."""
-    path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
+    path.write_text(
+        "".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights)
+    )
 
 
 def settings_of(station=STATION, changes=None, **more):
@@ -233,7 +281,11 @@ def settings_of(station=STATION, changes=None, **more):
 
     changes: values by their whole keys, "device/travel"; more: whole sections.
     """
-    settings = {key: value for key, value in yaml.safe_load(station.read_text()).items() if key not in NODE_KEYS}
+    settings = {
+        key: value
+        for key, value in yaml.safe_load(station.read_text()).items()
+        if key not in NODE_KEYS
+    }
     settings.update(more)
     for key, value in (changes or {}).items():
         section, name = key.split("/")
@@ -242,8 +294,9 @@ def settings_of(station=STATION, changes=None, **more):
 
 
 def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), settings=None):
-    """The record of the command line for the same heights [m], at the settings of station.yaml or those that are given, counter-surface [m] or
-    none. Loads that are None are those of the settings.
+    """The record of the command line for the same heights [m], at the settings of station.yaml or
+    those that are given, counter-surface [m] or none. Loads that are None are those of the
+    settings.
     """
     program = find_node("mems_stiction", "predict_scan")[0]
     settings = dict(settings_of() if settings is None else settings)
@@ -252,18 +305,39 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), setting
         write_grid(folder / "scan.txt", heights)
         if counter is not None:
             write_grid(folder / "counter.txt", counter)
-            settings.update(counter_surface={"type": "file", "file": str(folder / "counter.txt"), "facing": "down"},
-                            scan={"pitch_x": PITCH, "pitch_y": PITCH})
+            settings.update(
+                counter_surface={
+                    "type": "file",
+                    "file": str(folder / "counter.txt"),
+                    "facing": "down",
+                },
+                scan={"pitch_x": PITCH, "pitch_y": PITCH},
+            )
         (folder / "config.yaml").write_text(yaml.safe_dump(settings))
         given = [] if load is None else ["--load", repr(load)]
         given += [] if voltage is None else ["--voltage", repr(voltage)]
-        done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *given, *arguments,
-                               folder / "scan.txt"], check=True, timeout=TIMEOUT, stdout=subprocess.PIPE)
+        done = subprocess.run(
+            [
+                program,
+                "--json",
+                "--config",
+                folder / "config.yaml",
+                "--pitch",
+                repr(PITCH),
+                *given,
+                *arguments,
+                folder / "scan.txt",
+            ],
+            check=True,
+            timeout=TIMEOUT,
+            stdout=subprocess.PIPE,
+        )
     return dict(json.loads(done.stdout), checksum="")  # heights of a message come from no file
 
 
 def unlike(message, record, leaving_out=()):
-    """Names, figures of a StictionPrediction and figures of predict_scan's record wherever the two differ in any bit."""
+    """Names, figures of a StictionPrediction and figures of predict_scan's record wherever the two
+    differ in any bit."""
     found = []
 
     def compare(name, value, expected):
@@ -274,13 +348,24 @@ def unlike(message, record, leaving_out=()):
         if name in WORDS:
             expected = getattr(StictionPrediction, WORDS[name] + expected.upper())
         elif name == "curve":
-            value = [(point.displacement, point.force, bool(point.is_separation)) for point in value]
-            expected = [(point["displacement"], point["force"], point["is_separation"]) for point in expected]
+            value = [
+                (point.displacement, point.force, bool(point.is_separation)) for point in value
+            ]
+            expected = [
+                (point["displacement"], point["force"], point["is_separation"])
+                for point in expected
+            ]
         elif isinstance(expected, str):
-            expected = expected.replace(",", ";")  # no text of a message breaks the columns of rostopic echo
+            expected = expected.replace(
+                ",", ";"
+            )  # no text of a message breaks the columns of rostopic echo
         elif isinstance(expected, list):
-            expected = [text.replace(",", ";") if isinstance(text, str) else text for text in expected]
-        if not (not math.isfinite(value) if expected is None else value == expected):  # JSON has neither NaN nor infinity
+            expected = [
+                text.replace(",", ";") if isinstance(text, str) else text for text in expected
+            ]
+        if not (
+            not math.isfinite(value) if expected is None else value == expected
+        ):  # JSON has neither NaN nor infinity
             found.append((name, value, expected))
 
     for name, expected in record.items():
@@ -299,7 +384,9 @@ def thread_count(process):
 
 
 def _status_of(process, name):
-    return int(pathlib.Path("/proc/%d/status" % process.pid).read_text().split(name + ":")[1].split()[0])
+    return int(
+        pathlib.Path("/proc/%d/status" % process.pid).read_text().split(name + ":")[1].split()[0]
+    )
 
 
 def _computed_seconds(stat):
@@ -321,14 +408,18 @@ def bytes_of(message):
 
 def stating(count, data, place):
     """The bytes with an array at a place that states so many elements."""
-    return data[:place] + struct.pack("<I", count) + data[place + 4:]
+    return data[:place] + struct.pack("<I", count) + data[place + 4 :]
 
 
 class BytesPublisher:
     """Publishes bytes as a hostile program may, under the name of a type."""
 
     def __init__(self, topic, kind):
-        self._type = type("Bytes", (AnyMsg,), dict(_md5sum=kind._md5sum, _type=kind._type, _full_text=kind._full_text))
+        self._type = type(
+            "Bytes",
+            (AnyMsg,),
+            dict(_md5sum=kind._md5sum, _type=kind._type, _full_text=kind._full_text),
+        )
         self._publisher = rospy.Publisher(topic, self._type, queue_size=100)
         wait_until(self._publisher.get_num_connections, "somebody to listen to %s" % topic)
 
@@ -343,13 +434,17 @@ class BytesPublisher:
 
 def peak_memory(process):
     """What a process, by its number, has held at most so far [bytes]."""
-    return 1024 * int(pathlib.Path("/proc/%d/status" % process).read_text().split("VmHWM:")[1].split()[0])
+    return 1024 * int(
+        pathlib.Path("/proc/%d/status" % process).read_text().split("VmHWM:")[1].split()[0]
+    )
 
 
 def process_of(topic):
     """Number of the process that publishes this topic."""
     master = rosgraph.Master(rospy.get_name())
-    publishers = next(nodes for name, nodes in master.getSystemState()[0] if name == rospy.resolve_name(topic))
+    publishers = next(
+        nodes for name, nodes in master.getSystemState()[0] if name == rospy.resolve_name(topic)
+    )
     return xmlrpc.client.ServerProxy(master.lookupNode(publishers[0])).getPid(rospy.get_name())[2]
 
 
@@ -363,7 +458,8 @@ def thread_seconds(pid):
 
 
 class OwnNode:
-    """A node beside that of the launch file, in a namespace of its name, for as long as the block runs."""
+    """A node beside that of the launch file, in a namespace of its name, for as long as the block
+    runs."""
 
     def __init__(self, name, **more):
         self.name = name
@@ -371,8 +467,10 @@ class OwnNode:
             rospy.set_param("/%s/node/%s" % (name, key), value)
 
     def __enter__(self):
-        self.process = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=node"],
-                                        env=dict(os.environ, ROS_NAMESPACE="/" + self.name))
+        self.process = subprocess.Popen(
+            [find_node("mems_stiction", "stiction_node")[0], "__name:=node"],
+            env=dict(os.environ, ROS_NAMESPACE="/" + self.name),
+        )
         rospy.wait_for_service("/%s/node/predict" % self.name, timeout=TIMEOUT)
         return self
 
@@ -396,7 +494,8 @@ class OwnNode:
 class Traffic:
     """Sends scans one after the other, on a thread of its own, for as long as the block runs.
 
-    predictions: a Collector; the scans then run no further ahead of what it gets than LEAD, however slow the node is.
+    predictions: a Collector; the scans then run no further ahead of what it gets than LEAD, however
+    slow the node is.
     """
 
     LEAD = 50
@@ -407,7 +506,8 @@ class Traffic:
         self.newest = None  # of the stamps
         self._predictions = predictions
         self._before = len(predictions.messages) if predictions else 0
-        # The thread sanitizer has one processor, on which scans that come as fast as ever would leave nothing for others.
+        # The thread sanitizer has one processor, on which scans that come as fast as ever would
+        # leave nothing for others.
         self._station, self._period = station, period * (50 if SANITIZER == "thread" else 1)
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run)
@@ -415,7 +515,10 @@ class Traffic:
     def _run(self):
         number = 0
         while not self._stop.is_set():
-            if self._predictions is None or number - (len(self._predictions.messages) - self._before) < self.LEAD:
+            if (
+                self._predictions is None
+                or number - (len(self._predictions.messages) - self._before) < self.LEAD
+            ):
                 surface, stamp = self.surfaces[number % len(self.surfaces)], self._station.stamp()
                 self.sent[stamp], self.newest = surface, stamp
                 self._station.send(surface, stamp)
@@ -440,5 +543,9 @@ def make_bag(path, *arguments):
 
 def play_bag(path):
     """As the documentation tells users to replay without loss."""
-    subprocess.run(["rosbag", "play", "--quiet", "--wait-for-subscribers", path], check=True, timeout=300,
-                   stdin=subprocess.DEVNULL)
+    subprocess.run(
+        ["rosbag", "play", "--quiet", "--wait-for-subscribers", path],
+        check=True,
+        timeout=300,
+        stdin=subprocess.DEVNULL,
+    )

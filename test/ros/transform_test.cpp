@@ -36,14 +36,17 @@ TEST(PoseOf, NoTurnIsNoPose) {
   EXPECT_EQ(pose.tilt_y, 0.0);
 }
 
-/// By the definition in alignment.hpp: points of the counter-surface's plane lie where the pose's slopes say.
+/// By the definition in alignment.hpp: points of the counter-surface's plane lie where the pose's
+/// slopes say.
 TEST(PoseOf, ThePlaneIsThatOfTheTransform) {
   tf2::Quaternion turn;
   turn.setRPY(0.02, -0.05, 0.7);
   const SurfacePose pose = poseOf(transformOf(turn));
-  for (const tf2::Vector3& point : {tf2::Vector3(1, 0, 0), tf2::Vector3(0, 1, 0), tf2::Vector3(-2, 3, 0)}) {
+  for (const tf2::Vector3& point :
+       {tf2::Vector3(1, 0, 0), tf2::Vector3(0, 1, 0), tf2::Vector3(-2, 3, 0)}) {
     const tf2::Vector3 seen = tf2::Matrix3x3(turn) * point;
-    EXPECT_NEAR(seen.z(), seen.x() * std::tan(pose.tilt_x) + seen.y() * std::tan(pose.tilt_y), 1e-12);
+    EXPECT_NEAR(seen.z(), seen.x() * std::tan(pose.tilt_x) + seen.y() * std::tan(pose.tilt_y),
+                1e-12);
   }
   EXPECT_NEAR(pose.rotation, 0.7, 2e-3);  // of second order in the tilts
 }
@@ -72,7 +75,10 @@ class TransformGateTest : public testing::Test {
     std_msgs::Header header;
     header.stamp = ros::Time(stamp);
     gate_.add(
-        header, [this, stamp](const SurfacePose&) { log_.push_back("accept " + std::to_string(std::int64_t(stamp))); },
+        header,
+        [this, stamp](const SurfacePose&) {
+          log_.push_back("accept " + std::to_string(std::int64_t(stamp)));
+        },
         [this, stamp](const std::string& reason) {
           log_.push_back("reject " + std::to_string(std::int64_t(stamp)) + " " + reason);
         },
@@ -97,7 +103,8 @@ class TransformGateTest : public testing::Test {
   TransformGate gate_{ros::WallDuration(1.0),
                       [this](const std_msgs::Header& header) {
                         if (header.stamp.toSec() < 0.5) throw SurfaceError("never");
-                        if (header.stamp.sec == kWild) throw std::runtime_error("Duration is out of range");
+                        if (header.stamp.sec == kWild)
+                          throw std::runtime_error("Duration is out of range");
                         if (header.stamp.toSec() > known_until_) throw NoTransform("not yet");
                         return SurfacePose();
                       },
@@ -158,7 +165,8 @@ TEST_F(TransformGateTest, WhateverTheLookupThrowsTheNextInLineGetsItsTurn) {
   add(6.0);
   known_until_ = 6.0;
   wait(0.1);
-  EXPECT_EQ(log_, (std::vector<std::string>{"accept 5", "reject 4294967295 Duration is out of range", "accept 6"}));
+  EXPECT_EQ(log_, (std::vector<std::string>{
+                      "accept 5", "reject 4294967295 Duration is out of range", "accept 6"}));
 }
 
 }  // namespace

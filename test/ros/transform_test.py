@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""counter_surface/frame: the transform at the scan's stamp does what the same pose does as parameters; a scan without
-transform is rejected with that reason, and nobody overtakes a scan that waits."""
+"""counter_surface/frame: the transform at the scan's stamp does what the same pose does as
+parameters; a scan without transform is rejected with that reason, and nobody overtakes a scan that
+waits."""
 
 import math
 import struct
@@ -13,8 +14,23 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import Predict, SetLoad
-from stiction_client import (TIMEOUT, BytesPublisher, Collector, Counts, OwnNode, Station, image_message, info_message, peak_memory,
-                             predict_scan, process_of, rough_surface, settings_of, unlike, wait_until)
+from stiction_client import (
+    TIMEOUT,
+    BytesPublisher,
+    Collector,
+    Counts,
+    OwnNode,
+    Station,
+    image_message,
+    info_message,
+    peak_memory,
+    predict_scan,
+    process_of,
+    rough_surface,
+    settings_of,
+    unlike,
+    wait_until,
+)
 from tf2_msgs.msg import TFMessage
 
 FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
@@ -25,8 +41,12 @@ def multiplied(a, b):
     """Quaternions (x, y, z, w)."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
-    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 
 
 def tilt_and_rotation(tilt_x, tilt_y, rotation):
@@ -36,8 +56,10 @@ def tilt_and_rotation(tilt_x, tilt_y, rotation):
     axis = np.cross([0.0, 0.0, 1.0], normal)
     angle = math.asin(np.linalg.norm(axis))
     axis = axis / np.linalg.norm(axis) * math.sin(0.5 * angle)
-    return multiplied((axis[0], axis[1], axis[2], math.cos(0.5 * angle)),
-                      (0.0, 0.0, math.sin(0.5 * rotation), math.cos(0.5 * rotation)))
+    return multiplied(
+        (axis[0], axis[1], axis[2], math.cos(0.5 * angle)),
+        (0.0, 0.0, math.sin(0.5 * rotation), math.cos(0.5 * rotation)),
+    )
 
 
 def transform(parent, child, stamp, x, y, turn):
@@ -63,19 +85,35 @@ class TransformTest(unittest.TestCase):
         cls.station = Station()
         cls.references = []
         for name in ("first/", "second/"):
-            cls.references.append((Station(name), Collector(name + "prediction", StictionPrediction).connect()))
+            cls.references.append(
+                (Station(name), Collector(name + "prediction", StictionPrediction).connect())
+            )
         # The stage moves in the scan's frame; the counter-surface sits on it, tilted and turned.
         turn = tilt_and_rotation(FIRST["tilt_x"], FIRST["tilt_y"], FIRST["rotation"])
-        cls.static.publish(TFMessage([transform("stage", "counter", rospy.Time(0), 0.0, FIRST["offset_y"], turn),
-                                      transform("stage", "fixed", rospy.Time(0), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+        cls.static.publish(
+            TFMessage(
+                [
+                    transform("stage", "counter", rospy.Time(0), 0.0, FIRST["offset_y"], turn),
+                    transform("stage", "fixed", rospy.Time(0), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0)),
+                ]
+            )
+        )
         wait_until(cls.moving.get_num_connections, "the node to listen to /tf")
 
     def wait_until_moved(self, node):
         """It hears of places only that are said once it listens."""
-        wait_until(lambda: node in [connection.endpoint_id for connection in list(self.moving.impl.connections)], node + " to listen to /tf")
+        wait_until(
+            lambda: (
+                node
+                in [connection.endpoint_id for connection in list(self.moving.impl.connections)]
+            ),
+            node + " to listen to /tf",
+        )
 
     def move(self, stamp, x):
-        self.moving.publish(TFMessage([transform("scan", "stage", stamp, x, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+        self.moving.publish(
+            TFMessage([transform("scan", "stage", stamp, x, 0.0, (0.0, 0.0, 0.0, 1.0))])
+        )
 
     def reference(self, index, surface):
         station, predictions = self.references[index]
@@ -93,7 +131,10 @@ class TransformTest(unittest.TestCase):
         self.station.send(rough_surface(1))
         self.counts.wait(received=1, rejected=1, predicted=0)
         self.assertGreater(time.monotonic() - begin, 4.9)
-        self.assertIn("no transform from the scan's frame 'scan' to counter_surface/frame counter", self.counts["last_reason"])
+        self.assertIn(
+            "no transform from the scan's frame 'scan' to counter_surface/frame counter",
+            self.counts["last_reason"],
+        )
         self.assertEqual(self.predictions.messages, [])
 
     def test_2_the_transform_at_the_stamp_is_the_pose_by_parameters(self):
@@ -116,12 +157,16 @@ class TransformTest(unittest.TestCase):
 
         # The same scan by call, and again after a change of load: at its own pose.
         predict = rospy.ServiceProxy("stiction_node/predict", Predict)
-        called = predict(image_message(surface, rospy.Time(1010)), info_message(rospy.Time(1010)), 0.0, 1e-6)
+        called = predict(
+            image_message(surface, rospy.Time(1010)), info_message(rospy.Time(1010)), 0.0, 1e-6
+        )
         self.assertTrue(called.success, called.message)
         self.assert_same(called.prediction, first)
         again = rospy.ServiceProxy("stiction_node/set_load", SetLoad)(0.0, 1e-6)
         self.assert_same(again.prediction, second)
-        missing = predict(image_message(surface, rospy.Time(2000)), info_message(rospy.Time(2000)), 0.0, 1e-6)
+        missing = predict(
+            image_message(surface, rospy.Time(2000)), info_message(rospy.Time(2000)), 0.0, 1e-6
+        )
         self.assertFalse(missing.success)
         self.assertIn("no transform", missing.message)
 
@@ -130,7 +175,9 @@ class TransformTest(unittest.TestCase):
         count = len(self.predictions.messages)
         self.station._second = 1021
         self.station.send(surface)  # 1022: no transform yet
-        fixed = image_message(surface, self.station.stamp())  # 1023: its transform is there at all times
+        fixed = image_message(
+            surface, self.station.stamp()
+        )  # 1023: its transform is there at all times
         fixed.header.frame_id = "fixed"
         self.station.height.publish(fixed)
         self.station.info.publish(info_message(fixed.header.stamp))
@@ -169,22 +216,44 @@ class TransformTest(unittest.TestCase):
 
     def test_6_a_place_that_tf_states_is_that_of_the_command_line_to_the_bit(self):
         surface = rough_surface(6)
-        with OwnNode("placed", **{"counter_surface/type": "gaussian", "counter_surface/frame": "placed"}):
+        with OwnNode(
+            "placed", **{"counter_surface/type": "gaussian", "counter_surface/frame": "placed"}
+        ):
             predictions = Collector("/placed/prediction", StictionPrediction).connect()
             station = Station("/placed/")
             self.wait_until_moved("/placed/node")
             for second, x, y in ((3001, 37e-9, -12e-9), (3002, -5e-9, 0.0)):
-                self.moving.publish(TFMessage([transform("scan", "placed", rospy.Time(second), x, y, (0.0, 0.0, 0.0, 1.0))]))
+                self.moving.publish(
+                    TFMessage(
+                        [
+                            transform(
+                                "scan", "placed", rospy.Time(second), x, y, (0.0, 0.0, 0.0, 1.0)
+                            )
+                        ]
+                    )
+                )
                 station._second = second - 1
                 station.send(surface)
-                expected = predict_scan(surface, 1e-6, settings=settings_of(
-                    counter_surface={"type": "gaussian", "pose": {"offset_x": x, "offset_y": y}}))
+                expected = predict_scan(
+                    surface,
+                    1e-6,
+                    settings=settings_of(
+                        counter_surface={"type": "gaussian", "pose": {"offset_x": x, "offset_y": y}}
+                    ),
+                )
                 self.assertEqual(unlike(predictions.wait(second - 3000)[-1], expected), [])
 
     def test_7_a_counter_surface_comes_behind_the_scan_that_waits(self):
         surface, counters = rough_surface(7), [rough_surface(8), rough_surface(9)]
-        with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/facing": "down", "counter_surface/frame": "behind",
-                                  "counter_surface/transform_timeout": TIMEOUT}):
+        with OwnNode(
+            "behind",
+            **{
+                "counter_surface/type": "topic",
+                "counter_surface/facing": "down",
+                "counter_surface/frame": "behind",
+                "counter_surface/transform_timeout": TIMEOUT,
+            },
+        ):
             counts = Counts("behind/node")
             self.wait_until_moved("/behind/node")
             predictions = Collector("/behind/prediction", StictionPrediction).connect()
@@ -200,21 +269,51 @@ class TransformTest(unittest.TestCase):
             station.send(surface)
             counts.wait(waiting_for_transform=4)
             for second in (4001, 4002, 4003):
-                self.moving.publish(TFMessage([transform("scan", "behind", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
-            for prediction, counter in zip(predictions.wait(3), (counters[0], counters[0], counters[1])):
-                self.assertEqual(unlike(prediction, predict_scan(surface, 1e-6, counter=counter), ["settings_hash"]), [])
+                self.moving.publish(
+                    TFMessage(
+                        [
+                            transform(
+                                "scan", "behind", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0)
+                            )
+                        ]
+                    )
+                )
+            for prediction, counter in zip(
+                predictions.wait(3), (counters[0], counters[0], counters[1])
+            ):
+                self.assertEqual(
+                    unlike(
+                        prediction, predict_scan(surface, 1e-6, counter=counter), ["settings_hash"]
+                    ),
+                    [],
+                )
             counts.wait(counter_surfaces=2, waiting_for_transform=0, received=3, predicted=3)
 
     def test_8_a_wild_stamp_is_rejected_and_blocks_no_later_scan(self):
         surface = rough_surface(10)
-        with OwnNode("wild", **{"counter_surface/type": "gaussian", "counter_surface/frame": "wild", "counter_surface/transform_timeout": 20.0}):
+        with OwnNode(
+            "wild",
+            **{
+                "counter_surface/type": "gaussian",
+                "counter_surface/frame": "wild",
+                "counter_surface/transform_timeout": 20.0,
+            },
+        ):
             counts = Counts("wild/node")
             self.wait_until_moved("/wild/node")
             predictions = Collector("/wild/prediction", StictionPrediction).connect()
             station = Station("/wild/")
 
             def place(second):
-                self.moving.publish(TFMessage([transform("scan", "wild", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+                self.moving.publish(
+                    TFMessage(
+                        [
+                            transform(
+                                "scan", "wild", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0)
+                            )
+                        ]
+                    )
+                )
 
             for second in (5001, 5003):
                 place(second)
@@ -226,7 +325,9 @@ class TransformTest(unittest.TestCase):
             self.assertEqual(predictions.wait(2)[1].header.stamp, rospy.Time(5003))
             counts.wait(received=3, predicted=2, rejected=1, waiting_for_transform=0)
             self.assertIn("too far from those of the transforms", counts["last_reason"])
-            called = rospy.ServiceProxy("/wild/node/predict", Predict)(image_message(surface, beyond), info_message(beyond), 0.0, 1e-6)
+            called = rospy.ServiceProxy("/wild/node/predict", Predict)(
+                image_message(surface, beyond), info_message(beyond), 0.0, 1e-6
+            )
             self.assertFalse(called.success)
             self.assertIn("too far from those of the transforms", called.message)
             # what states more transforms than it holds takes no memory
@@ -244,7 +345,9 @@ class TransformTest(unittest.TestCase):
                 place(second)
             station.send(surface, rospy.Time(2**32 - 3))
             station.send(surface, rospy.Time(5004))
-            counts.wait(received=6, predicted=3, rejected=3, waiting=0)  # the last once its time is up: tf has forgotten its place
+            counts.wait(
+                received=6, predicted=3, rejected=3, waiting=0
+            )  # the last once its time is up: tf has forgotten its place
 
 
 if __name__ == "__main__":

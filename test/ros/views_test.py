@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a station shows: the latched preview, the views for rviz, the plot against the number of the scan."""
+"""What a station shows: the latched preview, the views for rviz, the plot against the number of the
+scan."""
 
 import os
 import subprocess
@@ -14,14 +15,23 @@ import rostest
 from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 from sensor_msgs.msg import Image, PointCloud2
-from stiction_client import TIMEOUT, Collector, Counts, Station, rough_surface, wait_for_listener, wait_until
+from stiction_client import (
+    TIMEOUT,
+    Collector,
+    Counts,
+    Station,
+    rough_surface,
+    wait_for_listener,
+    wait_until,
+)
 
 NODES = ("/plot_trend", "/stiction_trend")  # that of the test, and that of view.launch
 GREEN, RED = (53, 196, 106), (255, 90, 79)  # of trend_figure.VERDICTS
 
 
 def has_colour(picture, colour):
-    """Whether some pixel of rows x columns x RGB is near the colour; edges of letters are blended."""
+    """Whether some pixel of rows x columns x RGB is near the colour; edges of letters are
+    blended."""
     return bool((np.abs(picture.astype(int) - colour).max(axis=2) < 12).any())
 
 
@@ -39,7 +49,8 @@ class ViewsTest(unittest.TestCase):
         cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
 
     def live(self, surface):
-        """The scan's stamp, once it is predicted and whatever belongs to it is sent: the node counts it last."""
+        """The scan's stamp, once it is predicted and whatever belongs to it is sent: the node
+        counts it last."""
         count = len(self.predictions.messages)
         stamp = self.station.send(surface)
         self.predictions.wait(count + 1)
@@ -59,7 +70,10 @@ class ViewsTest(unittest.TestCase):
         self.assertEqual(np.count_nonzero(pixels == 0), 1)
         valid = np.isfinite(surface)
         low, high = np.percentile(surface[valid], [1, 99])
-        self.assertTrue((pixels[valid & (surface <= low)] <= 2).all() and (pixels[valid & (surface >= high)] >= 254).all())
+        self.assertTrue(
+            (pixels[valid & (surface <= low)] <= 2).all()
+            and (pixels[valid & (surface >= high)] >= 254).all()
+        )
 
         second = self.live(rough_surface(2))
         self.assertEqual([message.header.stamp for message in preview.wait(2)], [first, second])
@@ -67,8 +81,9 @@ class ViewsTest(unittest.TestCase):
         late = Collector("preview", Image).connect()
         self.assertEqual(late.wait(1)[0].header.stamp, second)
 
-        # Nobody listens: the next scan's is not made, so that the latched one is still that of the scan before; then it
-        # is. A slow connection gets the newest alone, which proves nothing: again.
+        # Nobody listens: the next scan's is not made, so that the latched one is still that of the
+        # scan before; then it is. A slow connection gets the newest alone, which proves nothing:
+        # again.
         listeners, before = [preview, late], second
         for seed in range(3, 13):
             for collector in listeners:
@@ -76,7 +91,10 @@ class ViewsTest(unittest.TestCase):
             newest = self.live(rough_surface(seed))
             listeners = [Collector("preview", Image).connect()]
             messages = listeners[0].messages
-            wait_until(lambda: messages and messages[-1].header.stamp == newest, "the preview of the newest scan")
+            wait_until(
+                lambda: messages and messages[-1].header.stamp == newest,
+                "the preview of the newest scan",
+            )
             if len(messages) == 2:
                 break
             before = newest
@@ -97,8 +115,20 @@ class ViewsTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = os.path.join(folder.name, "trend.png")
-        plot = subprocess.Popen([find_node("mems_stiction", "plot_trend")[0], "--output", path, "--count", "3", "--size", "900x500", "trend:=other_trend"],
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        plot = subprocess.Popen(
+            [
+                find_node("mems_stiction", "plot_trend")[0],
+                "--output",
+                path,
+                "--count",
+                "3",
+                "--size",
+                "900x500",
+                "trend:=other_trend",
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
         self.addCleanup(plot.kill)
         wait_until(lambda: os.path.exists(path), "the empty picture")
         for node in NODES:
@@ -106,27 +136,38 @@ class ViewsTest(unittest.TestCase):
             wait_for_listener("/diagnostics", node)
 
         trend = Collector("trend", Image).connect()  # of view.launch
-        surface = rough_surface(2, rms_height=5e-10)  # so smooth that three contacts hold it: one carries no statement
+        surface = rough_surface(
+            2, rms_height=5e-10
+        )  # so smooth that three contacts hold it: one carries no statement
         # A spring of 100 N/m over 1 um is far stronger than 3e-13 m^2 of this surface hold.
-        self.settings.update_configuration(dict(spring_stiffness=100.0, travel=1e-6, contact_area=48 * 64 * 1e-16))
+        self.settings.update_configuration(
+            dict(spring_stiffness=100.0, travel=1e-6, contact_area=48 * 64 * 1e-16)
+        )
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_NO)
         headline = slice(20, 70)
-        wait_until(lambda: trend.messages and has_colour(rgb(trend.messages[-1])[headline], GREEN), "a green headline")
+        wait_until(
+            lambda: trend.messages and has_colour(rgb(trend.messages[-1])[headline], GREEN),
+            "a green headline",
+        )
         self.assertFalse(has_colour(rgb(trend.messages[-1])[headline], RED))
         self.assertEqual((trend.messages[-1].width, trend.messages[-1].height), (1280, 720))
 
         rejected = int(self.counts["rejected"])
         self.station.send(np.full_like(surface, np.nan))
         self.counts.wait(rejected=rejected + 1)
-        wait_until(lambda: not has_colour(rgb(trend.messages[-1])[headline], GREEN), "the headline on the lost scan")
+        wait_until(
+            lambda: not has_colour(rgb(trend.messages[-1])[headline], GREEN),
+            "the headline on the lost scan",
+        )
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_YES)
         wait_until(lambda: has_colour(rgb(trend.messages[-1])[headline], RED), "a red headline")
 
-        # The other plot ends after two predictions and one loss, with the same story on a picture of the size asked for.
+        # The other plot ends after two predictions and one loss, with the same story on a picture
+        # of the size asked for.
         _, errors = plot.communicate(timeout=TIMEOUT)
         self.assertEqual(plot.returncode, 0, errors)
         picture = (255 * matplotlib.image.imread(path)[:, :, :3]).round()
@@ -135,10 +176,19 @@ class ViewsTest(unittest.TestCase):
         self.assertEqual(os.listdir(folder.name), ["trend.png"])
 
     def test_4_wrong_arguments_are_named(self):
-        for arguments, reason in ((["--output", "trend.jpg"], "must end in .png"), (["--size", "1280"], "WIDTHxHEIGHT"),
-                                  (["--output", "/no/such/folder/t.png"], "there is no folder"), (["--last", "-1"], "--last: '-1' is not allowed, must be a whole number >= 0")):
-            done = subprocess.run([find_node("mems_stiction", "plot_trend")[0]] + arguments, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT)
+        for arguments, reason in (
+            (["--output", "trend.jpg"], "must end in .png"),
+            (["--size", "1280"], "WIDTHxHEIGHT"),
+            (["--output", "/no/such/folder/t.png"], "there is no folder"),
+            (["--last", "-1"], "--last: '-1' is not allowed, must be a whole number >= 0"),
+        ):
+            done = subprocess.run(
+                [find_node("mems_stiction", "plot_trend")[0]] + arguments,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                universal_newlines=True,
+                timeout=TIMEOUT,
+            )
             self.assertEqual(done.returncode, 2)
             self.assertIn(reason, done.stderr)
 

@@ -25,7 +25,8 @@ TEST(WorkQueue, RunsScansInOrderAndCallsBeforeThem) {
   queue.push([&] { gate.get_future().wait(); });
   queue.start();
   for (int scan = 0; scan < 3; ++scan) {
-    queue.pushScan([&ran, scan] { ran.push_back(scan); }, [] { ADD_FAILURE() << "an unlimited queue drops nothing"; });
+    queue.pushScan([&ran, scan] { ran.push_back(scan); },
+                   [] { ADD_FAILURE() << "an unlimited queue drops nothing"; });
   }
   std::thread caller([&] { EXPECT_EQ(queue.call([&ran] { return ran.push_back(100), 7; }), 7); });
   while (queue.waitingScans() != 3) std::this_thread::yield();
@@ -48,7 +49,8 @@ TEST(WorkQueue, AJobThatThrowsEndsNeitherTheProcessNorTheJobsBehindIt) {
   queue.push([&all_done] { all_done.set_value(); });
   queue.start();
   EXPECT_EQ(all_done.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
-  EXPECT_THROW(queue.call([]() -> int { throw std::runtime_error("for the caller"); }), std::runtime_error);
+  EXPECT_THROW(queue.call([]() -> int { throw std::runtime_error("for the caller"); }),
+               std::runtime_error);
 }
 
 TEST(WorkQueue, DropsTheOldestScansAndNothingElse) {
@@ -57,7 +59,8 @@ TEST(WorkQueue, DropsTheOldestScansAndNothingElse) {
   WorkQueue queue(2);
   queue.push([&ran] { ran.push_back(100); });
   for (int scan = 0; scan < 5; ++scan) {
-    queue.pushScan([&ran, scan] { ran.push_back(scan); }, [&dropped, scan] { dropped.push_back(scan); });
+    queue.pushScan([&ran, scan] { ran.push_back(scan); },
+                   [&dropped, scan] { dropped.push_back(scan); });
   }
   queue.push([&all_done] { all_done.set_value(); });
   EXPECT_EQ(dropped, (Numbers{0, 1, 2}));
@@ -82,7 +85,9 @@ TEST(WorkQueue, DropsTheOldestScansBeyondItsMemoryButNeverTheNewest) {
 class CounterSurfacesTest : public ::testing::Test {
  protected:
   void scan(int number) { queue_.pushScan(running(number), dropping(number), 40); }
-  void counterSurface(int number) { queue_.pushCounterSurface(running(number), dropping(number), 40); }
+  void counterSurface(int number) {
+    queue_.pushCounterSurface(running(number), dropping(number), 40);
+  }
   std::function<void()> running(int number) {
     return [this, number] { ran_.push_back(number); };
   }
@@ -112,7 +117,8 @@ TEST_F(CounterSurfacesTest, ScansKeepThatWhichCameBeforeThem) {
   counterSurface(100), scan(1), counterSurface(101), scan(2);
   EXPECT_EQ(dropped_, (Numbers{1, 100}));  // nobody needs 100 any more
   counterSurface(102);
-  EXPECT_EQ(queue_.waitingBytes(), 120U);  // the newest of either kind, and what the scan is pressed against
+  EXPECT_EQ(queue_.waitingBytes(),
+            120U);  // the newest of either kind, and what the scan is pressed against
   EXPECT_EQ(ran(), (Numbers{101, 2, 102}));
 }
 
@@ -131,12 +137,15 @@ std::size_t residentBytes() {
 }
 
 TEST(WorkQueue, GivesTheMemoryOfABacklogBack) {
-  if (std::getenv("MEMS_STICTION_SANITIZER") != nullptr) GTEST_SKIP() << "a sanitizer keeps memory that was freed";
+  if (std::getenv("MEMS_STICTION_SANITIZER") != nullptr)
+    GTEST_SKIP() << "a sanitizer keeps memory that was freed";
   constexpr std::size_t kScan = 1 << 20;
   WorkQueue queue(0);
-  ASSERT_EQ(std::vector<char>(16 << 20, 'x').back(), 'x');  // from now on the allocator keeps smaller blocks
+  ASSERT_EQ(std::vector<char>(16 << 20, 'x').back(),
+            'x');  // from now on the allocator keeps smaller blocks
   const std::size_t before = residentBytes();
-  std::vector<std::shared_ptr<std::vector<char>>> kept;  // between the scans, so that the heap cannot shrink by itself
+  std::vector<std::shared_ptr<std::vector<char>>>
+      kept;  // between the scans, so that the heap cannot shrink by itself
   for (int scan = 0; scan < 200; ++scan) {
     auto pixels = std::make_shared<std::vector<char>>(kScan, 'x');
     queue.pushScan([pixels] {}, [] {}, kScan);
@@ -146,14 +155,16 @@ TEST(WorkQueue, GivesTheMemoryOfABacklogBack) {
   ASSERT_GT(residentBytes(), before + 150 * kScan);
   queue.start();
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (residentBytes() > before + 50 * kScan && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  while (residentBytes() > before + 50 * kScan && std::chrono::steady_clock::now() < end)
+    std::this_thread::yield();
   EXPECT_LT(residentBytes(), before + 50 * kScan);
 }
 
 TEST(WorkQueue, ACallGetsTheExceptionOfItsFunction) {
   WorkQueue queue(0);
   queue.start();
-  EXPECT_THROW(queue.call([]() -> int { throw std::invalid_argument("x"); }), std::invalid_argument);
+  EXPECT_THROW(queue.call([]() -> int { throw std::invalid_argument("x"); }),
+               std::invalid_argument);
   EXPECT_EQ(queue.call([] { return 3; }), 3);
 }
 
@@ -175,7 +186,8 @@ TEST(WorkQueue, ACallThatIsNotRunAnyMoreEndsWithAnError) {
   EXPECT_THROW(queue.call([] { return 1; }), std::future_error);
 }
 
-// Three callers that ask without end: one call is always waiting, and scans must get their half all the same.
+// Three callers that ask without end: one call is always waiting, and scans must get their half all
+// the same.
 TEST(WorkQueue, CallsThatNeverEndLeaveHalfOfTheTimeToScans) {
   const auto work = [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
   WorkQueue queue(0);

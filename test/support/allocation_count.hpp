@@ -1,6 +1,7 @@
 #pragma once
 
-/// Counts what the process asks of the heap, by whatever road: operator new, malloc and OpenCV's allocator.
+/// Counts what the process asks of the heap, by whatever road: operator new, malloc and OpenCV's
+/// allocator.
 
 #include <cstddef>
 

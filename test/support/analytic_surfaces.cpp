@@ -22,7 +22,9 @@ HeightMap sampled(int rows, int cols, double pitch_x, double pitch_y, HeightAt h
   return {heights, pitch_x, pitch_y};
 }
 
-double fromMiddle(int index, int count, double pitch) { return (index - 0.5 * (count - 1)) * pitch; }
+double fromMiddle(int index, int count, double pitch) {
+  return (index - 0.5 * (count - 1)) * pitch;
+}
 
 /// Position within the tile, from the tile's middle; `tile` is set to the tile's number.
 double fromTileMiddle(int index, int count, double pitch, int tiles, int& tile) {
@@ -37,8 +39,8 @@ HeightMap flat(int rows, int cols, double pitch_x, double pitch_y, double height
   return sampled(rows, cols, pitch_x, pitch_y, [=](int, int) { return height; });
 }
 
-HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x,
-                     double centre_y) {
+HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius,
+                     double centre_x, double centre_y) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
     const double x = fromMiddle(col, cols, pitch_x) - centre_x;
     const double y = fromMiddle(row, rows, pitch_y) - centre_y;
@@ -46,17 +48,19 @@ HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double 
   });
 }
 
-HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x, double centre_y) {
+HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x,
+                 double centre_y) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
     const double x = fromMiddle(col, cols, pitch_x) - centre_x;
     const double y = fromMiddle(row, rows, pitch_y) - centre_y;
     const double square = x * x + y * y;
-    return -square / (radius + std::sqrt(radius * radius - square));  // sqrt(R^2 - r^2) - R without its round-off
+    return -square / (radius + std::sqrt(radius * radius -
+                                         square));  // sqrt(R^2 - r^2) - R without its round-off
   });
 }
 
-HeightMap sphereArray(int rows, int cols, double pitch_x, double pitch_y, const std::vector<double>& radii, int count_x,
-                      int count_y) {
+HeightMap sphereArray(int rows, int cols, double pitch_x, double pitch_y,
+                      const std::vector<double>& radii, int count_x, int count_y) {
   if (radii.empty()) throw std::invalid_argument("sphereArray needs at least one radius");
   return sampled(rows, cols, pitch_x, pitch_y, [&](int row, int col) {
     int tile_x = 0;
@@ -68,25 +72,30 @@ HeightMap sphereArray(int rows, int cols, double pitch_x, double pitch_y, const 
   });
 }
 
-HeightMap tiltedPlane(int rows, int cols, double pitch_x, double pitch_y, double slope_x, double slope_y,
-                      double offset) {
+HeightMap tiltedPlane(int rows, int cols, double pitch_x, double pitch_y, double slope_x,
+                      double slope_y, double offset) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
-    return offset + slope_x * fromMiddle(col, cols, pitch_x) + slope_y * fromMiddle(row, rows, pitch_y);
+    return offset + slope_x * fromMiddle(col, cols, pitch_x) +
+           slope_y * fromMiddle(row, rows, pitch_y);
   });
 }
 
-HeightMap sine(int rows, int cols, double pitch_x, double pitch_y, double amplitude, int periods_x, int periods_y) {
+HeightMap sine(int rows, int cols, double pitch_x, double pitch_y, double amplitude, int periods_x,
+               int periods_y) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
-    const double phase = static_cast<double>(periods_x) * col / cols + static_cast<double>(periods_y) * row / rows;
+    const double phase =
+        static_cast<double>(periods_x) * col / cols + static_cast<double>(periods_y) * row / rows;
     return amplitude * std::sin(2.0 * kPi * phase);
   });
 }
 
-HeightMap flatWithBump(int rows, int cols, double pitch_x, double pitch_y, double height, int width) {
+HeightMap flatWithBump(int rows, int cols, double pitch_x, double pitch_y, double height,
+                       int width) {
   const int first_row = (rows - width) / 2;
   const int first_col = (cols - width) / 2;
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
-    const bool on_bump = row >= first_row && row < first_row + width && col >= first_col && col < first_col + width;
+    const bool on_bump =
+        row >= first_row && row < first_row + width && col >= first_col && col < first_col + width;
     return on_bump ? height : 0.0;
   });
 }

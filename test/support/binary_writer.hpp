@@ -22,7 +22,8 @@ std::string littleBytes(Number number) {
     bits = static_cast<std::uint64_t>(number);
   }
   std::string text;
-  for (std::size_t i = 0; i < sizeof(Number); ++i) text += static_cast<char>(bits >> (8 * i) & 0xFF);
+  for (std::size_t i = 0; i < sizeof(Number); ++i)
+    text += static_cast<char>(bits >> (8 * i) & 0xFF);
   return text;
 }
 

@@ -18,7 +18,8 @@ class RowVisitor : public OptionVisitor {
               const std::string& meaning) override {
     row(key, unit.empty() ? "-" : unit, yamlNumber(value), range.text(), meaning);
   }
-  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+  void integer(const std::string& key, int& value, const Range& range,
+               const std::string& meaning) override {
     row(key, "-", std::to_string(value), "integer " + range.text(), meaning);
   }
   void flag(const std::string& key, bool& value, const std::string& meaning) override {
@@ -44,8 +45,8 @@ class TableWriter : public RowVisitor {
   const std::string& text() const { return text_; }
 
  private:
-  void row(const std::string& key, const std::string& unit, const std::string& value, const std::string& allowed,
-           const std::string& meaning) override {
+  void row(const std::string& key, const std::string& unit, const std::string& value,
+           const std::string& allowed, const std::string& meaning) override {
     const std::size_t slash = key.find('/');
     const std::string section = slash == std::string::npos ? "" : key.substr(0, slash);
     if (text_.empty() || section != section_) {
@@ -53,7 +54,8 @@ class TableWriter : public RowVisitor {
       text_ += "\n| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
     }
     section_ = section;
-    text_ += "| `" + key + "` | " + value + " | " + unit + " | " + allowed + " | " + meaning + " |\n";
+    text_ +=
+        "| `" + key + "` | " + value + " | " + unit + " | " + allowed + " | " + meaning + " |\n";
   }
 
   std::string section_;
@@ -86,7 +88,8 @@ std::pair<std::size_t, std::size_t> placeOf(const std::string& page, const std::
   const std::size_t begin = marker == std::string::npos ? marker : page.find("-->\n", marker);
   const std::size_t end = page.find("<!-- end " + name + " -->");
   if (begin == std::string::npos || end == std::string::npos || end < begin + 4) {
-    throw std::runtime_error("the page has no markers 'begin " + name + ":' and 'end " + name + "'");
+    throw std::runtime_error("the page has no markers 'begin " + name + ":' and 'end " + name +
+                             "'");
   }
   return {begin + 4, end};
 }
@@ -110,7 +113,8 @@ std::string generatedPart(const std::string& page, const std::string& name) {
   return page.substr(place.first, place.second - place.first);
 }
 
-std::string withGeneratedPart(const std::string& page, const std::string& name, const std::string& part) {
+std::string withGeneratedPart(const std::string& page, const std::string& name,
+                              const std::string& part) {
   const auto place = placeOf(page, name);
   return page.substr(0, place.first) + part + page.substr(place.second);
 }

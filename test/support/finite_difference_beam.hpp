@@ -13,17 +13,19 @@
 
 namespace mems_stiction {
 
-/// E I w'''' - N w'' + k w = q on n cells of the beam; w at the nodes 1 ... n, of which node 0 is clamped. The far end is free,
-/// or clamped when the beam is doubly clamped.
+/// E I w'''' - N w'' + k w = q on n cells of the beam; w at the nodes 1 ... n, of which node 0 is
+/// clamped. The far end is free, or clamped when the beam is doubly clamped.
 class FiniteDifferenceBeam {
  public:
-  FiniteDifferenceBeam(const Beam& beam, int cells) : beam_(beam), cells_(cells), step_(beam.length / cells) {}
+  FiniteDifferenceBeam(const Beam& beam, int cells)
+      : beam_(beam), cells_(cells), step_(beam.length / cells) {}
 
   double place(int node) const { return node * step_; }
   int nodes() const { return cells_; }
   double step() const { return step_; }
 
-  /// Matrix of the operator under the axial force N [N] and a foundation [N/m^2] per node, times step^4/(E I).
+  /// Matrix of the operator under the axial force N [N] and a foundation [N/m^2] per node, times
+  /// step^4/(E I).
   Eigen::MatrixXd matrix(double axial_force, double foundation) const {
     const int n = cells_;
     const bool is_clamped = beam_.type == BeamType::kDoublyClamped;
@@ -66,7 +68,9 @@ class FiniteDifferenceBeam {
     return matrix.partialPivLu().solve(load * (std::pow(step_, 4) / rigidity()));
   }
 
-  double rigidity() const { return beam_.modulus * beam_.width * std::pow(beam_.thickness, 3) / 12.0; }
+  double rigidity() const {
+    return beam_.modulus * beam_.width * std::pow(beam_.thickness, 3) / 12.0;
+  }
 
   /// N of a doubly clamped beam that is bent so [N]: residual stress and stretching.
   double axialForce(const Eigen::VectorXd& deflection) const {

@@ -7,7 +7,9 @@
 namespace mems_stiction {
 
 /// Whether the cell is valid in both surfaces.
-inline bool isValid(const GapField& field, int cell) { return field.gap(cell) < GapField::kInvalidGap; }
+inline bool isValid(const GapField& field, int cell) {
+  return field.gap(cell) < GapField::kInvalidGap;
+}
 
 /// The gaps of all cells in the order of the frame [m]; infinite where a cell is not valid.
 inline std::vector<double> frameGaps(const GapField& field) {

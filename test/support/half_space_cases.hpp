@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Surfaces on a rigid plane under the 9-3 law with z0 stated: what closed forms of the half-space are about.
+/// Surfaces on a rigid plane under the 9-3 law with z0 stated: what closed forms of the half-space
+/// are about.
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
 
@@ -9,7 +10,8 @@ namespace mems_stiction {
 namespace half_space_cases {
 
 /// A lower body with this contact modulus [Pa] against a rigid plane.
-inline HalfSpaceProblem onRigidPlane(const HeightMap& lower, double contact_modulus, double work_of_adhesion = 0.05) {
+inline HalfSpaceProblem onRigidPlane(const HeightMap& lower, double contact_modulus,
+                                     double work_of_adhesion = 0.05) {
   HalfSpaceProblem problem;
   problem.surfaces.lower = lower;
   problem.lower_material.youngs_modulus = contact_modulus;

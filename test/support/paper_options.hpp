@@ -1,6 +1,7 @@
 #pragma once
 
-/// Settings with the paper's solver, for tests of what it computes: they hold whatever the default formulation is.
+/// Settings with the paper's solver, for tests of what it computes: they hold whatever the default
+/// formulation is.
 
 #include "mems_stiction/configuration/configuration.hpp"
 

@@ -50,12 +50,15 @@ void addEdge(const GapField& field, cv::Point cell, cv::Point neighbour, Boundar
   sums.y_lower += y * lower;
 }
 
-void measureBoundary(const GapField& field, const cv::Mat& labels, std::vector<ContactPatch>& patches) {
+void measureBoundary(const GapField& field, const cv::Mat& labels,
+                     std::vector<ContactPatch>& patches) {
   forEachContactCell(labels, [&](int row, int col, int label) {
-    for (const cv::Point step : {cv::Point(-1, 0), cv::Point(1, 0), cv::Point(0, -1), cv::Point(0, 1)}) {
+    for (const cv::Point step :
+         {cv::Point(-1, 0), cv::Point(1, 0), cv::Point(0, -1), cv::Point(0, 1)}) {
       const cv::Point neighbour = cv::Point(col, row) + step;
       if (!cv::Rect(0, 0, labels.cols, labels.rows).contains(neighbour)) continue;
-      if (labels.at<int>(neighbour) > 0 || !isValid(field, neighbour.y * labels.cols + neighbour.x)) continue;
+      if (labels.at<int>(neighbour) > 0 || !isValid(field, neighbour.y * labels.cols + neighbour.x))
+        continue;
       addEdge(field, {col, row}, neighbour, patches[static_cast<std::size_t>(label - 1)].boundary);
     }
   });
@@ -82,19 +85,23 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
   State state;
   state.approach = approach;
   state.touch = touch;
-  state.labelling = labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
+  state.labelling =
+      labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
   for (const ContactPatch& patch : state.labelling.patches) {
     PatchCentre centre = boxCentre(patch, problem.field);
     const auto label = static_cast<int>(state.caps.size()) + 1;
-    const bool is_inside = state.labelling.labels.at<int>(centre.cell.row, centre.cell.col) == label;
+    const bool is_inside =
+        state.labelling.labels.at<int>(centre.cell.row, centre.cell.col) == label;
     if (!is_inside) centre = deepestCentre(patch, problem.field);
-    state.caps.push_back(
-        capCouple(patch, problem.field, centre, problem.options.solver.of<PaperOptions>().cutoff_distance));
+    state.caps.push_back(capCouple(patch, problem.field, centre,
+                                   problem.options.solver.of<PaperOptions>().cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
   }
-  const CellForces forces(problem.options.interface, problem.options.solver.of<PaperOptions>().cutoff_distance,
+  const CellForces forces(problem.options.interface,
+                          problem.options.solver.of<PaperOptions>().cutoff_distance,
                           problem.options.load.voltage, problem.field.cellArea());
-  state.load = sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
+  state.load =
+      sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
   state.balance = forceBalance(state.responses, state.load.total(), problem.law);
   return state;
 }
@@ -103,17 +110,21 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
 double limitGap(const GapField& field, double max_contact_fraction) {
   std::vector<double> gaps = frameGaps(field);
   std::sort(gaps.begin(), gaps.end());  // those that are not valid last
-  const auto wanted = static_cast<std::size_t>(std::max(1.0, std::ceil(max_contact_fraction * field.validCount())));
+  const auto wanted =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(max_contact_fraction * field.validCount())));
   return gaps[wanted - 1];
 }
 
 /// The first level in (previous, step_end] that is in equilibrium, or the end of the step.
-State refined(const Problem& problem, const State& step_end, double previous_approach, double step) {
+State refined(const Problem& problem, const State& step_end, double previous_approach,
+              double step) {
   std::set<double> gaps;
   for (const double gap : frameGaps(problem.field)) {
-    if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach) gaps.insert(gap);
+    if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach)
+      gaps.insert(gap);
   }
-  // Gaps within a millionth of a step of the smallest among them are one level: they differ by round-off.
+  // Gaps within a millionth of a step of the smallest among them are one level: they differ by
+  // round-off.
   std::vector<double> ordered;
   double level_start = -1.0;
   for (const double gap : gaps) {
@@ -157,7 +168,8 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
   prediction.normal_load = state.load.total();
   prediction.contact_area = state.labelling.contact_count * field.cellArea();
   prediction.nominal_area = field.validCount() * field.cellArea();
-  prediction.contact_fraction = static_cast<double>(state.labelling.contact_count) / field.validCount();
+  prediction.contact_fraction =
+      static_cast<double>(state.labelling.contact_count) / field.validCount();
   prediction.approach = state.approach;
   prediction.mean_gap = meanGapApart(field, state);
   const Energies energies = totalEnergies(state.responses, state.balance, problem.law);
@@ -168,8 +180,9 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
   prediction.bonding_energy = energies.total() / prediction.nominal_area;
   ContactSolution sums;
   for (std::size_t i = 0; i < state.caps.size(); ++i) {
-    sums.asperities.push_back(asperityAt(state.labelling.patches[i], state.caps[i], state.responses[i],
-                                         state.balance.load_share, field, problem.law, problem.options.interface));
+    sums.asperities.push_back(asperityAt(state.labelling.patches[i], state.caps[i],
+                                         state.responses[i], state.balance.load_share, field,
+                                         problem.law, problem.options.interface));
   }
   sumAsperities(problem.law, sums);
   prediction.pull_off_force_jkr = sums.pull_off_force_jkr;
@@ -189,16 +202,19 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
 
 }  // namespace
 
-Labelling labelPatches(const GapField& field, double approach, Touch touch, Connectivity connectivity) {
+Labelling labelPatches(const GapField& field, double approach, Touch touch,
+                       Connectivity connectivity) {
   cv::Mat1b mask(field.rows(), field.cols());
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    mask(cell / field.cols(), cell % field.cols()) = touches(field.gap(cell), approach, touch) ? 255 : 0;
+    mask(cell / field.cols(), cell % field.cols()) =
+        touches(field.gap(cell), approach, touch) ? 255 : 0;
   }
   Labelling labelling;
   cv::Mat stats;
   cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labelling.labels, stats, centroids,
-                                                     connectivity == Connectivity::kFour ? 4 : 8, CV_32S);
+  const int count =
+      cv::connectedComponentsWithStats(mask, labelling.labels, stats, centroids,
+                                       connectivity == Connectivity::kFour ? 4 : 8, CV_32S);
   labelling.patches.resize(static_cast<std::size_t>(count - 1));
   for (int label = 1; label < count; ++label) {
     ContactPatch& patch = labelling.patches[static_cast<std::size_t>(label - 1)];
@@ -215,7 +231,8 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
     ContactPatch& patch = labelling.patches[static_cast<std::size_t>(label - 1)];
     const int cell = row * field.cols() + col;
     const auto gapAt = [&](int other_row, int other_col) {
-      const bool is_in_frame = other_row >= 0 && other_row < field.rows() && other_col >= 0 && other_col < field.cols();
+      const bool is_in_frame =
+          other_row >= 0 && other_row < field.rows() && other_col >= 0 && other_col < field.cols();
       return is_in_frame ? field.gap(other_row * field.cols() + other_col) : GapField::kInvalidGap;
     };
     const auto take = [&](Side side, bool applies, int row_step, int col_step) {
@@ -255,16 +272,20 @@ Prediction predict(const Options& options, const SurfacePair& surfaces) {
   options.check();
   Prediction prediction;
   prediction.rms_height = heightStatistics(surfaces.lower).rms_height;
-  const double upper_rms_height = surfaces.upperIsPlane() ? 0.0 : heightStatistics(surfaces.upper).rms_height;
+  const double upper_rms_height =
+      surfaces.upperIsPlane() ? 0.0 : heightStatistics(surfaces.upper).rms_height;
   prediction.composite_rms_height = std::hypot(prediction.rms_height, upper_rms_height);
-  Problem problem{options, GapField(),
-                  AsperityLaw(ContactPair(options.lower, options.upper), options.interface.work_of_adhesion,
-                              prediction.composite_rms_height, formulationOf(options), options.deformation)};
+  Problem problem{
+      options, GapField(),
+      AsperityLaw(ContactPair(options.lower, options.upper), options.interface.work_of_adhesion,
+                  prediction.composite_rms_height, formulationOf(options), options.deformation)};
   problem.field.compute(surfaces);
-  prediction.invalid_fraction = 1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
+  prediction.invalid_fraction =
+      1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
 
   const double limit_gap = limitGap(problem.field, options.approach.max_contact_fraction);
-  const double step = approachStep(options.solver.of<PaperOptions>(), prediction.composite_rms_height);
+  const double step =
+      approachStep(options.solver.of<PaperOptions>(), prediction.composite_rms_height);
   State state;
   bool has_ended = false;
   while (!has_ended && prediction.steps < options.approach.max_steps) {
@@ -272,15 +293,16 @@ Prediction predict(const Options& options, const SurfacePair& surfaces) {
     const double previous_approach = state.approach;
     const double approach = prediction.steps * step;
     const bool reaches_limit = limit_gap < approach;
-    state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo) : stateAt(problem, approach, Touch::kBelow);
+    state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo)
+                          : stateAt(problem, approach, Touch::kBelow);
     has_ended = state.balance.is_equilibrium || reaches_limit;
     if (state.balance.is_equilibrium) {
       state = refined(problem, state, previous_approach, step);
       prediction.status = Status::kEquilibrium;
     } else if (reaches_limit) {
-      const bool all_plastic =
-          std::all_of(state.responses.begin(), state.responses.end(),
-                      [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
+      const bool all_plastic = std::all_of(
+          state.responses.begin(), state.responses.end(),
+          [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
       prediction.status = all_plastic ? Status::kNoEquilibrium : Status::kBonded;
     }
     prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);

@@ -1,9 +1,9 @@
 #pragma once
 
-/// The adhesion model the slow and obvious way: at every step of the approach the whole frame is thresholded and
-/// relabelled with OpenCV's connectedComponentsWithStats, patches are measured from their labels, and loads are summed
-/// cell by cell. The yardstick for PatchSweep, GapLoads and AdhesionModel; it shares with them only the formulas for
-/// one patch.
+/// The adhesion model the slow and obvious way: at every step of the approach the whole frame is
+/// thresholded and relabelled with OpenCV's connectedComponentsWithStats, patches are measured from
+/// their labels, and loads are summed cell by cell. The yardstick for PatchSweep, GapLoads and
+/// AdhesionModel; it shares with them only the formulas for one patch.
 
 #include <vector>
 
@@ -18,7 +18,8 @@
 namespace mems_stiction {
 namespace plain {
 
-/// Which cells touch at an approach D: g < D on the way, g <= D when D is the gap of the last cell that was added.
+/// Which cells touch at an approach D: g < D on the way, g <= D when D is the gap of the last cell
+/// that was added.
 enum class Touch { kBelow, kUpTo };
 
 /// The contact patches of one state, measured from a labelling of the frame.
@@ -28,7 +29,8 @@ struct Labelling {
   int contact_count = 0;
 };
 
-Labelling labelPatches(const GapField& field, double approach, Touch touch, Connectivity connectivity);
+Labelling labelPatches(const GapField& field, double approach, Touch touch,
+                       Connectivity connectivity);
 
 /// (2) and (3) summed cell by cell.
 NormalLoad sumLoads(const GapField& field, double approach, Touch touch, const CellForces& forces,

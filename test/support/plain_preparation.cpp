@@ -20,7 +20,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> validOf(const cv::Mat1d& heights) {
   std::vector<double> valid;
-  std::copy_if(heights.begin(), heights.end(), std::back_inserter(valid), [](double z) { return !std::isnan(z); });
+  std::copy_if(heights.begin(), heights.end(), std::back_inserter(valid),
+               [](double z) { return !std::isnan(z); });
   return valid;
 }
 
@@ -92,7 +93,8 @@ double beyond(const cv::Mat1d& heights, int row, int col) {
   const int last_row = heights.rows - 1;
   const int last_col = heights.cols - 1;
   if (row < 0) return 2.0 * beyond(heights, 0, col) - beyond(heights, -row, col);
-  if (row > last_row) return 2.0 * beyond(heights, last_row, col) - beyond(heights, 2 * last_row - row, col);
+  if (row > last_row)
+    return 2.0 * beyond(heights, last_row, col) - beyond(heights, 2 * last_row - row, col);
   if (col < 0) return 2.0 * heights(row, 0) - heights(row, -col);
   if (col > last_col) return 2.0 * heights(row, last_col) - heights(row, 2 * last_col - col);
   return heights(row, col);
@@ -127,7 +129,8 @@ cv::Mat1d withoutSpikes(const cv::Mat1d& heights, int half, double threshold) {
   const cv::Mat1d flat = withoutRobustPolynomial(heights);
   cv::Mat1d residuals(heights.size());
   for (int row = 0; row < flat.rows; ++row) {
-    for (int col = 0; col < flat.cols; ++col) residuals(row, col) = residualOf(flat, half, row, col);
+    for (int col = 0; col < flat.cols; ++col)
+      residuals(row, col) = residualOf(flat, half, row, col);
   }
   const cv::Mat1d distances = cv::abs(residuals - medianOfValid(residuals));
   cv::Mat1d found = heights.clone();

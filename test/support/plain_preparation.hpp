@@ -1,7 +1,7 @@
 #pragma once
 
-/// Cleaning written down plainly, one pixel after the other and by sorting, in the memory of each step: what the fast
-/// steps are compared with.
+/// Cleaning written down plainly, one pixel after the other and by sorting, in the memory of each
+/// step: what the fast steps are compared with.
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "preprocess/spike_removal.hpp"

@@ -24,7 +24,8 @@ class PredictScan : public ::testing::Test {
 
   /// A sphere of 2 um in a frame of 2 um, float32 metres.
   std::string sphere(const std::string& name = "sphere.tiff") const {
-    writeHeightTiff(folder_.file(name), analytic::paraboloid(101, 101, 20e-9, 20e-9, 2e-6).heights());
+    writeHeightTiff(folder_.file(name),
+                    analytic::paraboloid(101, 101, 20e-9, 20e-9, 2e-6).heights());
     return folder_.file(name);
   }
 
@@ -33,11 +34,13 @@ class PredictScan : public ::testing::Test {
 
 /// What --curve begins with.
 constexpr const char* kCurveColumns =
-    "height,force,direction,version,settings_hash,scan_name,part_id,serial_id,lot_id,wafer_id,site_x,site_y,"
+    "height,force,direction,version,settings_hash,scan_name,part_id,serial_id,lot_id,wafer_id,site_"
+    "x,site_y,"
     "acquisition_time,instrument,operator_name,checksum";
 
 /// Height [m] and force [N] of the points of one direction, in the order of the file.
-inline std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {
+inline std::vector<std::pair<double, double>> pointsOf(const std::string& csv,
+                                                       const std::string& direction) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A real program, as users and scripts call it: its output, its exit status, the lines that it complains with.
+/// A real program, as users and scripts call it: its output, its exit status, the lines that it
+/// complains with.
 
 #include <sys/wait.h>
 

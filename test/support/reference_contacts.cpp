@@ -23,7 +23,8 @@ double approach(double load, double radius, double contact_modulus) {
 }
 
 double load(double approach, double radius, double contact_modulus) {
-  return approach < 0.0 ? 0.0 : 4.0 / 3.0 * contact_modulus * std::sqrt(radius * approach) * approach;
+  return approach < 0.0 ? 0.0
+                        : 4.0 / 3.0 * contact_modulus * std::sqrt(radius * approach) * approach;
 }
 
 double maximumPressure(double load, double radius, double contact_modulus) {
@@ -51,12 +52,16 @@ double load(double contact_radius, double work_of_adhesion, double radius, doubl
   return apparent_load - std::sqrt(6.0 * kPi * work_of_adhesion * radius * apparent_load);
 }
 
-double approach(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {
+double approach(double contact_radius, double work_of_adhesion, double radius,
+                double contact_modulus) {
   return contact_radius * contact_radius / radius -
-         std::sqrt(2.0 * kPi * work_of_adhesion * contact_radius / contact_modulus);  // 8/(3K) = 2/E
+         std::sqrt(2.0 * kPi * work_of_adhesion * contact_radius /
+                   contact_modulus);  // 8/(3K) = 2/E
 }
 
-double pullOffForce(double work_of_adhesion, double radius) { return 1.5 * kPi * work_of_adhesion * radius; }
+double pullOffForce(double work_of_adhesion, double radius) {
+  return 1.5 * kPi * work_of_adhesion * radius;
+}
 
 double pullOffContactRadius(double work_of_adhesion, double radius, double contact_modulus) {
   return contactRadius(1.5 * kPi * work_of_adhesion * radius, radius, contact_modulus);
@@ -66,7 +71,8 @@ double fixedGripsPullOffForce(double work_of_adhesion, double radius) {
   return 5.0 / 6.0 * kPi * work_of_adhesion * radius;
 }
 
-double fixedGripsPullOffContactRadius(double work_of_adhesion, double radius, double contact_modulus) {
+double fixedGripsPullOffContactRadius(double work_of_adhesion, double radius,
+                                      double contact_modulus) {
   return contactRadius(kPi * work_of_adhesion * radius / 6.0, radius, contact_modulus);
 }
 
@@ -79,17 +85,24 @@ double apparentLoad(double load, double work_of_adhesion, double radius) {
   return apparent_load < 0.0 ? std::numeric_limits<double>::quiet_NaN() : apparent_load;
 }
 
-double equilibriumContactRadius(double load, double work_of_adhesion, double radius, double contact_modulus) {
-  return hertz::contactRadius(apparentLoad(load, work_of_adhesion, radius), radius, contact_modulus);
+double equilibriumContactRadius(double load, double work_of_adhesion, double radius,
+                                double contact_modulus) {
+  return hertz::contactRadius(apparentLoad(load, work_of_adhesion, radius), radius,
+                              contact_modulus);
 }
 
 double load(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {
-  return hertz::loadOfContact(contact_radius, radius, contact_modulus) - pullOffForce(work_of_adhesion, radius);
+  return hertz::loadOfContact(contact_radius, radius, contact_modulus) -
+         pullOffForce(work_of_adhesion, radius);
 }
 
-double approach(double contact_radius, double radius) { return contact_radius * contact_radius / radius; }
+double approach(double contact_radius, double radius) {
+  return contact_radius * contact_radius / radius;
+}
 
-double pullOffForce(double work_of_adhesion, double radius) { return 2.0 * kPi * work_of_adhesion * radius; }
+double pullOffForce(double work_of_adhesion, double radius) {
+  return 2.0 * kPi * work_of_adhesion * radius;
+}
 
 }  // namespace dmt
 
@@ -100,7 +113,8 @@ namespace {
 double firstBracket(double s) {
   if (s > 0.05) return s + (s * s - 1.0) * std::atan(s);
   const double q = s * s;
-  return s * q * (4.0 / 3.0 - q * (8.0 / 15.0 - q * (12.0 / 35.0 - q * (16.0 / 63.0 - q * 20.0 / 99.0))));
+  return s * q *
+         (4.0 / 3.0 - q * (8.0 / 15.0 - q * (12.0 / 35.0 - q * (16.0 / 63.0 - q * 20.0 / 99.0))));
 }
 
 /// s atan(s) - m + 1 with m = sqrt(1 + s^2), the bracket of his second term.
@@ -108,7 +122,8 @@ double secondBracket(double s) { return s * std::atan(s) - s * s / (1.0 + std::s
 
 }  // namespace
 
-double transitionParameter(double adhesive_stress, double radius, double work_of_adhesion, double contact_modulus) {
+double transitionParameter(double adhesive_stress, double radius, double work_of_adhesion,
+                           double contact_modulus) {
   const double k = 4.0 / 3.0 * contact_modulus;
   return 2.0 * adhesive_stress * std::cbrt(radius / (kPi * work_of_adhesion * k * k));
 }
@@ -136,10 +151,12 @@ double pullOffPrefactor(double transition_parameter) {
   }
   if (transition_parameter > 1e4) return 1.5;  // 1.5 + 0.16/lambda^2
 
-  // Golden-section search for the least load over log s. Between the bounds a runs from far above the pull-off
-  // contact to far below it, and the load has one minimum.
+  // Golden-section search for the least load over log s. Between the bounds a runs from far above
+  // the pull-off contact to far below it, and the load has one minimum.
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  const auto loadAt = [&](double log_s) { return stateOfRing(transition_parameter, std::exp(log_s)).load; };
+  const auto loadAt = [&](double log_s) {
+    return stateOfRing(transition_parameter, std::exp(log_s)).load;
+  };
   double lower = std::log(1e-2 / (1.0 + transition_parameter));
   double upper = std::log(1e8);
   double inner = upper - golden * (upper - lower);
@@ -168,7 +185,9 @@ double pullOffPrefactor(double transition_parameter) {
 
 namespace surface_forces {
 
-double vanDerWaalsEnergy(double gap, double hamaker_constant) { return hamaker_constant / (12.0 * kPi * gap * gap); }
+double vanDerWaalsEnergy(double gap, double hamaker_constant) {
+  return hamaker_constant / (12.0 * kPi * gap * gap);
+}
 
 double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius) {
   return hamaker_constant * radius / (6.0 * gap * gap);

@@ -26,8 +26,8 @@ GapField Frame::gapField() const {
   return field;
 }
 
-HeightMap gaussian(int rows, int cols, double pitch_x, double pitch_y, double rms_height, double correlation,
-                   int seed) {
+HeightMap gaussian(int rows, int cols, double pitch_x, double pitch_y, double rms_height,
+                   double correlation, int seed) {
   GaussianSurfaceOptions options;
   options.rows = rows;
   options.cols = cols;

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Small frames on which sweep, loads and whole predictions are compared with the plain way: smooth and white-noise
-/// roughness, equal gaps, invalid pixels, flat and rough counter-surfaces, odd sides, dx != dy. Deterministic.
+/// Small frames on which sweep, loads and whole predictions are compared with the plain way: smooth
+/// and white-noise roughness, equal gaps, invalid pixels, flat and rough counter-surfaces, odd
+/// sides, dx != dy. Deterministic.
 
 #include <ostream>
 #include <string>
@@ -27,7 +28,8 @@ struct Frame : SurfacePair {
 };
 
 /// Gaussian heights with a Gaussian autocorrelation of length `correlation` in x and y [m].
-HeightMap gaussian(int rows, int cols, double pitch_x, double pitch_y, double rms_height, double correlation, int seed);
+HeightMap gaussian(int rows, int cols, double pitch_x, double pitch_y, double rms_height,
+                   double correlation, int seed);
 
 /// Independent heights, evenly spread over [0, range).
 HeightMap whiteNoise(int rows, int cols, double pitch_x, double pitch_y, double range, int seed);

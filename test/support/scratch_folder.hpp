@@ -15,8 +15,10 @@ namespace mems_stiction {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mems_stiction_test.XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder: " + pattern);
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "mems_stiction_test.XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("no temporary folder: " + pattern);
     path_ = pattern;
   }
   ~ScratchFolder() {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the tests of the separation curve share: bodies that do not flow, and one call of the model, or of the half-space.
+/// What the tests of the separation curve share: bodies that do not flow, and one call of the
+/// model, or of the half-space.
 
 #include <cmath>
 
@@ -14,7 +15,8 @@ namespace separation_cases {
 constexpr double kWork = 0.05;
 /// z0 of the default Hamaker constant at this work [m].
 inline double rangeOf(const Options& options) {
-  return std::sqrt(options.interface.hamaker_constant / (16.0 * kPi * options.interface.work_of_adhesion));
+  return std::sqrt(options.interface.hamaker_constant /
+                   (16.0 * kPi * options.interface.work_of_adhesion));
 }
 
 /// Elastic bodies with this contact modulus, the upper one rigid.
@@ -39,7 +41,8 @@ inline Options flowing(double contact_modulus, double hardness, double load) {
 }
 
 /// What the half-space says of the same surface.
-inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& options, bool flows = false) {
+inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& options,
+                                   bool flows = false) {
   HalfSpaceProblem problem;
   problem.surfaces.lower = surface;
   problem.lower_material = options.lower;
@@ -55,13 +58,14 @@ inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& opti
 inline bool sameFigures(const Prediction& one, const Prediction& other) {
   if (one.curve.size() != other.curve.size()) return false;
   for (std::size_t i = 0; i < one.curve.size(); ++i) {
-    if (one.curve[i].displacement != other.curve[i].displacement || one.curve[i].force != other.curve[i].force) {
+    if (one.curve[i].displacement != other.curve[i].displacement ||
+        one.curve[i].force != other.curve[i].force) {
       return false;
     }
   }
   return one.pull_off_force == other.pull_off_force && one.contact_area == other.contact_area &&
-         one.apparent_work_of_adhesion == other.apparent_work_of_adhesion && one.approach == other.approach &&
-         one.asperity_count == other.asperity_count;
+         one.apparent_work_of_adhesion == other.apparent_work_of_adhesion &&
+         one.approach == other.approach && one.asperity_count == other.asperity_count;
 }
 
 }  // namespace separation_cases

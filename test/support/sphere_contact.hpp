@@ -1,6 +1,7 @@
 #pragma once
 
-/// One sphere on a flat: how it lies on the grid, and the bodies and loads that closed forms are known for.
+/// One sphere on a flat: how it lies on the grid, and the bodies and loads that closed forms are
+/// known for.
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/options.hpp"

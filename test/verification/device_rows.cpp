@@ -29,14 +29,17 @@ CapillaryOptions humid(double relative_humidity, double contact_angle) {
   return options;
 }
 
-/// Energy per width of one clamped-guided arm of length s [J/m]: bending, and stretching if held at both ends, by
-/// Simpson's rule over u = h (3 x^2/s^2 - 2 x^3/s^3), of which both integrands are polynomials of degree 4 and less.
-double armEnergy(double modulus, double thickness, double gap, double stress, bool is_stretched, double length) {
+/// Energy per width of one clamped-guided arm of length s [J/m]: bending, and stretching if held at
+/// both ends, by Simpson's rule over u = h (3 x^2/s^2 - 2 x^3/s^3), of which both integrands are
+/// polynomials of degree 4 and less.
+double armEnergy(double modulus, double thickness, double gap, double stress, bool is_stretched,
+                 double length) {
   const int intervals = 200;
   double bending = 0.0, slope_square = 0.0;
   for (int i = 0; i <= intervals; ++i) {
     const double x = static_cast<double>(i) / intervals;
-    const double weight = (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * length / intervals / 3.0;
+    const double weight =
+        (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * length / intervals / 3.0;
     const double curvature = gap * (6.0 - 12.0 * x) / (length * length);
     const double slope = 6.0 * gap * (x - x * x) / length;
     bending += weight * modulus * thickness * thickness * thickness / 24.0 * curvature * curvature;
@@ -49,15 +52,17 @@ double armEnergy(double modulus, double thickness, double gap, double stress, bo
 
 double slopeOfArmEnergy(double stress, bool is_stretched, double length) {
   const double step = 1e-4 * length;
-  const auto energyAt = [&](double s) { return armEnergy(169e9, 2 * kUm, 3 * kUm, stress, is_stretched, s); };
+  const auto energyAt = [&](double s) {
+    return armEnergy(169e9, 2 * kUm, 3 * kUm, stress, is_stretched, s);
+  };
   return (energyAt(length - step) - energyAt(length + step)) / (2.0 * step);
 }
 
 /// What scanWarnings() says heights of this offset are spaced by.
 double spacingSaid(double offset) {
   const double amplitude = 1e-7 * offset;
-  const HeightMap scan =
-      analytic::sum(analytic::sine(32, 48, 1e-6, 1e-6, amplitude, 3, 2), analytic::flat(32, 48, 1e-6, 1e-6, offset));
+  const HeightMap scan = analytic::sum(analytic::sine(32, 48, 1e-6, 1e-6, amplitude, 3, 2),
+                                       analytic::flat(32, 48, 1e-6, 1e-6, offset));
   const std::string key = "are spaced by ";
   for (const std::string& line : scanWarnings(analytic::asSingle(scan))) {
     const std::size_t at = line.find(key);
@@ -73,26 +78,31 @@ Section capillarySection() {
   Section section{"Condensed water", {}};
   section.rows = {
       near("Kelvin radius times ln(1/RH)", "m", "water at room temperature: 0.52 to 0.54 nm",
-           dry_air.kelvinRadius() * std::log(1.0 / 0.3), 0.53e-9, 0.01 / 0.53, "the published range"),
-      exact("pressure at 30 % humidity", "Pa", "Laplace: gamma/r_K, r_K = gamma V/(R T ln(1/RH))", dry_air.pressure(),
-            8.31446261815324 * 298.15 * std::log(1.0 / 0.3) / 18.07e-6),
-      exact("energy of separation, wetting", "J/m^2", "2 gamma", dry_air.pressure() * dry_air.gapLimit(), 144e-3),
+           dry_air.kelvinRadius() * std::log(1.0 / 0.3), 0.53e-9, 0.01 / 0.53,
+           "the published range"),
+      exact("pressure at 30 % humidity", "Pa", "Laplace: gamma/r_K, r_K = gamma V/(R T ln(1/RH))",
+            dry_air.pressure(), 8.31446261815324 * 298.15 * std::log(1.0 / 0.3) / 18.07e-6),
+      exact("energy of separation, wetting", "J/m^2", "2 gamma",
+            dry_air.pressure() * dry_air.gapLimit(), 144e-3),
       exact("energy of separation, contact angle 1.2", "J/m^2", "2 gamma cos(theta)",
             slanted.pressure() * slanted.gapLimit(), 144e-3 * std::cos(1.2)),
   };
-  std::vector<Row> rows = {limit(
-      "pull of water on a sphere of 2 um, 70 %", "N", "4 pi gamma R", 4.0 * closed_form::kPi * 0.072 * 2e-6, 2e-3,
-      "two rims of 240 pixels, known to a quarter of one", {1.2, "rims of pixels: between first and second order"})};
-  rows = onGrids(rows, {"columns", {60, 120, 240, 480}}, [](double cols, const Phase& phase) -> std::vector<double> {
-    Options options = paperOptions();
-    options.interface.hamaker_constant = 0.0;
-    options.capillary = humid(0.7, 0.0);
-    const double pitch = 450e-9 / cols;
-    const auto count = static_cast<int>(cols);
-    return {AdhesionModel(options)
-                .predict(analytic::paraboloid(count, count, pitch, pitch, 2e-6, phase.x * pitch, phase.y * pitch))
-                .capillary_force};
-  });
+  std::vector<Row> rows = {limit("pull of water on a sphere of 2 um, 70 %", "N", "4 pi gamma R",
+                                 4.0 * closed_form::kPi * 0.072 * 2e-6, 2e-3,
+                                 "two rims of 240 pixels, known to a quarter of one",
+                                 {1.2, "rims of pixels: between first and second order"})};
+  rows = onGrids(rows, {"columns", {60, 120, 240, 480}},
+                 [](double cols, const Phase& phase) -> std::vector<double> {
+                   Options options = paperOptions();
+                   options.interface.hamaker_constant = 0.0;
+                   options.capillary = humid(0.7, 0.0);
+                   const double pitch = 450e-9 / cols;
+                   const auto count = static_cast<int>(cols);
+                   return {AdhesionModel(options)
+                               .predict(analytic::paraboloid(count, count, pitch, pitch, 2e-6,
+                                                             phase.x * pitch, phase.y * pitch))
+                               .capillary_force};
+                 });
   section.rows.insert(section.rows.end(), rows.begin(), rows.end());
   return section;
 }
@@ -109,25 +119,27 @@ Section devicesSection() {
   const double stiffness = 169e9 * std::pow(2 * kUm, 3) * std::pow(3 * kUm, 2);
   Section section{"Devices", {}};
   section.rows = {
-      published("work of a cantilever stuck in S-shape, 500 um", "J/m^2", kBeams, sShapeWork(published_beam, 500 * kUm),
-                "129.792e-6"),
-      published("work of one that touches with its tip, 500 um", "J/m^2", kBeams, arcWork(published_beam, 500 * kUm),
-                "32.448e-6"),
+      published("work of a cantilever stuck in S-shape, 500 um", "J/m^2", kBeams,
+                sShapeWork(published_beam, 500 * kUm), "129.792e-6"),
+      published("work of one that touches with its tip, 500 um", "J/m^2", kBeams,
+                arcWork(published_beam, 500 * kUm), "32.448e-6"),
       near("work of the S-shape, 170 um", "J/m^2", "slope of the energy of bending, by quadrature",
            sShapeWork(cantilever, 170 * kUm), slopeOfArmEnergy(0.0, false, 170 * kUm), 1e-6,
            "central difference, a step of 1e-4"),
-      near("work of a stretched arm, 50 MPa, 170 um", "J/m^2", "slope of the energy of bending and stretching",
-           sShapeWork(clamped, 170 * kUm), slopeOfArmEnergy(50e6, true, 170 * kUm), 1e-6,
+      near("work of a stretched arm, 50 MPa, 170 um", "J/m^2",
+           "slope of the energy of bending and stretching", sShapeWork(clamped, 170 * kUm),
+           slopeOfArmEnergy(50e6, true, 170 * kUm), 1e-6, "central difference, a step of 1e-4"),
+      exact("peel number of a cantilever, 0.1 mJ/m^2", "",
+            "3 E t^3 h^2/(8 w l^4), Mastrangelo and Hsu 1993", peelNumber(cantilever, 1e-4),
+            3.0 * stiffness / (8.0 * 1e-4 * std::pow(300 * kUm, 4))),
+      exact("longest cantilever that comes off", "m", "peel number 1",
+            detachmentLength(cantilever, 1e-4), std::pow(3.0 * stiffness / (8.0 * 1e-4), 0.25)),
+      near("peel number of a doubly clamped beam, 1 mJ/m^2", "",
+           "slope of the energy of one arm of half the length", peelNumber(clamped, 1e-3),
+           slopeOfArmEnergy(50e6, true, 150 * kUm) / 1e-3, 1e-6,
            "central difference, a step of 1e-4"),
-      exact("peel number of a cantilever, 0.1 mJ/m^2", "", "3 E t^3 h^2/(8 w l^4), Mastrangelo and Hsu 1993",
-            peelNumber(cantilever, 1e-4), 3.0 * stiffness / (8.0 * 1e-4 * std::pow(300 * kUm, 4))),
-      exact("longest cantilever that comes off", "m", "peel number 1", detachmentLength(cantilever, 1e-4),
-            std::pow(3.0 * stiffness / (8.0 * 1e-4), 0.25)),
-      near("peel number of a doubly clamped beam, 1 mJ/m^2", "", "slope of the energy of one arm of half the length",
-           peelNumber(clamped, 1e-3), slopeOfArmEnergy(50e6, true, 150 * kUm) / 1e-3, 1e-6,
-           "central difference, a step of 1e-4"),
-      exact("arm of a stuck cantilever, 0.1 mJ/m^2", "m", "(3 E t^3 h^2/(2 w))^(1/4)", unstuckLength(cantilever, 1e-4),
-            std::pow(1.5 * stiffness / 1e-4, 0.25)),
+      exact("arm of a stuck cantilever, 0.1 mJ/m^2", "m", "(3 E t^3 h^2/(2 w))^(1/4)",
+            unstuckLength(cantilever, 1e-4), std::pow(1.5 * stiffness / 1e-4, 0.25)),
   };
   // travel of a quarter of the gap: the plate lands before it gives way
   DeviceOptions device;
@@ -135,10 +147,11 @@ Section devicesSection() {
   device.travel = 0.5 * kUm;
   device.electrode_gap = 2 * kUm;
   device.electrode_area = 1e-8;
-  section.rows.push_back(
-      exact("closing voltage of a travel of a quarter of the gap", "V", "k x = eps0 A U^2/(2 (g - x)^2)",
-            closingVoltage(device, InterfaceOptions()),
-            std::sqrt(2.0 * 0.5 * kUm * std::pow(1.5 * kUm, 2) / (closed_form::kVacuumPermittivity * 1e-8))));
+  section.rows.push_back(exact("closing voltage of a travel of a quarter of the gap", "V",
+                               "k x = eps0 A U^2/(2 (g - x)^2)",
+                               closingVoltage(device, InterfaceOptions()),
+                               std::sqrt(2.0 * 0.5 * kUm * std::pow(1.5 * kUm, 2) /
+                                         (closed_form::kVacuumPermittivity * 1e-8))));
   return section;
 }
 
@@ -153,8 +166,8 @@ Section inputDigitsSection() {
                   {"spacing near 0.1 mm", 0.1e-3, "7.3e-12"},
                   {"spacing near 1 um", 1e-6, "0.11e-12"}};
   for (const auto& spacing : spacings) {
-    section.rows.push_back(
-        published(spacing.name, "m", "IEEE 754, 24 bits", spacingSaid(spacing.offset), spacing.printed));
+    section.rows.push_back(published(spacing.name, "m", "IEEE 754, 24 bits",
+                                     spacingSaid(spacing.offset), spacing.printed));
   }
   return section;
 }

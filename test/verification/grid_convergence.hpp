@@ -1,7 +1,8 @@
 #pragma once
 
-/// Figures that hang on the grid: the same set-up at several resolutions, and at each over several phases of the grid
-/// (where the apex lies between the pixels), since a single one may be right by chance.
+/// Figures that hang on the grid: the same set-up at several resolutions, and at each over several
+/// phases of the grid (where the apex lies between the pixels), since a single one may be right by
+/// chance.
 
 #include <functional>
 
@@ -26,7 +27,8 @@ struct Grids {
 /// The figures of a set-up at a resolution, one per row.
 using Figures = std::function<std::vector<double>(double resolution, const Phase& phase)>;
 
-/// Fills in what was computed: the value of the finest grid at its worst phase, and the errors by resolution.
+/// Fills in what was computed: the value of the finest grid at its worst phase, and the errors by
+/// resolution.
 /// @param rows made by limit()
 std::vector<Row> onGrids(std::vector<Row> rows, const Grids& grids, const Figures& figures);
 

@@ -1,4 +1,5 @@
-/// verify: computes every row of the verification table, prints it, and exits with 1 when a row is out.
+/// verify: computes every row of the verification table, prints it, and exits with 1 when a row is
+/// out.
 
 #include <unistd.h>
 
@@ -34,7 +35,8 @@ int main(int argc, char** argv) {
   std::string falsified;
   CLI::App app{"Computes every row of the verification table and compares it with its reference."};
   app.add_option("--markdown", markdown_file, "write the table to this file as well");
-  app.add_option("--falsify", falsified, "put the row 'section: quantity' out, to see the run fail");
+  app.add_option("--falsify", falsified,
+                 "put the row 'section: quantity' out, to see the run fail");
   CLI11_PARSE(app, argc, argv);
 
   const bool is_watched = isatty(STDERR_FILENO) != 0;

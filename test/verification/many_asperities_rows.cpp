@@ -1,5 +1,5 @@
-/// Nominally flat surfaces of many summits: the library's single-asperity laws, averaged over Gaussian heights by
-/// quadrature, against the published tables.
+/// Nominally flat surfaces of many summits: the library's single-asperity laws, averaged over
+/// Gaussian heights by quadrature, against the published tables.
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,12 @@ constexpr double kRadius = 300e-9;
 constexpr double kModulus = closed_form::kPolysiliconModulus;
 constexpr double kWork = 50e-3;
 
-double normalDensity(double height) { return std::exp(-0.5 * height * height) / std::sqrt(2.0 * closed_form::kPi); }
+double normalDensity(double height) {
+  return std::exp(-0.5 * height * height) / std::sqrt(2.0 * closed_form::kPi);
+}
 
-/// F_1.5(h) from Hertz' law: the mean load per summit over (4/3) E sqrt(R) sigma^1.5, by Simpson's rule in
-/// u = sqrt(s - h), where the integrand is smooth.
+/// F_1.5(h) from Hertz' law: the mean load per summit over (4/3) E sqrt(R) sigma^1.5, by Simpson's
+/// rule in u = sqrt(s - h), where the integrand is smooth.
 double greenwoodWilliamson(double separation) {
   const double sigma = 4e-9;
   const int intervals = 2000;
@@ -31,14 +33,15 @@ double greenwoodWilliamson(double separation) {
   for (int i = 0; i <= intervals; ++i) {
     const double u = end * i / intervals;
     const double weight = i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
-    sum += weight * hertz::load(u * u * sigma, kRadius, kModulus) * normalDensity(separation + u * u) * 2.0 * u;
+    sum += weight * hertz::load(u * u * sigma, kRadius, kModulus) *
+           normalDensity(separation + u * u) * 2.0 * u;
   }
   const double mean_load = sum * end / intervals / 3.0;
   return mean_load / (4.0 / 3.0 * kModulus * std::sqrt(kRadius) * std::pow(sigma, 1.5));
 }
 
-/// Largest tension over all separations, per summit and over (3/2) pi w R: each summit follows JKR's branch down to its
-/// pull-off at fixed grips. theta = E sigma^1.5/(w sqrt(R)).
+/// Largest tension over all separations, per summit and over (3/2) pi w R: each summit follows
+/// JKR's branch down to its pull-off at fixed grips. theta = E sigma^1.5/(w sqrt(R)).
 double fullerTabor(double theta) {
   const double sigma = std::pow(theta * kWork * std::sqrt(kRadius) / kModulus, 2.0 / 3.0);
   const double first = jkr::fixedGripsPullOffContactRadius(kWork, kRadius, kModulus);
@@ -86,16 +89,16 @@ Section manyAsperitiesSection() {
   char name[64];
   for (const auto& entry : integrals) {
     std::snprintf(name, sizeof name, "F_1.5(%g) by Hertz' law", entry.first);
-    section.rows.push_back(
-        published(name, "", "Greenwood and Williamson 1966", greenwoodWilliamson(entry.first), entry.second));
+    section.rows.push_back(published(name, "", "Greenwood and Williamson 1966",
+                                     greenwoodWilliamson(entry.first), entry.second));
   }
-  const std::pair<double, const char*> pull_offs[] = {{0.1, "0.98879"},  {0.5, "0.87997"}, {1.0, "0.73346"},
-                                                      {2.0, "0.51190"},  {5.0, "0.18548"}, {10.0, "0.03642"},
-                                                      {15.0, "7.083e-3"}};
+  const std::pair<double, const char*> pull_offs[] = {
+      {0.1, "0.98879"}, {0.5, "0.87997"},  {1.0, "0.73346"},  {2.0, "0.51190"},
+      {5.0, "0.18548"}, {10.0, "0.03642"}, {15.0, "7.083e-3"}};
   for (const auto& entry : pull_offs) {
     std::snprintf(name, sizeof name, "pull-off by JKR's law, theta = %g", entry.first);
-    section.rows.push_back(
-        published(name, "N 3/2 pi w R", "Fuller and Tabor 1975", fullerTabor(entry.first), entry.second));
+    section.rows.push_back(published(name, "N 3/2 pi w R", "Fuller and Tabor 1975",
+                                     fullerTabor(entry.first), entry.second));
   }
   return section;
 }

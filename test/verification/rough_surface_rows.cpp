@@ -1,5 +1,5 @@
-/// The paper's conclusions on Gaussian surfaces, each counted over seeds, loads and roughnesses, and what no input may
-/// change.
+/// The paper's conclusions on Gaussian surfaces, each counted over seeds, loads and roughnesses,
+/// and what no input may change.
 
 #include <cmath>
 #include <cstring>
@@ -18,13 +18,14 @@ namespace {
 constexpr double kNm = 1e-9;
 constexpr double kWork = 50e-3;
 
-Prediction predict(double rms_height, int seed, double load = 0.0, Deformation deformation = Deformation::kThreeRegimes,
-                   double hardness = 12e9) {
+Prediction predict(double rms_height, int seed, double load = 0.0,
+                   Deformation deformation = Deformation::kThreeRegimes, double hardness = 12e9) {
   Options options = contactOnly(load, kWork);
   options.deformation = deformation;
   options.lower.hardness = hardness;
   options.output.roughness = false;
-  return AdhesionModel(options).predict(samples::gaussian(160, 200, 10 * kNm, 10 * kNm, rms_height, 100 * kNm, seed));
+  return AdhesionModel(options).predict(
+      samples::gaussian(160, 200, 10 * kNm, 10 * kNm, rms_height, 100 * kNm, seed));
 }
 
 int smoothOnesThatDoNotBond() {
@@ -56,7 +57,8 @@ int stepsWithoutAFall() {
   double previous = 1.0;
   for (const double rms_height : {0.2, 0.45, 0.55, 0.7, 1.0, 2.0}) {
     double fraction = 0.0;
-    for (int seed = 1; seed <= 6; ++seed) fraction += predict(rms_height * kNm, seed).contact_fraction / 6;
+    for (int seed = 1; seed <= 6; ++seed)
+      fraction += predict(rms_height * kNm, seed).contact_fraction / 6;
     if (fraction >= previous) ++violations;
     previous = fraction;
   }
@@ -69,8 +71,10 @@ int softOnesThatTouchLess() {
     for (const double load : {0.0, 1e-6, 2e-5}) {
       for (const double hardness : {12e9, 2e9}) {
         for (const double rms_height : {0.3, 0.7, 1.5, 3.0, 6.0}) {
-          const Prediction regimes = predict(rms_height * kNm, seed, load, Deformation::kThreeRegimes, hardness);
-          const Prediction elastic = predict(rms_height * kNm, seed, load, Deformation::kElastic, hardness);
+          const Prediction regimes =
+              predict(rms_height * kNm, seed, load, Deformation::kThreeRegimes, hardness);
+          const Prediction elastic =
+              predict(rms_height * kNm, seed, load, Deformation::kElastic, hardness);
           if (regimes.contact_area < elastic.contact_area) ++violations;
         }
       }
@@ -85,9 +89,9 @@ int regimesThatAreNotGuis() {
   for (const double rms_height : {0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0}) {
     const Prediction found = predict(rms_height * kNm, 1);
     const double theta = found.adhesion_parameter;
-    const BondingRegime expected = theta < 1.0
-                                       ? BondingRegime::kBonding
-                                       : (theta <= 12.0 ? BondingRegime::kAdherence : BondingRegime::kNonBonding);
+    const BondingRegime expected =
+        theta < 1.0 ? BondingRegime::kBonding
+                    : (theta <= 12.0 ? BondingRegime::kAdherence : BondingRegime::kNonBonding);
     if (found.bonding_regime != expected) ++violations;
   }
   return violations;
@@ -98,7 +102,8 @@ bool isSameToTheBit(const Prediction& a, const Prediction& b) {
   std::vector<double> first, second;
   const auto collectInto = [](std::vector<double>& values) {
     return [&values](const Figure& figure, const auto& value) {
-      if (std::strcmp(figure.name, "processing_time") != 0) values.push_back(static_cast<double>(value));
+      if (std::strcmp(figure.name, "processing_time") != 0)
+        values.push_back(static_cast<double>(value));
     };
   };
   visitPredictionFields(a, collectInto(first));
@@ -132,14 +137,16 @@ Section roughSurfacesSection() {
   section.rows = {
       always("bonded at an adhesion parameter of 1 and below", kPaper, smoothOnesThatDoNotBond(),
              "holds for each of 15 surfaces"),
-      always("above 12 less than 1 % in contact", kPaper, roughOnesWithManyContacts(), "holds for each of 15 surfaces"),
+      always("above 12 less than 1 % in contact", kPaper, roughOnesWithManyContacts(),
+             "holds for each of 15 surfaces"),
       always("contact fraction falls with the roughness between", kPaper, stepsWithoutAFall(),
              "mean of 6 surfaces, at each of 6 steps"),
       always("contact with three regimes at least the elastic", kPaper, softOnesThatTouchLess(),
              "holds for each of 90 pairs"),
       always("bonding regime by the limits 1 and 12", "Gui et al. 1999", regimesThatAreNotGuis(),
              "a comparison of numbers, on each of 8 surfaces"),
-      always("same input, same bits, alone or in four threads", "put in", runsThatDiffer(), "compared bit by bit"),
+      always("same input, same bits, alone or in four threads", "put in", runsThatDiffer(),
+             "compared bit by bit"),
   };
   return section;
 }

@@ -31,8 +31,8 @@ Section inputDigitsSection();
 
 /// All of them, in the order of the table.
 /// - @p on_section is told the number of each, from 1, and of all, before it is computed
-std::vector<Section> allSections(const std::function<void(std::size_t, std::size_t)>& on_section = [](std::size_t,
-                                                                                                      std::size_t) {});
+std::vector<Section> allSections(const std::function<void(std::size_t, std::size_t)>& on_section =
+                                     [](std::size_t, std::size_t) {});
 
 }  // namespace verification
 }  // namespace mems_stiction

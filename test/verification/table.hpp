@@ -20,7 +20,8 @@ Count countRows(const std::vector<Section>& sections);
 /// "section: quantity" of every row, in order.
 std::vector<std::string> rowNames(const std::vector<Section>& sections);
 
-/// What a page must share with the program: the count of rows of each section, and the references of its table.
+/// What a page must share with the program: the count of rows of each section, and the references
+/// of its table.
 std::vector<std::string> referencesOf(const std::vector<Section>& sections);
 
 /// The same read back from a page of markdownPage().

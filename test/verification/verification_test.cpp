@@ -1,4 +1,5 @@
-/// The verification table as a test: every row holds, a false one is noticed, and the page has the references of the program.
+/// The verification table as a test: every row holds, a false one is noticed, and the page has the
+/// references of the program.
 
 #include <sys/wait.h>
 
@@ -31,9 +32,10 @@ int verify(const std::string& arguments) {
 TEST(VerificationTable, everyRowIsWithinItsTolerance) {
   for (const Section& section : table()) {
     for (const Row& row : section.rows) {
-      EXPECT_TRUE(row.isWithin()) << section.title << ": " << row.quantity << ": computed " << row.computed
-                                  << ", reference " << row.reference << ", error " << row.error() << ", tolerance "
-                                  << row.tolerance << " (" << row.reason << "), order "
+      EXPECT_TRUE(row.isWithin()) << section.title << ": " << row.quantity << ": computed "
+                                  << row.computed << ", reference " << row.reference << ", error "
+                                  << row.error() << ", tolerance " << row.tolerance << " ("
+                                  << row.reason << "), order "
                                   << (row.convergence ? row.convergence->order() : std::nan(""));
     }
   }
@@ -41,7 +43,8 @@ TEST(VerificationTable, everyRowIsWithinItsTolerance) {
 
 TEST(VerificationTable, everyRowSaysWhatItIsAndWhy) {
   std::set<std::string> names;
-  for (const std::string& name : rowNames(table())) EXPECT_TRUE(names.insert(name).second) << name << " twice";
+  for (const std::string& name : rowNames(table()))
+    EXPECT_TRUE(names.insert(name).second) << name << " twice";
   EXPECT_GT(names.size(), 100u);
   for (const Section& section : table()) {
     for (const Row& row : section.rows) {
@@ -49,7 +52,8 @@ TEST(VerificationTable, everyRowSaysWhatItIsAndWhy) {
       EXPECT_FALSE(row.source.empty());
       EXPECT_FALSE(row.reason.empty());
       EXPECT_GE(row.tolerance, 0.0);
-      EXPECT_LT(row.tolerance, 0.11);  // a published figure of one digit has 0.1; more would judge nothing
+      EXPECT_LT(row.tolerance,
+                0.11);  // a published figure of one digit has 0.1; more would judge nothing
       if (!row.convergence) continue;
       EXPECT_GE(row.convergence->resolutions.size(), 3u);
       EXPECT_EQ(row.convergence->errors.size(), row.convergence->resolutions.size());
@@ -65,11 +69,13 @@ TEST(VerificationTable, noticesEveryFalsifiedRow) {
     for (Row& row : section.rows) {
       const Row sound = row;
       // twice the tolerance, since 1 % of the smallest ones is below a double's spacing
-      const double wrong_by = 2.0 * (row.reference == 0.0 ? row.tolerance + 1e-300 : row.tolerance * row.reference);
-      for (const double wrong :
-           {row.reference + wrong_by, row.reference - wrong_by, std::numeric_limits<double>::quiet_NaN()}) {
+      const double wrong_by =
+          2.0 * (row.reference == 0.0 ? row.tolerance + 1e-300 : row.tolerance * row.reference);
+      for (const double wrong : {row.reference + wrong_by, row.reference - wrong_by,
+                                 std::numeric_limits<double>::quiet_NaN()}) {
         row.computed = wrong;
-        EXPECT_EQ(countRows(sections).out, 1) << section.title << ": " << row.quantity << ": " << wrong;
+        EXPECT_EQ(countRows(sections).out, 1)
+            << section.title << ": " << row.quantity << ": " << wrong;
       }
       row = sound;
       if (row.convergence && row.convergence->least_order > 0.0) {
@@ -111,7 +117,8 @@ TEST(PublishedRow, allowsHalfAUnitOfTheLastDigit) {
   EXPECT_FALSE(published("q", "", "s", 235.6196e-9, "235.619e-9").isWithin());
   EXPECT_TRUE(published("q", "", "s", -0.43679049, "-0.436790").isWithin());
   EXPECT_FALSE(published("q", "", "s", -0.4367906, "-0.436790").isWithin());
-  EXPECT_NE(published("q", "", "s", 1.0, "0.0756").reason.find("3 published digits"), std::string::npos);
+  EXPECT_NE(published("q", "", "s", 1.0, "0.0756").reason.find("3 published digits"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// One configuration file or parameter tree: the model's options and how scans are read and prepared.
+/// One configuration file or parameter tree: the model's options and how scans are read and
+/// prepared.
 
 #include <limits>
 #include <string>
@@ -23,8 +24,8 @@
 
 namespace mems_stiction {
 
-/// What is taken of scans and settings; what is beyond is refused with a sentence. One scan may not take so much of the
-/// machine that it stops the ones behind it.
+/// What is taken of scans and settings; what is beyond is refused with a sentence. One scan may not
+/// take so much of the machine that it stops the ones behind it.
 struct ScanLimits {
   static constexpr const char* kMaxTime = "limits/max_time";
   static constexpr const char* kAcceptImplausible = "limits/accept_implausible";
@@ -39,8 +40,8 @@ struct ScanLimits {
   /// @throw SurfaceError if the scan, refined, has more than max_pixels.
   void checkSize(const HeightMap& scan, int refinement) const;
 
-  /// @throw SurfaceError for a surface that no instrument gives (scan_sanity.hpp), unless accept_implausible. It is to be
-  /// judged as cleaned: damage that is mended is none.
+  /// @throw SurfaceError for a surface that no instrument gives (scan_sanity.hpp), unless
+  /// accept_implausible. It is to be judged as cleaned: damage that is mended is none.
   /// - @p is_probe a sphere or tip, which may be higher than its frame is wide
   void checkPlausibility(const HeightMap& cleaned, bool is_probe = false) const;
 
@@ -48,7 +49,9 @@ struct ScanLimits {
   static std::string howToAccept();
 
   /// For TimeLimit [s]: infinity without a limit.
-  double longestTime() const { return max_time > 0.0 ? max_time : std::numeric_limits<double>::infinity(); }
+  double longestTime() const {
+    return max_time > 0.0 ? max_time : std::numeric_limits<double>::infinity();
+  }
 };
 
 /// Everything that a configuration file may set.
@@ -65,8 +68,9 @@ struct Configuration {
   DeviceForceOptions device_force;
   UncertaintyOptions uncertainty;
   HalfSpaceOptions half_space;
-  /// Of the files that the settings name (counter-surface, masks, polygons) when they were read, for
-  /// settingsHash(). Whoever reads them sets it; empty: settingsHash() looks at the files itself.
+  /// Of the files that the settings name (counter-surface, masks, polygons) when they were read,
+  /// for settingsHash(). Whoever reads them sets it; empty: settingsHash() looks at the files
+  /// itself.
   std::string files_checksum;
   /// What is odd about the files that the settings were read from, for settingsWarnings().
   std::vector<std::string> remarks;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// One configuration file or parameter tree into a Configuration, and back. Keys: config/stiction.yaml.
+/// One configuration file or parameter tree into a Configuration, and back. Keys:
+/// config/stiction.yaml.
 
 #include <string>
 
@@ -18,7 +19,8 @@ namespace mems_stiction {
 Configuration configurationFromYaml(const YAML::Node& tree, const Configuration& defaults = {});
 
 /// Relative paths that the file states go by its folder, those of /dev/stdin by the working one.
-/// @throw FileError if the file cannot be read or is not YAML; OptionsError as above, each line with the file's name.
+/// @throw FileError if the file cannot be read or is not YAML; OptionsError as above, each line
+/// with the file's name.
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults = {});
 
 /// The effective configuration with units and ranges as comments; loads back to the same values.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Where a figure comes from, so that whoever finds it years later can tell: which part, which scan, which settings,
-/// which version.
+/// Where a figure comes from, so that whoever finds it years later can tell: which part, which
+/// scan, which settings, which version.
 
 #include <string>
 
@@ -33,9 +33,9 @@ struct Provenance : ScanIdentity {
 /// "1.2.3", of this package.
 const char* packageVersion();
 
-/// 16 hexadecimal digits, the same for configurations that give the same figures: of every setting but part/... (who it
-/// is), limits/... (what it may take), output/... (what is asked for) and half_space/threads.
-/// Files that settings name count by their content, not by their names.
+/// 16 hexadecimal digits, the same for configurations that give the same figures: of every setting
+/// but part/... (who it is), limits/... (what it may take), output/... (what is asked for) and
+/// half_space/threads. Files that settings name count by their content, not by their names.
 std::string settingsHash(const Configuration& configuration);
 
 /// - @p configuration that the prediction was made with

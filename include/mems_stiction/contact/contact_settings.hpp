@@ -36,7 +36,8 @@ struct OutputOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// Settings that single solvers ask for beside those of all: a struct of each such solver, by its type.
+/// Settings that single solvers ask for beside those of all: a struct of each such solver, by its
+/// type.
 class SolverSettings {
  public:
   /// As set, or as by default.

@@ -15,8 +15,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One or more settings are out of their range, unknown, or of the wrong type. what() has one line per violation,
-/// each naming the key, the value and what is allowed.
+/// One or more settings are out of their range, unknown, or of the wrong type. what() has one line
+/// per violation, each naming the key, the value and what is allowed.
 class OptionsError : public Error {
  public:
   explicit OptionsError(std::vector<std::string> violations);
@@ -26,7 +26,8 @@ class OptionsError : public Error {
   std::vector<std::string> violations_;
 };
 
-/// A height map cannot be used: no valid pixel, sizes that do not match, a pitch that is not positive.
+/// A height map cannot be used: no valid pixel, sizes that do not match, a pitch that is not
+/// positive.
 class SurfaceError : public Error {
  public:
   using Error::Error;

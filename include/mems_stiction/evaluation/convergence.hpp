@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// Would a finer scan say something else? Predicting the same scan on fewer pixels shows what still moves.
+/// Would a finer scan say something else? Predicting the same scan on fewer pixels shows what still
+/// moves.
 ///
-/// A scan is made coarser by the mean over blocks of pixels, as an instrument with larger pixels would see it. What
-/// full resolution still changes against half of it is a fair guess of what twice as many pixels would change.
+/// A scan is made coarser by the mean over blocks of pixels, as an instrument with larger pixels
+/// would see it. What full resolution still changes against half of it is a fair guess of what
+/// twice as many pixels would change.
 
 #include <string>
 #include <vector>
@@ -48,14 +50,15 @@ void visitConvergenceFields(Row& row, Visitor&& visit) {
   visit({"contact_area_ratio"}, row.contact_area_ratio);
 }
 
-/// Means over blocks of factor x factor pixels: rows/factor x cols/factor, CV_64FC1, metres, pitches factor times as
-/// large. A block with fewer than half of its pixels valid is invalid. Rows and columns beyond the last whole block are
-/// left out.
+/// Means over blocks of factor x factor pixels: rows/factor x cols/factor, CV_64FC1, metres,
+/// pitches factor times as large. A block with fewer than half of its pixels valid is invalid. Rows
+/// and columns beyond the last whole block are left out.
 /// @throw SurfaceError if there is no whole block.
 HeightMap decimated(const HeightMap& surface, int factor);
 
-/// The rows as a table of fixed width for people, a line each and a sentence about what moves; every line ends in '\n'
-/// and begins with `indent`.
-std::string convergenceTable(const std::vector<ConvergenceRow>& rows, const std::string& indent = {});
+/// The rows as a table of fixed width for people, a line each and a sentence about what moves;
+/// every line ends in '\n' and begins with `indent`.
+std::string convergenceTable(const std::vector<ConvergenceRow>& rows,
+                             const std::string& indent = {});
 
 }  // namespace mems_stiction

@@ -1,15 +1,17 @@
 #pragma once
 
 /// @file
-/// What becomes of a scan before the model sees it, once for all who ask: cleaned, under its counter-surface, refined,
-/// with its roughness. Prediction, convergence, sweeps, cycles, wear and preview take it from here.
+/// What becomes of a scan before the model sees it, once for all who ask: cleaned, under its
+/// counter-surface, refined, with its roughness. Prediction, convergence, sweeps, cycles, wear and
+/// preview take it from here.
 ///
 ///     ScanPreparer preparer(configuration);
 ///     const PreparedScan prepared = preparer.prepare(scan);
 ///     use(model.predict(prepared.model_surfaces), prepared.record);
 ///
-/// It depends on the scan, on configuration.preprocessing and on the counter-surface with its pose. It does not depend
-/// on what a model is told beside the surfaces, so that it serves as long as none of the former changes.
+/// It depends on the scan, on configuration.preprocessing and on the counter-surface with its pose.
+/// It does not depend on what a model is told beside the surfaces, so that it serves as long as
+/// none of the former changes.
 
 #include <atomic>
 #include <cstdint>
@@ -32,22 +34,27 @@ class Wear;
 
 /// A scan as the model gets it. Copies share their pixels.
 struct PreparedScan {
-  SurfacePair surfaces;               ///< the cleaned scan and what it meets, on the scan's own grid
-  SurfacePair model_surfaces;         ///< the same for the model: on a finer grid if preprocessing/refine asks for it
-  int refinement = 1;                 ///< cells of the model along a pixel of the scan [-]
+  SurfacePair surfaces;        ///< the cleaned scan and what it meets, on the scan's own grid
+  SurfacePair model_surfaces;  ///< the same for the model: on a finer grid if preprocessing/refine
+                               ///< asks for it
+  int refinement = 1;          ///< cells of the model along a pixel of the scan [-]
   std::vector<std::string> warnings;  ///< about the scan as it came, in words (scan_sanity.hpp)
   std::vector<std::string> counter_warnings;  ///< about what it meets
   PreprocessRecord record;                    ///< what was done to the scan
-  cv::Mat outside;                            ///< pixels of the scan that preprocessing/region leaves out; empty = none
-  ArealParameters roughness;                  ///< of model_surfaces.lower, if output/roughness asks for it
-  SpatialRoughness spatial_roughness;         ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
-  double tip_limit = std::numeric_limits<double>::quiet_NaN();  ///< of surfaces.lower [m]; NaN where no tip is stated
+  cv::Mat outside;  ///< pixels of the scan that preprocessing/region leaves out; empty = none
+  ArealParameters roughness;  ///< of model_surfaces.lower, if output/roughness asks for it
+  SpatialRoughness
+      spatial_roughness;  ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
+  double tip_limit = std::numeric_limits<double>::quiet_NaN();  ///< of surfaces.lower [m]; NaN
+                                                                ///< where no tip is stated
   UnresolvedWaves short_waves;                                  ///< of the relief of `surfaces`
-  double preparation_time = 0.0;  ///< wall time of prepare() [s], part of the time of the scan's prediction
+  double preparation_time =
+      0.0;  ///< wall time of prepare() [s], part of the time of the scan's prediction
 };
 
-/// Surfaces on the model's grid that have become `after` of prepared.model_surfaces, as those of the scan's grid: each
-/// pixel less the mean depth over it, so that untouched pixels keep their heights. A plane stays one.
+/// Surfaces on the model's grid that have become `after` of prepared.model_surfaces, as those of
+/// the scan's grid: each pixel less the mean depth over it, so that untouched pixels keep their
+/// heights. A plane stays one.
 SurfacePair onScanGrid(const PreparedScan& prepared, const SurfacePair& after);
 
 /// Prepares scan after scan with one configuration. One object serves one thread at a time.
@@ -66,15 +73,16 @@ class ScanPreparer {
   /// The counter-surface of the next scans, as it was measured; empty = the configured one again.
   void setMeasuredCounterSurface(const HeightMap& measured);
 
-  /// @throw SurfaceError if either surface cannot be used, or the counter-surface is one that arrives beside the scan
-  /// and none has, or the scan is beyond configuration.limits.
+  /// @throw SurfaceError if either surface cannot be used, or the counter-surface is one that
+  /// arrives beside the scan and none has, or the scan is beyond configuration.limits.
   PreparedScan prepare(const HeightMap& scan);
 
   /// The same scan under the counter-surface and pose of now; it is not cleaned again.
   /// @throw SurfaceError as prepare(); then nothing changes.
   void mount(PreparedScan& prepared);
 
-  /// A prepared scan as the contacts before have left its surfaces, with the roughness that they have now.
+  /// A prepared scan as the contacts before have left its surfaces, with the roughness that they
+  /// have now.
   PreparedScan worn(const PreparedScan& as_made, const Wear& wear) const;
 
   /// Surfaces that are clean and in place, ready for the model: refined, without roughness.

@@ -13,7 +13,8 @@ enum class HalfSpaceBoundary { kPeriodic, kFree };
 /// Which scans are solved as a half-space beside their predictions, and judged by it.
 enum class HalfSpaceUse {
   kNever,
-  kFlagged,  ///< where a device is stated, those whose flags say that the model's force may be far out
+  kFlagged,  ///< where a device is stated, those whose flags say that the model's force may be far
+             ///< out
   kAlways,
 };
 
@@ -29,12 +30,14 @@ struct HalfSpaceOptions {
 
   HalfSpaceUse enabled = HalfSpaceUse::kFlagged;
   HalfSpacePath path = HalfSpacePath::kWhole;
-  double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
+  double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and
+                       ///< Hamaker constant
   bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
   bool flow = true;        ///< false: no pressure is too high
   HalfSpaceBoundary boundary = HalfSpaceBoundary::kPeriodic;
-  double step = 0.4;                 ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
-  double tolerance = 1e-4;           ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
+  double step = 0.4;  ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
+  double tolerance =
+      1e-4;  ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
   int max_states = 2000;             ///< solved on the path before it is given up, in [10, 1000000]
   int max_newton_steps = 10000;      ///< of one state, in [10, 100000]
   int max_pixels = 4194304;          ///< larger frames are refused, >= 1

@@ -3,8 +3,9 @@
 /// @file
 /// A surface on a regular grid: heights, pitch and validity.
 ///
-/// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z points out of the
-/// lower body towards the upper one. Heights are metres; a pixel that is not finite (NaN, +-Inf; REP 117) is invalid.
+/// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z
+/// points out of the lower body towards the upper one. Heights are metres; a pixel that is not
+/// finite (NaN, +-Inf; REP 117) is invalid.
 
 #include <memory>
 
@@ -15,19 +16,22 @@ namespace mems_stiction {
 /// Whatever must live as long as the pixels that lie inside it, such as a message.
 using PixelOwner = std::shared_ptr<const void>;
 
-/// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured. Shares its pixels when
-/// copied, and shares them: they live as long as any map that shows them.
+/// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured.
+/// Shares its pixels when copied, and shares them: they live as long as any map that shows them.
 class HeightMap {
  public:
   HeightMap() = default;
 
-  /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are never written to.
-  ///        They are shared if the matrix owns them itself; pixels that it only points to are copied.
+  /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are
+  /// never written to.
+  ///        They are shared if the matrix owns them itself; pixels that it only points to are
+  ///        copied.
   /// @param pitch_x, pitch_y distance of neighbouring columns and rows [m], > 0.
   /// @throw SurfaceError if the type, size or pitch is not as above.
   HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y);
   /// The same for pixels inside something else: shared, not copied.
-  /// - @p owner what the pixels lie in; kept as long as they are shown. Null is the same as no owner.
+  /// - @p owner what the pixels lie in; kept as long as they are shown. Null is the same as no
+  /// owner.
   HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, PixelOwner owner);
 
   int rows() const { return heights_.rows; }
@@ -41,7 +45,8 @@ class HeightMap {
 
   /// Height at one cell [m]; for single look-ups, not for loops over the frame.
   double height(int row, int col) const {
-    return heights_.depth() == CV_32F ? heights_.at<float>(row, col) : heights_.at<double>(row, col);
+    return heights_.depth() == CV_32F ? heights_.at<float>(row, col)
+                                      : heights_.at<double>(row, col);
   }
 
   /// The same surface as CV_64FC1: shares the pixels if they are double already.

@@ -3,11 +3,12 @@
 /// @file
 /// A scan from any file that we can read. doc/scans.md lists the formats.
 ///
-/// Pitch and unit are those that the format or the file states. Images, arrays and text often state nothing: then
-/// ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before all. What a maker's
-/// file states is only replaced by that pitch; notes name what was not applied. The sidecar is a YAML file
-/// beside the scan, "scan.tiff.yaml" for "scan.tiff", with keys of ScanOptions and ScanIdentity, with or
-/// without "scan/". "scan.yaml" serves, too, if it states such keys and no others.
+/// Pitch and unit are those that the format or the file states. Images, arrays and text often state
+/// nothing: then ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before
+/// all. What a maker's file states is only replaced by that pitch; notes name what was not applied.
+/// The sidecar is a YAML file beside the scan, "scan.tiff.yaml" for "scan.tiff", with keys of
+/// ScanOptions and ScanIdentity, with or without "scan/". "scan.yaml" serves, too, if it states
+/// such keys and no others.
 
 #include <string>
 #include <vector>
@@ -28,15 +29,20 @@ struct ScanFileOptions {
 
 /// A file as heights in metres, and where they came from.
 struct ScanFile {
-  HeightMap surface;               ///< [m]
-  std::string channel;             ///< the channel that was chosen, "0: ZSensor"; empty where a file has one only
+  HeightMap surface;  ///< [m]
+  std::string
+      channel;  ///< the channel that was chosen, "0: ZSensor"; empty where a file has one only
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
-  ScanIdentity identity;           ///< as sidecar and file state it; scan_name is the file's name if they state none
+  ScanIdentity
+      identity;  ///< as sidecar and file state it; scan_name is the file's name if they state none
 };
 
-/// @throw FileError in one line with the file and the cause: missing, empty, cut off, not a height map, without pitch.
-/// @throw OptionsError if a sidecar has an unknown key or a value out of range; each line names the sidecar.
-ScanFile openScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
+/// @throw FileError in one line with the file and the cause: missing, empty, cut off, not a height
+/// map, without pitch.
+/// @throw OptionsError if a sidecar has an unknown key or a value out of range; each line names the
+/// sidecar.
+ScanFile openScanFile(const std::string& path, const ScanOptions& scan = {},
+                      const ScanFileOptions& options = {});
 
 /// One channel of a scan file.
 struct ScanChannel {
@@ -54,14 +60,16 @@ struct ScanChannel {
 std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan = {},
                                           const ScanFileOptions& options = {});
 
-/// The file of settings that is read with this scan; empty if there is none. If "scan.tiff.yaml" is a folder, a
-/// pipe or a link that leads nowhere, it is returned, and openScanFile() refuses it.
+/// The file of settings that is read with this scan; empty if there is none. If "scan.tiff.yaml" is
+/// a folder, a pipe or a link that leads nowhere, it is returned, and openScanFile() refuses it.
 std::string sidecarOf(const std::string& path);
 
-/// The paths without the sidecars of others among them, as "SCANS/*" lists both: those are read with their scans.
+/// The paths without the sidecars of others among them, as "SCANS/*" lists both: those are read
+/// with their scans.
 std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths);
 
 /// The surface alone. @throw as openScanFile().
-HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
+HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {},
+                       const ScanFileOptions& options = {});
 
 }  // namespace mems_stiction

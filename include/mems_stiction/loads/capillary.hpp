@@ -1,10 +1,12 @@
 #pragma once
 
 /// @file
-/// Water between the surfaces (WaterLaw) as a term of its own. Off by default: the interfacial energy of the model may
-/// already hold the water. With this term on, interface/work_of_adhesion must be the dry one, or water counts twice.
+/// Water between the surfaces (WaterLaw) as a term of its own. Off by default: the interfacial
+/// energy of the model may already hold the water. With this term on, interface/work_of_adhesion
+/// must be the dry one, or water counts twice.
 ///
-///     const double pull = capillaryForce(order, approach, contact_count, options.law(), field.cellArea());
+///     const double pull = capillaryForce(order, approach, contact_count, options.law(),
+///     field.cellArea());
 
 #include "mems_stiction/settings/option_visitor.hpp"
 
@@ -13,8 +15,8 @@ namespace mems_stiction {
 class GapOrder;
 class WaterLaw;
 
-/// Defaults other than the humidity: water at 25 degrees Celsius (CRC Handbook: 72.0 mN/m, 997.0 kg/m^3, 18.015 g/mol)
-/// that wets the surfaces.
+/// Defaults other than the humidity: water at 25 degrees Celsius (CRC Handbook: 72.0 mN/m, 997.0
+/// kg/m^3, 18.015 g/mol) that wets the surfaces.
 struct CapillaryOptions {
   double relative_humidity = 0.0;   ///< RH [-], in [0, 1); 0 switches the term off
   double surface_tension = 0.0720;  ///< gamma of liquid against vapour [N/m], > 0
@@ -28,8 +30,9 @@ struct CapillaryOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// F_c [N] when the first `contact_count` ordered cells touch and the others are apart by gap - approach.
-double capillaryForce(const GapOrder& order, double approach, int contact_count, const WaterLaw& water,
-                      double cell_area);
+/// F_c [N] when the first `contact_count` ordered cells touch and the others are apart by gap -
+/// approach.
+double capillaryForce(const GapOrder& order, double approach, int contact_count,
+                      const WaterLaw& water, double cell_area);
 
 }  // namespace mems_stiction

@@ -10,7 +10,8 @@
 
 namespace mems_stiction {
 
-/// What holds a body of finite thickness: nothing, as a beam or plate in the air, or all of its lower side.
+/// What holds a body of finite thickness: nothing, as a beam or plate in the air, or all of its
+/// lower side.
 enum class Backing { kFree, kBonded };
 
 /// What a film is bonded to; thick.
@@ -19,8 +20,8 @@ struct Substrate {
   double poisson_ratio = 0.22;  ///< [-], in (-1, 0.5]; not looked at where it is rigid
 };
 
-/// One body. Defaults: polysilicon, E and nu by Sharpe et al. 1997 (J. MEMS / MEMS '97); hardness 12 GPa, the middle of
-/// the 11-13 GPa of nanoindentation on polysilicon films.
+/// One body. Defaults: polysilicon, E and nu by Sharpe et al. 1997 (J. MEMS / MEMS '97); hardness
+/// 12 GPa, the middle of the 11-13 GPa of nanoindentation on polysilicon films.
 struct Material {
   double youngs_modulus = 169e9;  ///< [Pa], > 0
   double poisson_ratio = 0.22;    ///< [-], in (-1, 0.5]
@@ -30,7 +31,8 @@ struct Material {
   Substrate substrate;  ///< of a bonded film
 
   void describe(OptionVisitor& visitor, const std::string& prefix);
-  /// Settings that do not go together, one line each; empty when all is well. Ranges are not looked at.
+  /// Settings that do not go together, one line each; empty when all is well. Ranges are not looked
+  /// at.
   std::vector<std::string> contradictions(const std::string& prefix) const;
 };
 

@@ -3,17 +3,18 @@
 /// @file
 /// Does an asperity deform elastically, plastically, or in between?
 ///
-///     phi = (E/Ha) sqrt(sigma/R)                                       (9), with the root that its print lost
-///     chi = 1 for phi < 0.6,  1 - 2 (phi - 0.6) between,  0 for phi > 1.1             (10.2)
+///     phi = (E/Ha) sqrt(sigma/R)                                       (9), with the root that its
+///     print lost chi = 1 for phi < 0.6,  1 - 2 (phi - 0.6) between,  0 for phi > 1.1 (10.2)
 ///
-/// Assumptions: spherical summits of one radius, Gaussian heights; phi compares the rms height with the depth at which
-/// such a summit starts to flow. Applies to nominally flat rough surfaces. Below 0.6 flow needs very high loads,
-/// above 1.1 it starts at almost none; the straight line between is an interpolation. Outside: radius = infinity gives
-/// phi = 0 (elastic); hardness = infinity does too. A NaN stays NaN in phi. Source: Greenwood and Williamson, Proc. R.
-/// Soc. A 295 (1966) 300 for phi and both limits; Deladi et al. 2002, (9) and (10.2) for chi.
+/// Assumptions: spherical summits of one radius, Gaussian heights; phi compares the rms height with
+/// the depth at which such a summit starts to flow. Applies to nominally flat rough surfaces. Below
+/// 0.6 flow needs very high loads, above 1.1 it starts at almost none; the straight line between is
+/// an interpolation. Outside: radius = infinity gives phi = 0 (elastic); hardness = infinity does
+/// too. A NaN stays NaN in phi. Source: Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300
+/// for phi and both limits; Deladi et al. 2002, (9) and (10.2) for chi.
 ///
-///     const double phi = plasticityIndex(pair.contact_modulus, pair.hardness, composite_rms_height, radius);
-///     const double stored_share = regimeFactor(phi);
+///     const double phi = plasticityIndex(pair.contact_modulus, pair.hardness,
+///     composite_rms_height, radius); const double stored_share = regimeFactor(phi);
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,8 @@ inline Regime regimeOf(double plasticity_index) {
 /// @param hardness Ha of the softer body [Pa], > 0
 /// @param composite_rms_height sigma of the pair [m], >= 0
 /// @param radius composite radius R of the asperity [m], > 0
-inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height, double radius) {
+inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height,
+                              double radius) {
   return contact_modulus / hardness * std::sqrt(composite_rms_height / radius);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Everything that a prediction depends on beside the surfaces. Keys, units, ranges: describe(); sources:
-/// config/*.yaml.
+/// Everything that a prediction depends on beside the surfaces. Keys, units, ranges: describe();
+/// sources: config/*.yaml.
 
 #include <string>
 #include <vector>

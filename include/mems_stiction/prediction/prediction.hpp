@@ -5,10 +5,11 @@
 /// prediction/prediction_fields.hpp, whose names are those of the messages and of the records that
 /// predict_scan prints.
 ///
-///     pull-off force         = largest attraction on retraction, without voltage and mechanical load
-///     apparent work          = integral of the attraction on retraction from rest on, over the nominal area
-///     contact fraction       = contact area/area of the valid cells
-///     flattening ratio       = energy that presses the surfaces flat/energy that adhesion gives: bonded below 0.75
+///     pull-off force         = largest attraction on retraction, without voltage and mechanical
+///     load apparent work          = integral of the attraction on retraction from rest on, over
+///     the nominal area contact fraction       = contact area/area of the valid cells flattening
+///     ratio       = energy that presses the surfaces flat/energy that adhesion gives: bonded below
+///     0.75
 ///
 /// Forces and areas are those of the scanned area, not of a device (device/device_force.hpp).
 /// Assumptions stand with the solver that answered, and `model` says what holds of the figures.
@@ -30,19 +31,26 @@
 
 namespace mems_stiction {
 
-/// Regime of the whole interface by the adhesion parameter (14); limits 1 and 12 by Gui et al. 1999.
-enum class BondingRegime : std::uint8_t { kBonding = 0, kAdherence = 1, kNonBonding = 2, kUnknown = 3 };
+/// Regime of the whole interface by the adhesion parameter (14); limits 1 and 12 by Gui et al.
+/// 1999.
+enum class BondingRegime : std::uint8_t {
+  kBonding = 0,
+  kAdherence = 1,
+  kNonBonding = 2,
+  kUnknown = 3
+};
 
-/// Which single-asperity theory the median Tabor parameter asks for (Johnson and Greenwood 1997): JKR above 5, DMT
-/// below 0.1, the transition between.
+/// Which single-asperity theory the median Tabor parameter asks for (Johnson and Greenwood 1997):
+/// JKR above 5, DMT below 0.1, the transition between.
 enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2, kUnknown = 3 };
 
-/// What a scan leaves out, against what adhesion bridges (verdict/missing_scan.hpp). NaN: not known.
+/// What a scan leaves out, against what adhesion bridges (verdict/missing_scan.hpp). NaN: not
+/// known.
 struct ShortWaves {
   UnresolvedWaves waves;
-  double limit = std::numeric_limits<double>::quiet_NaN();  ///< of their rms height [m]
-  double needed_pitch =
-      std::numeric_limits<double>::quiet_NaN();  ///< of a scan that would show what holds [m]; NaN: none
+  double limit = std::numeric_limits<double>::quiet_NaN();         ///< of their rms height [m]
+  double needed_pitch = std::numeric_limits<double>::quiet_NaN();  ///< of a scan that would show
+                                                                   ///< what holds [m]; NaN: none
 
   bool areUnresolved() const { return waves.rms_height > limit; }
 };
@@ -91,7 +99,8 @@ struct Prediction {
 
   double adhesion_parameter = 0.0;
   BondingRegime bonding_regime = BondingRegime::kNonBonding;
-  bool has_asperities = true;  ///< false: the solver parts the contact into no asperities, and counts none
+  bool has_asperities =
+      true;  ///< false: the solver parts the contact into no asperities, and counts none
   int asperity_count = 0;
   int elastic_count = 0;
   int elasto_plastic_count = 0;
@@ -108,23 +117,30 @@ struct Prediction {
   double processing_time = 0.0;
 
   ModelStatement model;  ///< what the solver says of these figures
-  /// Whether the pull-off force is a lower bound: the search ended before the contacts stopped growing.
+  /// Whether the pull-off force is a lower bound: the search ended before the contacts stopped
+  /// growing.
   bool isLowerBound() const { return status == Status::kBonded && model.is_bound_where_bonded; }
-  /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
-  bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
+  /// Whether `asperities` lists every contact: it does not if the solver knows none, or
+  /// output/asperities is off.
+  bool listsContacts() const {
+    return has_asperities && static_cast<int>(asperities.size()) == asperity_count;
+  }
   std::vector<Asperity> asperities;
-  std::vector<Asperity>
-      pull_off_contacts;  ///< that hold at the pull-off (contact_solution.hpp), also with output/asperities off
-  /// Those that a verdict rests on: at the pull-off, or at rest where the formulation knows no others.
+  std::vector<Asperity> pull_off_contacts;  ///< that hold at the pull-off (contact_solution.hpp),
+                                            ///< also with output/asperities off
+  /// Those that a verdict rests on: at the pull-off, or at rest where the formulation knows no
+  /// others.
   const std::vector<Asperity>& holdingContacts() const {
     return pull_off_contacts.empty() ? asperities : pull_off_contacts;
   }
   std::vector<EnergyPoint> energy_curve;
-  std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the formulation does not follow it
-  cv::Mat deformed_lower;                   ///< rows x cols CV_64FC1 [m], NaN where invalid
-  cv::Mat deformed_upper;                   ///< the same in the upper surface's own z [m]
-  cv::Mat contact_map;                      ///< rows x cols CV_8UC1, values of Regime
-  cv::Mat pressure;  ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
+  std::vector<SeparationCurvePoint>
+      curve;               ///< force over displacement; empty if the formulation does not follow it
+  cv::Mat deformed_lower;  ///< rows x cols CV_64FC1 [m], NaN where invalid
+  cv::Mat deformed_upper;  ///< the same in the upper surface's own z [m]
+  cv::Mat contact_map;     ///< rows x cols CV_8UC1, values of Regime
+  cv::Mat pressure;  ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does
+                     ///< not know it
 
   double median_contact_pixels = 0.0;
   double median_composite_radius = 0.0;

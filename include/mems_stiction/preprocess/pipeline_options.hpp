@@ -25,7 +25,8 @@ struct RegionOptions {
   double width = 0.0;        ///< [m], >= 0; 0 = to the right edge
   double height = 0.0;       ///< [m], >= 0; 0 = to the lower edge
   std::string polygon_file;  ///< text, a corner "x y" [m] in each line; empty = none
-  std::string mask_file;     ///< image of the scan's size; pixels of 0, and missing ones, lie outside; empty = none
+  std::string mask_file;  ///< image of the scan's size; pixels of 0, and missing ones, lie outside;
+                          ///< empty = none
 
   void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/region");
   bool isStated() const;
@@ -54,7 +55,8 @@ struct LineAlignmentOptions {
 struct SpikeOptions {
   bool enabled = false;
   double threshold = 6.0;  ///< in robust standard deviations, > 0
-  int window = 5;          ///< side of the window [pixels], odd (an even one counts as the next odd one), in [3, 31]
+  int window =
+      5;  ///< side of the window [pixels], odd (an even one counts as the next odd one), in [3, 31]
 
   /// Keys are prefix + "/threshold" and so on.
   void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/spikes");
@@ -63,8 +65,9 @@ struct SpikeOptions {
 /// Which missing pixels get heights.
 struct FillOptions {
   bool enabled = false;
-  double max_fraction = 0.05;  ///< share of missing pixels beyond which the scan is refused [-], in [0, 1]
-  int max_hole = 200;          ///< larger holes stay invalid [pixels], in [1, 1000000]
+  double max_fraction =
+      0.05;            ///< share of missing pixels beyond which the scan is refused [-], in [0, 1]
+  int max_hole = 200;  ///< larger holes stay invalid [pixels], in [1, 1000000]
 
   /// Keys are prefix + "/max_fraction" and so on.
   void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/fill");
@@ -73,7 +76,8 @@ struct FillOptions {
 /// The shape of the tip: a cone with a spherical end.
 struct TipOptions {
   double radius = 0.0;      ///< of the sphere [m], >= 0; 0 = off
-  double half_angle = 0.0;  ///< between axis and flank of the cone [rad], in [0, 1.55]; 0 = a sphere with a cylinder
+  double half_angle = 0.0;  ///< between axis and flank of the cone [rad], in [0, 1.55]; 0 = a
+                            ///< sphere with a cylinder
 
   /// Keys are prefix + "/radius" and so on.
   void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/tip");

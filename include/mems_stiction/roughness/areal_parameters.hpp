@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about their mean
-/// (levelling is the caller's).
+/// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about
+/// their mean (levelling is the caller's).
 
 #include "mems_stiction/height_map/height_map.hpp"
 
@@ -17,11 +17,13 @@ struct ArealParameters {
   double sp = 0.0;   ///< maximum peak height [m]
   double sv = 0.0;   ///< maximum pit height [m]
   double sz = 0.0;   ///< maximum height, sp + sv [m]
-  double sdq = 0.0;  ///< root mean square gradient by central differences over pixels with four valid neighbours [-]
+  double sdq = 0.0;  ///< root mean square gradient by central differences over pixels with four
+                     ///< valid neighbours [-]
   double sdr = 0.0;  ///< developed interfacial area ratio by the same gradients [-]
 };
 
-/// Skewness and kurtosis of a constant surface are 0; gradients are 0 where no pixel has four valid neighbours.
+/// Skewness and kurtosis of a constant surface are 0; gradients are 0 where no pixel has four valid
+/// neighbours.
 /// @throw SurfaceError if no pixel is valid.
 ArealParameters arealParameters(const HeightMap& surface);
 

@@ -1,16 +1,19 @@
 #pragma once
 
 /// @file
-/// What a table of figures says of each: its name, its unit and what it is. The tables are the one place where a figure is
-/// declared; records, rows, messages and the attributes of Python follow from them.
+/// What a table of figures says of each: its name, its unit and what it is. The tables are the one
+/// place where a figure is declared; records, rows, messages and the attributes of Python follow
+/// from them.
 ///
-///     visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) { print(figure.name, value); });
+///     visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
+///     print(figure.name, value); });
 
 #include <type_traits>
 
 namespace mems_stiction {
 
-/// The declaration of a figure beside its value, whose type says whether it is a number, a count, a word or a yes.
+/// The declaration of a figure beside its value, whose type says whether it is a number, a count, a
+/// word or a yes.
 struct Figure {
   const char* name;  ///< of the field in records, rows, messages and Python
   const char* unit = "";

@@ -12,7 +12,8 @@
 ///
 ///     PipelineOptions options;
 ///     options.fill.max_fraction = 2.0;
-///     for (const std::string& violation : rangeViolations(options)) report(violation);  // key, value, what is allowed
+///     for (const std::string& violation : rangeViolations(options)) report(violation);  // key,
+///     value, what is allowed
 
 #include <limits>
 #include <string>
@@ -21,7 +22,8 @@
 
 namespace mems_stiction {
 
-/// The closed or half-open interval that a number must lie in. Infinities never do; NaN only where it means "none".
+/// The closed or half-open interval that a number must lie in. Infinities never do; NaN only where
+/// it means "none".
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -30,14 +32,17 @@ struct Range {
   bool nan_means_none = false;
 
   static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
-  static Range nonNegative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range nonNegative() {
+    return {0.0, std::numeric_limits<double>::infinity(), false, false};
+  }
   static Range any() { return {}; }
   static Range anyOrNone() { return {any().lower, any().upper, false, false, true}; }
   static Range within(double lower, double upper) { return {lower, upper, false, false}; }
   static Range openWithin(double lower, double upper) { return {lower, upper, true, true}; }
 
   bool contains(double value) const;
-  /// The constraint in words, for messages: "> 0", ">= 0", "in [0, 1]", "any finite number" (", or nan for none").
+  /// The constraint in words, for messages: "> 0", ">= 0", "in [0, 1]", "any finite number" (", or
+  /// nan for none").
   std::string text() const;
 };
 
@@ -46,20 +51,23 @@ class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
 
-  virtual void number(const std::string& key, double& value, const std::string& unit, const Range& range,
-                      const std::string& meaning) = 0;
-  virtual void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) = 0;
+  virtual void number(const std::string& key, double& value, const std::string& unit,
+                      const Range& range, const std::string& meaning) = 0;
+  virtual void integer(const std::string& key, int& value, const Range& range,
+                       const std::string& meaning) = 0;
   virtual void flag(const std::string& key, bool& value, const std::string& meaning) = 0;
   virtual void text(const std::string& key, std::string& value, const std::string& meaning) = 0;
   /// `value` is one of `names`.
-  virtual void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
-                      const std::string& meaning) = 0;
+  virtual void choice(const std::string& key, std::string& value,
+                      const std::vector<std::string>& names, const std::string& meaning) = 0;
   /// Earlier versions called `key` so: whoever still does is told.
   virtual void formerName(const std::string& /*former*/, const std::string& /*key*/) {}
 
-  /// An enumeration, through choice(). A value that choice() leaves outside the table keeps the previous enumerator.
+  /// An enumeration, through choice(). A value that choice() leaves outside the table keeps the
+  /// previous enumerator.
   template <typename Enum>
-  void enumeration(const std::string& key, Enum& value, const std::vector<std::pair<std::string, Enum>>& table,
+  void enumeration(const std::string& key, Enum& value,
+                   const std::vector<std::pair<std::string, Enum>>& table,
                    const std::string& meaning) {
     std::vector<std::string> names;
     std::string name;
@@ -79,7 +87,8 @@ class OptionValidator : public OptionVisitor {
  public:
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
               const std::string& meaning) override;
-  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override;
+  void integer(const std::string& key, int& value, const Range& range,
+               const std::string& meaning) override;
   void flag(const std::string& key, bool& value, const std::string& meaning) override;
   void text(const std::string& key, std::string& value, const std::string& meaning) override;
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
@@ -91,7 +100,8 @@ class OptionValidator : public OptionVisitor {
   std::vector<std::string> violations_;
 };
 
-/// describe() of options that must stay as they are: what the visitor sees, and could write to, is a copy.
+/// describe() of options that must stay as they are: what the visitor sees, and could write to, is
+/// a copy.
 /// - @p arguments of describe() after the visitor, such as a prefix
 template <typename Options, typename... Arguments>
 void describeConst(const Options& options, OptionVisitor& visitor, const Arguments&... arguments) {
@@ -108,7 +118,8 @@ std::vector<std::string> rangeViolations(const Options& options, const Arguments
   return validator.violations();
 }
 
-/// Shortest decimal text that reads back as the same double: for messages and printed configurations.
+/// Shortest decimal text that reads back as the same double: for messages and printed
+/// configurations.
 std::string numberText(double value);
 
 }  // namespace mems_stiction

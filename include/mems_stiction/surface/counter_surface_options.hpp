@@ -5,7 +5,8 @@
 /// and how random ones are drawn.
 ///
 ///     Gaussian      <z(r) z(r + (x, y))> = sigma^2 exp(-(x^2/lx^2 + y^2/ly^2))
-///     self-affine   C(q) = C0 below q_r, C0 (q/q_r)^(-2 - 2 H) up to q_s, 0 beyond;  q = 2 pi/wavelength
+///     self-affine   C(q) = C0 below q_r, C0 (q/q_r)^(-2 - 2 H) up to q_s, 0 beyond;  q = 2
+///     pi/wavelength
 ///
 /// Generated surfaces are periodic, have the exact rms height (or slope), and depend on grid and
 /// seed alone. The pose is rigid: the middle of the counter-surface lies over the middle of the
@@ -54,9 +55,10 @@ struct GaussianSurfaceOptions {
 
 /// A Gaussian surface, with skewness and kurtosis of its own.
 struct TranslatedGaussianOptions {
-  GaussianSurfaceOptions gaussian;  ///< size, rms height, correlation lengths and seed of the surface asked for
-  double skewness = 0.0;            ///< in [-4, 4]
-  double kurtosis = 3.0;            ///< in [skewness^2 + 1.2, 100]; Gaussian: 3
+  GaussianSurfaceOptions
+      gaussian;  ///< size, rms height, correlation lengths and seed of the surface asked for
+  double skewness = 0.0;  ///< in [-4, 4]
+  double kurtosis = 3.0;  ///< in [skewness^2 + 1.2, 100]; Gaussian: 3
 
   /// Keys are prefix + "/skewness" and so on, after those of the Gaussian surface.
   void describe(OptionVisitor& visitor, const std::string& prefix);
@@ -101,7 +103,7 @@ enum class CounterSurfaceType {
 enum class CounterSurfaceFacing {
   kUnstated,  ///< nobody has said it: a measured counter-surface is refused
   kDown,      ///< as mounted: z and columns are those of the scan's frame
-  kUp,        ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
+  kUp,  ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
 };
 
 /// What the counter-surface is and how it lies.
@@ -109,14 +111,20 @@ struct CounterSurfaceOptions {
   CounterSurfaceType type = CounterSurfaceType::kFlat;
   CounterSurfaceFacing facing = CounterSurfaceFacing::kUnstated;
   std::string file;     ///< for type file
-  std::string channel;  ///< title or number, of an instrument maker's file; empty = the likeliest height channel
+  std::string channel;  ///< title or number, of an instrument maker's file; empty = the likeliest
+                        ///< height channel
   SurfacePose pose;
-  TranslatedGaussianOptions gaussian;    ///< its rows, cols and pitches are the scan's, its seed is `seed`
+  TranslatedGaussianOptions
+      gaussian;  ///< its rows, cols and pitches are the scan's, its seed is `seed`
   SelfAffineSurfaceOptions self_affine;  ///< the same
   int seed = 1;                          ///< of generated surfaces, >= 0
 
-  bool isMeasured() const { return type == CounterSurfaceType::kTopic || type == CounterSurfaceType::kFile; }
-  bool isGenerated() const { return type == CounterSurfaceType::kGaussian || type == CounterSurfaceType::kSelfAffine; }
+  bool isMeasured() const {
+    return type == CounterSurfaceType::kTopic || type == CounterSurfaceType::kFile;
+  }
+  bool isGenerated() const {
+    return type == CounterSurfaceType::kGaussian || type == CounterSurfaceType::kSelfAffine;
+  }
 
   void describe(OptionVisitor& visitor);
 };

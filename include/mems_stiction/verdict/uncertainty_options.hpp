@@ -1,16 +1,18 @@
 #pragma once
 
 /// @file
-/// How well the constants of a prediction are known: what margin_uncertainty.hpp draws its samples from.
+/// How well the constants of a prediction are known: what margin_uncertainty.hpp draws its samples
+/// from.
 
 #include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 
-/// Relative standard uncertainties [-]; 0 = exactly known. Sources of the defaults: polysilicon of Sharpe et al. 1997
-/// (169 +- 6 GPa) and the spread of hardness in use (11 to 13 GPa); the others are usual values: hydrophilic silicon
-/// 50 to 150 mJ/m^2, an uncalibrated scanner 2 %, D0 between 0.14 and 0.2 nm; Hamaker constants by Lifshitz' theory from
-/// optical spectra to 10 % (Ackler et al. 1996).
+/// Relative standard uncertainties [-]; 0 = exactly known. Sources of the defaults: polysilicon of
+/// Sharpe et al. 1997 (169 +- 6 GPa) and the spread of hardness in use (11 to 13 GPa); the others
+/// are usual values: hydrophilic silicon 50 to 150 mJ/m^2, an uncalibrated scanner 2 %, D0 between
+/// 0.14 and 0.2 nm; Hamaker constants by Lifshitz' theory from optical spectra to 10 % (Ackler et
+/// al. 1996).
 struct UncertaintyOptions {
   double work_of_adhesion = 0.3;  ///< in [0, 1]
   double hardness = 0.08;         ///< in [0, 1]

@@ -1,4 +1,5 @@
-/// What is kept of an area: its highest cells and how many others lie where, whatever comes in which order; and what is refused.
+/// What is kept of an area: its highest cells and how many others lie where, whatever comes in
+/// which order; and what is refused.
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +96,8 @@ TEST(AreaCells, keepThoseAboveTheirLevel) {
   AreaCellLimits deep;
   deep.depth = highest - 3e-9;
   AreaCellLimits few;
-  few.most_cells = std::count_if(heights.begin(), heights.end(), [](double height) { return height > 3e-9; });
+  few.most_cells =
+      std::count_if(heights.begin(), heights.end(), [](double height) { return height > 3e-9; });
   for (const AreaCellLimits& one : {limits, deep, few}) {
     AreaCells cells(1e-9, 2e-9, one);
     cells.add(-3, 10, heights);
@@ -106,7 +108,8 @@ TEST(AreaCells, keepThoseAboveTheirLevel) {
     const std::vector<AreaCell> kept = cells.cellsFrom(cells.levelBucket());
     EXPECT_EQ(static_cast<std::int64_t>(kept.size()), cells.cellCount());
     EXPECT_EQ(static_cast<std::int64_t>(kept.size()),
-              std::count_if(heights.begin(), heights.end(), [&](double height) { return height > cells.level(); }));
+              std::count_if(heights.begin(), heights.end(),
+                            [&](double height) { return height > cells.level(); }));
     for (const AreaCell& cell : kept) EXPECT_EQ(cell.relief, heights(cell.row + 3, cell.col - 10));
   }
 }
@@ -132,7 +135,8 @@ TEST(AreaCells, doNotDependOnTheOrderWithAnyLimit) {
   by_all.level = 2e-9;
   by_all.most_cells = 800;
   std::vector<cv::Mat1d> tiles;
-  for (unsigned i = 0; i < 40; ++i) tiles.push_back(randomHeights(40, 40, 2e-9 + 0.2e-9 * (i % 7), i));
+  for (unsigned i = 0; i < 40; ++i)
+    tiles.push_back(randomHeights(40, 40, 2e-9 + 0.2e-9 * (i % 7), i));
   tiles[30](5, 5) = -30e-6;  // buckets become wider then
   for (const AreaCellLimits& limits : {by_number, by_depth, by_all}) {
     std::string expected;
@@ -142,7 +146,8 @@ TEST(AreaCells, doNotDependOnTheOrderWithAnyLimit) {
       AreaCells cells(1e-9, 1e-9, limits);
       AreaCells other(1e-9, 1e-9, limits);
       for (std::size_t i = 0; i < order.size(); ++i) {
-        (i % 3 == 0 ? other : cells).add(static_cast<std::int64_t>(order[i]) * 40, 0, tiles[order[i]]);
+        (i % 3 == 0 ? other : cells)
+            .add(static_cast<std::int64_t>(order[i]) * 40, 0, tiles[order[i]]);
         if (i == 20) cells = AreaCells::fromBytes(cells.toBytes());
       }
       cells.add(other);
@@ -192,7 +197,8 @@ TEST(AreaCells, refuseWhatIsNoPartOfOneArea) {
   EXPECT_THROW(cells.cellsFrom(cells.levelBucket()), SurfaceError);
 }
 
-/// Labels of connected valid cells of a frame by brute force: for each, its cells' heights in the order of the frame.
+/// Labels of connected valid cells of a frame by brute force: for each, its cells' heights in the
+/// order of the frame.
 std::vector<std::vector<double>> islandsOf(const cv::Mat1d& frame) {
   cv::Mat1b seen(frame.size(), 0);
   std::vector<std::vector<double>> islands;
@@ -202,16 +208,19 @@ std::vector<std::vector<double>> islandsOf(const cv::Mat1d& frame) {
       std::vector<cv::Point> cells = {{col, row}};
       seen(row, col) = 1;
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        for (int y = std::max(cells[i].y - 1, 0); y <= std::min(cells[i].y + 1, frame.rows - 1); ++y) {
-          for (int x = std::max(cells[i].x - 1, 0); x <= std::min(cells[i].x + 1, frame.cols - 1); ++x) {
+        for (int y = std::max(cells[i].y - 1, 0); y <= std::min(cells[i].y + 1, frame.rows - 1);
+             ++y) {
+          for (int x = std::max(cells[i].x - 1, 0); x <= std::min(cells[i].x + 1, frame.cols - 1);
+               ++x) {
             if (std::isnan(frame(y, x)) || seen(y, x)) continue;
             seen(y, x) = 1;
             cells.emplace_back(x, y);
           }
         }
       }
-      std::sort(cells.begin(), cells.end(),
-                [](const cv::Point& a, const cv::Point& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+      std::sort(cells.begin(), cells.end(), [](const cv::Point& a, const cv::Point& b) {
+        return a.y != b.y ? a.y < b.y : a.x < b.x;
+      });
       std::vector<double> heights;  // and where they lie from the first
       for (const cv::Point& cell : cells) {
         heights.insert(heights.end(), {frame(cell), static_cast<double>(cell.x - cells[0].x),
@@ -229,7 +238,8 @@ TEST(FrameOfIslands, hasEachIslandAsItIs) {
     cv::Mat1d frame = randomHeights(60, 80, 1.0, 5);
     std::vector<double> sorted(frame.begin(), frame.end());
     std::sort(sorted.begin(), sorted.end());
-    const double level = sorted[static_cast<std::size_t>((1.0 - share) * static_cast<double>(sorted.size()))];
+    const double level =
+        sorted[static_cast<std::size_t>((1.0 - share) * static_cast<double>(sorted.size()))];
     std::vector<AreaCell> cells;
     for (int row = 0; row < frame.rows; ++row) {
       for (int col = 0; col < frame.cols; ++col) {
@@ -249,8 +259,10 @@ TEST(FrameOfIslands, hasEachIslandAsItIs) {
 }
 
 TEST(FrameOfIslands, isInSinglePrecisionIfThatIsExact) {
-  EXPECT_EQ(frameOfIslands({{0, 0, 0.5}, {5, 9, 0.25}}, 1e-9, 1e-9, 100)->heights().type(), CV_32FC1);
-  EXPECT_EQ(frameOfIslands({{0, 0, 0.5}, {5, 9, 0.1}}, 1e-9, 1e-9, 100)->heights().type(), CV_64FC1);
+  EXPECT_EQ(frameOfIslands({{0, 0, 0.5}, {5, 9, 0.25}}, 1e-9, 1e-9, 100)->heights().type(),
+            CV_32FC1);
+  EXPECT_EQ(frameOfIslands({{0, 0, 0.5}, {5, 9, 0.1}}, 1e-9, 1e-9, 100)->heights().type(),
+            CV_64FC1);
 }
 
 TEST(FarGaps, sumALawAsItsCellsWould) {

@@ -34,7 +34,8 @@ TEST(CellOrder, knowsBySideWhichOfTwoNeighboursComesFirst) {
   for (const Side side : kSides) {
     const GridCell neighbour = kCell.neighbour(side, kCols);
     for (const double gap : {1.0, 2.0, 3.0, kNoCell}) {
-      EXPECT_EQ(comesFirst(side, gap, 2.0), comesBefore(gap, neighbour.index, 2.0, kCell.index)) << side << " " << gap;
+      EXPECT_EQ(comesFirst(side, gap, 2.0), comesBefore(gap, neighbour.index, 2.0, kCell.index))
+          << side << " " << gap;
     }
   }
 }

@@ -14,21 +14,25 @@
 namespace mems_stiction {
 namespace {
 
-/// The pit below each cell by the definition: cells are ranked by gap and place, and a path goes to the left or up if
-/// that leads to a lower rank, else to the lower of right and below. -1 for invalid cells.
+/// The pit below each cell by the definition: cells are ranked by gap and place, and a path goes to
+/// the left or up if that leads to a lower rank, else to the lower of right and below. -1 for
+/// invalid cells.
 std::vector<int> pitsOf(const GapField& field) {
   const std::vector<double> gaps = frameGaps(field);
   std::vector<int> order(gaps.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return gaps[a] < gaps[b]; });
   std::vector<int> rank(gaps.size());
-  for (std::size_t i = 0; i < order.size(); ++i) rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
 
   const int cols = field.cols();
   std::vector<int> pits(gaps.size(), -1);
   for (const int cell : order) {  // the lowest first: what lies below a cell is known
     if (!isValid(field, cell)) break;
-    const auto rankOf = [&](bool is_in_frame, int other) { return is_in_frame ? rank[other] : field.cellCount(); };
+    const auto rankOf = [&](bool is_in_frame, int other) {
+      return is_in_frame ? rank[other] : field.cellCount();
+    };
     const int left = rankOf(cell % cols > 0, cell - 1);
     const int right = rankOf(cell % cols + 1 < cols, cell + 1);
     const int top = rankOf(cell >= cols, cell - cols);
@@ -47,7 +51,8 @@ void expectDales(DaleMap& dales, const GapField& field, const std::vector<int>& 
   for (int cell = 0; cell < field.cellCount(); ++cell) {
     if (!isValid(field, cell)) continue;
     const std::int32_t dale = dales.find(field.cellAt(cell));
-    ASSERT_EQ(dale_of_pit.emplace(pits[static_cast<std::size_t>(cell)], dale).first->second, dale) << "cell " << cell;
+    ASSERT_EQ(dale_of_pit.emplace(pits[static_cast<std::size_t>(cell)], dale).first->second, dale)
+        << "cell " << cell;
     numbers.insert(dale);
   }
   EXPECT_EQ(numbers.size(), dale_of_pit.size());
@@ -91,8 +96,10 @@ TEST_P(MappedFrame, hasTheSameDalesWhenFoundRowByRow) {
     for (int col = 0; col < cols; ++col) {
       if (isValid(field_, row * cols + col) && (row + col) % 5 != 0) valid.push_back(col);
     }
-    dales_.findInRow(row, valid.data(), static_cast<int>(valid.size()), line.data() + 1, above.data() + 1);
-    for (const std::int32_t col : valid) ASSERT_NE(dales_.at(field_.cellAt(row, col)), DaleMap::kUnknown);
+    dales_.findInRow(row, valid.data(), static_cast<int>(valid.size()), line.data() + 1,
+                     above.data() + 1);
+    for (const std::int32_t col : valid)
+      ASSERT_NE(dales_.at(field_.cellAt(row, col)), DaleMap::kUnknown);
     std::swap(line, above);
   }
   expectDales(dales_, field_, pits_);
@@ -112,7 +119,8 @@ TEST_P(MappedFrame, knowsOnlyThePathsThatWereAskedFor) {
 }
 
 TEST_P(MappedFrame, forgetsAnotherFrame) {
-  const GapField other = samples::Frame{"", samples::whiteNoise(70, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
+  const GapField other =
+      samples::Frame{"", samples::whiteNoise(70, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
   dales_.start(other);
   expectDales(dales_, other, pitsOf(other));
   dales_.start(field_);

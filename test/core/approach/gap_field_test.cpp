@@ -55,7 +55,8 @@ TEST(GapField, countsFromTheHighestPixelToAPlane) {
 
 TEST(GapField, countsFromTheClosestPairBetweenTwoSurfaces) {
   GapField field;
-  field.compute({map((cv::Mat1d(1, 3) << 1e-9, 5e-9, 2e-9)), map((cv::Mat1d(1, 3) << 9e-9, 9e-9, 3e-9))});
+  field.compute(
+      {map((cv::Mat1d(1, 3) << 1e-9, 5e-9, 2e-9)), map((cv::Mat1d(1, 3) << 9e-9, 9e-9, 3e-9))});
   EXPECT_FALSE(field.upperIsFlat());
   EXPECT_NEAR(field.gap(0), 7e-9, 1e-24);  // round-off of nanometres
   EXPECT_NEAR(field.gap(1), 3e-9, 1e-24);
@@ -68,7 +69,8 @@ TEST(GapField, countsFromTheClosestPairBetweenTwoSurfaces) {
 TEST(GapField, doesNotDependOnAStageOffset) {
   const HeightMap surface = samples::gaussian(30, 41, 10e-9, 12e-9, 3e-9, 40e-9, 1);
   const HeightMap other = samples::gaussian(30, 41, 10e-9, 12e-9, 2e-9, 40e-9, 2);
-  const HeightMap offset = analytic::sum(surface, analytic::flat(30, 41, 10e-9, 12e-9, kStageOffset));
+  const HeightMap offset =
+      analytic::sum(surface, analytic::flat(30, 41, 10e-9, 12e-9, kStageOffset));
   GapField plain;
   GapField shifted;
   plain.compute(surface);
@@ -80,8 +82,8 @@ TEST(GapField, doesNotDependOnAStageOffset) {
   shifted.compute({offset, other});
   for (int cell = 0; cell < plain.cellCount(); ++cell) {
     ASSERT_NEAR(shifted.gap(cell), plain.gap(cell), 2 * kSpacingAtOffset);
-    ASSERT_NEAR(shifted.lowerHeight(cell) - shifted.lowerHeight(0), plain.lowerHeight(cell) - plain.lowerHeight(0),
-                kSpacingAtOffset);
+    ASSERT_NEAR(shifted.lowerHeight(cell) - shifted.lowerHeight(0),
+                plain.lowerHeight(cell) - plain.lowerHeight(0), kSpacingAtOffset);
   }
   // the level is near the surface, not at the stage's zero
   EXPECT_LT(std::abs(shifted.lowerHeight(7)), 1e-7);
@@ -136,7 +138,8 @@ cv::Mat_<Scalar> wholeHeights(int rows, int cols) {
   for (int row = 0; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
       const int number = (31 * row + 17 * col + row * col) % 101;
-      heights(row, col) = number % 13 == 5 ? static_cast<Scalar>(kNan) : static_cast<Scalar>(number - 40);
+      heights(row, col) =
+          number % 13 == 5 ? static_cast<Scalar>(kNan) : static_cast<Scalar>(number - 40);
     }
   }
   return heights;
@@ -182,7 +185,8 @@ TEST(GapField, sumsSeveralHeightsAtOnceAsOneAfterTheOther) {
 TEST(ColumnsBetween, areThoseOfOneComparisonAfterTheOther) {
   for (int cols = 0; cols <= 40; ++cols) {
     std::vector<double> gaps;
-    for (int col = 0; col < cols; ++col) gaps.push_back(col % 11 == 7 ? kInfinity : (37 * col) % 29);
+    for (int col = 0; col < cols; ++col)
+      gaps.push_back(col % 11 == 7 ? kInfinity : (37 * col) % 29);
     for (const double from : {0.0, 1.0, 14.0}) {
       for (const double limit : {0.0, 1.0, 14.0, 28.0, 29.0, kInfinity}) {
         if (limit < from) continue;
@@ -192,7 +196,8 @@ TEST(ColumnsBetween, areThoseOfOneComparisonAfterTheOther) {
           if (gap >= from && gap < limit) expected.push_back(col);
         }
         std::vector<std::int32_t> columns(static_cast<std::size_t>(cols) + 1);
-        columns.resize(static_cast<std::size_t>(columnsBetween(from, limit, gaps.data(), cols, columns.data())));
+        columns.resize(static_cast<std::size_t>(
+            columnsBetween(from, limit, gaps.data(), cols, columns.data())));
         EXPECT_EQ(columns, expected) << cols << " columns from " << from << " to " << limit;
       }
     }
@@ -202,7 +207,8 @@ TEST(ColumnsBetween, areThoseOfOneComparisonAfterTheOther) {
 TEST(GapField, refusesSurfacesWithoutAValidPixel) {
   GapField field;
   EXPECT_THROW(field.compute(map(cv::Mat1d(2, 2, kNan))), SurfaceError);
-  EXPECT_THROW(field.compute(map(cv::Mat1f(2, 2, std::numeric_limits<float>::infinity()))), SurfaceError);
+  EXPECT_THROW(field.compute(map(cv::Mat1f(2, 2, std::numeric_limits<float>::infinity()))),
+               SurfaceError);
   const HeightMap left = map((cv::Mat1d(1, 2) << 0.0, kNan));
   const HeightMap right = map((cv::Mat1d(1, 2) << kNan, 0.0));
   EXPECT_NE(messageOf(left, right).find("valid in both"), std::string::npos);
@@ -210,12 +216,15 @@ TEST(GapField, refusesSurfacesWithoutAValidPixel) {
 
 TEST(GapField, refusesHeightsThatNoSquareCanHold) {
   const auto message = [](double height, double other) {
-    return messageOf(map((cv::Mat1d(2, 3) << 0.0, 1e-9, height, 2e-9, other, kNan)), map(cv::Mat1d(2, 3, 0.0)));
+    return messageOf(map((cv::Mat1d(2, 3) << 0.0, 1e-9, height, 2e-9, other, kNan)),
+                     map(cv::Mat1d(2, 3, 0.0)));
   };
   EXPECT_EQ(message(1e99, 0.0), "");
   for (const double height : {2e154, -2e154, 1e308, -1e308}) {
-    EXPECT_NE(message(height, 0.0).find("must be <= 1e+100 m"), std::string::npos) << message(height, 0.0);
-    EXPECT_NE(message(height, -height).find("must be <= 1e+100 m"), std::string::npos) << message(height, -height);
+    EXPECT_NE(message(height, 0.0).find("must be <= 1e+100 m"), std::string::npos)
+        << message(height, 0.0);
+    EXPECT_NE(message(height, -height).find("must be <= 1e+100 m"), std::string::npos)
+        << message(height, -height);
     GapField field;
     EXPECT_THROW(field.compute(map((cv::Mat1d(1, 3) << 0.0, height, 1e-9))), SurfaceError);
   }
@@ -231,7 +240,9 @@ TEST(GapField, refusesGridsThatDifferAndNamesBoth) {
   EXPECT_NE(pitch.find("3.1e-09"), std::string::npos) << pitch;
   EXPECT_NE(messageOf(lower, HeightMap(heights, 2.1e-9, 3e-9)), "");
   // pitches that went through float32 are the same
-  EXPECT_EQ(messageOf(lower, HeightMap(heights, static_cast<double>(2e-9f), static_cast<double>(3e-9f))), "");
+  EXPECT_EQ(
+      messageOf(lower, HeightMap(heights, static_cast<double>(2e-9f), static_cast<double>(3e-9f))),
+      "");
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ std::vector<OrderedCell> sortedCells(const GapField& field) {
   for (int cell = 0; cell < field.cellCount(); ++cell) {
     if (isValid(field, cell)) cells.push_back({field.gap(cell), cell, {}});
   }
-  std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const auto& a, const auto& b) { return a.gap < b.gap; });
   return cells;
 }
 
@@ -38,16 +39,18 @@ std::vector<samples::Frame> orderedFrames() {
   for (const int nanometres : {1, 2, 3, 4}) {  // as a scan of three bits has them
     const double digit = nanometres * 1e-9;
     const HeightMap noise = samples::whiteNoise(32, 32, 20e-9, 20e-9, 7.0 * digit, nanometres);
-    frames.push_back({"quantized_" + std::to_string(nanometres) + "_nm", samples::quantized(noise, digit), {}});
+    frames.push_back(
+        {"quantized_" + std::to_string(nanometres) + "_nm", samples::quantized(noise, digit), {}});
   }
   return frames;
 }
 
-/// Steps as a search takes them, some that meet the gaps of lattices exactly or but for round-off, one that is tiny, and
-/// one beyond the range.
+/// Steps as a search takes them, some that meet the gaps of lattices exactly or but for round-off,
+/// one that is tiny, and one beyond the range.
 std::vector<double> stepsFor(const GapField& field) {
   const double range = std::max(field.largestGap(), 1e-9);
-  return {range / 37.3, range / 8.0, range / 14.0, range / 133.0, range / 259.0, range / 1e7, 3.0 * range};
+  return {range / 37.3,  range / 8.0, range / 14.0, range / 133.0,
+          range / 259.0, range / 1e7, 3.0 * range};
 }
 
 class OrderedFrame : public testing::TestWithParam<samples::Frame> {
@@ -113,7 +116,8 @@ TEST_P(OrderedFrame, cellsBearTheirDaleAndWhereItMeetsOthers) {
       const GridCell neighbour = cell.neighbour(side, field_.cols());
       const bool comes_before =
           field_.contains(neighbour) && comesFirst(side, field_.gap(neighbour.index), ordered.gap);
-      ASSERT_EQ(ordered.tag.isBorderAt(side), comes_before && dales.find(neighbour) != ordered.tag.dale());
+      ASSERT_EQ(ordered.tag.isBorderAt(side),
+                comes_before && dales.find(neighbour) != ordered.tag.dale());
     }
   }
 }
@@ -125,7 +129,8 @@ TEST_P(OrderedFrame, changedGapsAreInOrder) {
   const int count = order.sortBelow(limit);
   std::vector<double> gaps;
   std::map<int, double> gap_of_cell;
-  for (int i = 0; i < count; ++i) {  // some rise, some stay: half the way to the limit where the cell's number is odd
+  for (int i = 0; i < count;
+       ++i) {  // some rise, some stay: half the way to the limit where the cell's number is odd
     const OrderedCell& ordered = order.cells()[static_cast<std::size_t>(i)];
     gaps.push_back(ordered.cell % 2 == 1 ? 0.5 * (ordered.gap + limit) : ordered.gap);
     gap_of_cell[ordered.cell] = gaps.back();
@@ -155,15 +160,18 @@ TEST_P(OrderedFrame, keepsTheCellsOfOneStepTogetherAndInTheOrderOfTheFrame) {
     for (int k = 1; before < order.contactLimit(); ++k) {
       const double approach = k * step;
       const int below = order.sortBelow(approach);
-      const auto expected = std::count_if(gaps.begin(), gaps.end(), [=](double gap) { return gap < approach; });
-      ASSERT_EQ(below, std::min<std::ptrdiff_t>(expected, static_cast<std::ptrdiff_t>(order.cells().size())));
+      const auto expected =
+          std::count_if(gaps.begin(), gaps.end(), [=](double gap) { return gap < approach; });
+      ASSERT_EQ(below, std::min<std::ptrdiff_t>(expected,
+                                                static_cast<std::ptrdiff_t>(order.cells().size())));
       for (int i = before; i < below; ++i) {
         ASSERT_LT(order.cells()[static_cast<std::size_t>(i)].gap, approach);
         ASSERT_GE(order.cells()[static_cast<std::size_t>(i)].gap, (k - 1) * step);
       }
       if (below >= order.contactLimit()) break;  // the last group is sorted for the limit
       for (int i = before + 1; i < below; ++i) {
-        ASSERT_LT(order.cells()[static_cast<std::size_t>(i - 1)].cell, order.cells()[static_cast<std::size_t>(i)].cell);
+        ASSERT_LT(order.cells()[static_cast<std::size_t>(i - 1)].cell,
+                  order.cells()[static_cast<std::size_t>(i)].cell);
       }
       before = below;
     }
@@ -188,9 +196,11 @@ TEST_P(OrderedFrame, limitsContactAtTheFirstLevelThatReachesTheFraction) {
   for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
     GapOrder order;
     order.build(field_, fraction, 0.03 * field_.largestGap());
-    const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(fraction * expected.size())));
+    const auto wanted =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(fraction * expected.size())));
     const double level = expected[wanted - 1].gap;
-    const auto end = std::find_if(expected.begin(), expected.end(), [&](const auto& cell) { return cell.gap > level; });
+    const auto end = std::find_if(expected.begin(), expected.end(),
+                                  [&](const auto& cell) { return cell.gap > level; });
     EXPECT_EQ(order.contactLimit(), end - expected.begin()) << "fraction " << fraction;
   }
 }
@@ -201,7 +211,8 @@ TEST_P(OrderedFrame, countsTheCellsBelowAnApproach) {
   order.build(field_, 1.0);
   for (int k = 0; k <= 20; ++k) {
     const double approach = field_.largestGap() * k / 20;
-    const auto below = std::count_if(gaps.begin(), gaps.end(), [approach](double gap) { return gap < approach; });
+    const auto below =
+        std::count_if(gaps.begin(), gaps.end(), [approach](double gap) { return gap < approach; });
     EXPECT_EQ(order.sortBelow(approach), below);
   }
   EXPECT_EQ(order.sortBelow(0.0), 0);  // touching at D = 0 is not interference yet
@@ -224,15 +235,20 @@ TEST_P(OrderedFrame, keepsTheMomentsOfEveryBucket) {
   for (const GapMoments& bucket : order.orderedMoments()) add(bucket, order.bucketWidth());
   const double tail_width = order.bucketWidth() * GapOrder::kBucketsPerTailBucket;
   for (const GapMoments& bucket : order.tailMoments()) add(bucket, tail_width);
-  ASSERT_EQ(order.orderedMoments().size() + order.tailMoments().size() * GapOrder::kBucketsPerTailBucket,
-            static_cast<std::size_t>(order.bucketCount()));
+  ASSERT_EQ(
+      order.orderedMoments().size() + order.tailMoments().size() * GapOrder::kBucketsPerTailBucket,
+      static_cast<std::size_t>(order.bucketCount()));
   EXPECT_EQ(count, field_.validCount());
   double expected_squares = 0.0;
-  for (const double gap : frameGaps(field_)) expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
-  // relative: the round-off of some ten thousand additions; cells of the tail stand at the middle of their bucket
-  const double tolerance = order.tailMoments().empty() ? 1e-12 : 0.5 * order.bucketWidth() / field_.largestGap();
+  for (const double gap : frameGaps(field_))
+    expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
+  // relative: the round-off of some ten thousand additions; cells of the tail stand at the middle
+  // of their bucket
+  const double tolerance =
+      order.tailMoments().empty() ? 1e-12 : 0.5 * order.bucketWidth() / field_.largestGap();
   EXPECT_NEAR(sum, field_.meanGap() * count, tolerance * count * field_.largestGap());
-  EXPECT_NEAR(squares, expected_squares, 2.0 * tolerance * count * field_.largestGap() * field_.largestGap());
+  EXPECT_NEAR(squares, expected_squares,
+              2.0 * tolerance * count * field_.largestGap() * field_.largestGap());
 }
 
 TEST_P(OrderedFrame, knowsWhereTheGroupsStart) {
@@ -247,10 +263,12 @@ TEST_P(OrderedFrame, knowsWhereTheGroupsStart) {
       const int before = order.cellsBefore(start);
       const double border = start * order.bucketWidth();
       if (before > 0) {
-        ASSERT_LE(order.cells()[static_cast<std::size_t>(before - 1)].gap, border + round_off) << "bucket " << bucket;
+        ASSERT_LE(order.cells()[static_cast<std::size_t>(before - 1)].gap, border + round_off)
+            << "bucket " << bucket;
       }
       if (before < static_cast<int>(order.cells().size())) {
-        ASSERT_GE(order.cells()[static_cast<std::size_t>(before)].gap, border - round_off) << "bucket " << bucket;
+        ASSERT_GE(order.cells()[static_cast<std::size_t>(before)].gap, border - round_off)
+            << "bucket " << bucket;
       }
     }
     EXPECT_EQ(order.cellsBefore(order.orderedBuckets()), static_cast<int>(order.cells().size()));
@@ -267,7 +285,8 @@ TEST_P(OrderedFrame, knowsTheGroupOfEveryGap) {
       const auto count = static_cast<int>(order.cells().size());
       for (int place = 0; place < count; ++place) {
         const double gap = order.cells()[static_cast<std::size_t>(place)].gap;
-        ASSERT_EQ(order.groupOf(gap), order.groupOfPlace(place)) << "place " << place << " step " << step;
+        ASSERT_EQ(order.groupOf(gap), order.groupOfPlace(place))
+            << "place " << place << " step " << step;
       }
     }
   }
@@ -277,12 +296,14 @@ TEST_P(OrderedFrame, isTheSameAfterAnotherFrame) {
   GapOrder fresh;
   fresh.build(field_, 0.4);
   GapOrder used;
-  used.build(samples::Frame{"", samples::whiteNoise(120, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField(), 0.9);
+  used.build(samples::Frame{"", samples::whiteNoise(120, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField(),
+             0.9);
   used.build(field_, 0.4);
   EXPECT_EQ(used.contactLimit(), fresh.contactLimit());
   EXPECT_EQ(used.bucketWidth(), fresh.bucketWidth());
   ASSERT_EQ(used.cells().size(), fresh.cells().size());
-  for (std::size_t i = 0; i < fresh.cells().size(); ++i) ASSERT_EQ(used.cells()[i].cell, fresh.cells()[i].cell);
+  for (std::size_t i = 0; i < fresh.cells().size(); ++i)
+    ASSERT_EQ(used.cells()[i].cell, fresh.cells()[i].cell);
   ASSERT_EQ(used.orderedMoments().size(), fresh.orderedMoments().size());
   for (std::size_t i = 0; i < fresh.orderedMoments().size(); ++i) {
     ASSERT_EQ(used.orderedMoments()[i].count, fresh.orderedMoments()[i].count);

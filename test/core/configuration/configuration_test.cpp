@@ -31,17 +31,26 @@ std::string refusal(const std::string& yaml) {
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// The keys that a configuration describes.
 class KeyCollector : public OptionVisitor {
  public:
-  void number(const std::string& key, double&, const std::string&, const Range&, const std::string& meaning) override {
+  void number(const std::string& key, double&, const std::string&, const Range&,
+              const std::string& meaning) override {
     add(key, meaning);
   }
-  void integer(const std::string& key, int&, const Range&, const std::string& meaning) override { add(key, meaning); }
-  void flag(const std::string& key, bool&, const std::string& meaning) override { add(key, meaning); }
-  void text(const std::string& key, std::string&, const std::string& meaning) override { add(key, meaning); }
+  void integer(const std::string& key, int&, const Range&, const std::string& meaning) override {
+    add(key, meaning);
+  }
+  void flag(const std::string& key, bool&, const std::string& meaning) override {
+    add(key, meaning);
+  }
+  void text(const std::string& key, std::string&, const std::string& meaning) override {
+    add(key, meaning);
+  }
   void choice(const std::string& key, std::string&, const std::vector<std::string>&,
               const std::string& meaning) override {
     add(key, meaning);
@@ -84,15 +93,18 @@ TEST(Configuration, NothingGivenKeepsTheDefaults) {
 TEST(Configuration, GivenDefaultsAreKept) {
   Configuration defaults;
   defaults.model.load.mechanical_load = 1e-6;
-  const Configuration configuration = configurationFromYaml(YAML::Load("paper/step: 1e-10"), defaults);
+  const Configuration configuration =
+      configurationFromYaml(YAML::Load("paper/step: 1e-10"), defaults);
   EXPECT_EQ(configuration.model.load.mechanical_load, 1e-6);
   EXPECT_EQ(configuration.model.solver.of<PaperOptions>().step, 1e-10);
 }
 
 TEST(Configuration, FormerNamesAreRefusedWithThoseOfNow) {
-  EXPECT_EQ(refusal("approach: {step: 1e-10}"), "approach/step: '1e-10' is given, but its name is paper/step now");
-  EXPECT_EQ(refusal("interface/cutoff_distance: 2e-10"),
-            "interface/cutoff_distance: '2e-10' is given, but its name is paper/cutoff_distance now");
+  EXPECT_EQ(refusal("approach: {step: 1e-10}"),
+            "approach/step: '1e-10' is given, but its name is paper/step now");
+  EXPECT_EQ(
+      refusal("interface/cutoff_distance: 2e-10"),
+      "interface/cutoff_distance: '2e-10' is given, but its name is paper/cutoff_distance now");
 }
 
 TEST(Configuration, NumbersMayBeQuotedAsPythonDoes) {
@@ -108,7 +120,8 @@ TEST(Configuration, NumbersMayBeQuotedAsPythonDoes) {
 TEST(Configuration, ChoicesAndFlagsAreRead) {
   const Configuration configuration = read(
       "approach: {connectivity: 8, formulation: printed}\npreprocessing/level: plane\n"
-      "counter_surface: {type: topic, facing: up}\noutput/energy_curve: yes\noutput/asperities: False");
+      "counter_surface: {type: topic, facing: up}\noutput/energy_curve: yes\noutput/asperities: "
+      "False");
   EXPECT_EQ(configuration.model.approach.connectivity, Connectivity::kEight);
   EXPECT_EQ(configuration.model.formulation, "printed");
   EXPECT_EQ(configuration.preprocessing.level.shape, LevelShape::kPlane);
@@ -122,15 +135,21 @@ TEST(Configuration, AChoiceBesideTrueAndFalseTakesEveryWordForThem) {
   EXPECT_EQ(Configuration().half_space.enabled, HalfSpaceUse::kFlagged);
   EXPECT_EQ(read("half_space/enabled: flagged").half_space.enabled, HalfSpaceUse::kFlagged);
   for (const char* word : {"true", "True", "on", "yes", "'true'"}) {
-    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled, HalfSpaceUse::kAlways) << word;
+    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled,
+              HalfSpaceUse::kAlways)
+        << word;
   }
   for (const char* word : {"false", "OFF", "no"}) {
-    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled, HalfSpaceUse::kNever) << word;
+    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled,
+              HalfSpaceUse::kNever)
+        << word;
   }
   const std::string line = refusal("half_space/enabled: maybe");
-  EXPECT_TRUE(mentions(line, "half_space/enabled: 'maybe' is not allowed, must be one of: false, flagged, true"))
+  EXPECT_TRUE(mentions(
+      line, "half_space/enabled: 'maybe' is not allowed, must be one of: false, flagged, true"))
       << line;
-  EXPECT_TRUE(mentions(refusal("counter_surface/type: on"), "counter_surface/type: 'on' is not allowed"));
+  EXPECT_TRUE(
+      mentions(refusal("counter_surface/type: on"), "counter_surface/type: 'on' is not allowed"));
 }
 
 TEST(Configuration, UnknownKeyIsNamedWithTheOneThatWasMeant) {
@@ -146,7 +165,8 @@ TEST(Configuration, UnknownKeyIsNamedWithTheOneThatWasMeant) {
 
 TEST(Configuration, WrongTypesNameKeyValueAndWhatIsAllowed) {
   for (const std::string value : {"soft", "true", "[1, 2]", "1,5", "12 GPa", "0x10"}) {
-    const std::string line = refusal("lower: {hardness: " + (value[0] == '[' ? value : "'" + value + "'") + "}");
+    const std::string line =
+        refusal("lower: {hardness: " + (value[0] == '[' ? value : "'" + value + "'") + "}");
     EXPECT_TRUE(mentions(line, "lower/hardness: ")) << value;
     EXPECT_TRUE(mentions(line, "must be a number > 0 Pa")) << value;
     EXPECT_EQ(mentions(line, "'" + value + "'"), value[0] != '[') << line;
@@ -154,7 +174,8 @@ TEST(Configuration, WrongTypesNameKeyValueAndWhatIsAllowed) {
   EXPECT_TRUE(mentions(refusal("approach/max_steps: 2.5"), "approach/max_steps: '2.5'"));
   EXPECT_TRUE(mentions(refusal("approach/max_steps: 1e300"), "approach/max_steps: '1e300'"));
   EXPECT_TRUE(mentions(refusal("output/roughness: maybe"), "output/roughness: 'maybe'"));
-  EXPECT_TRUE(mentions(refusal("approach/formulation: printd"), "one of: separation_curve, paper, printed"));
+  EXPECT_TRUE(mentions(refusal("approach/formulation: printd"),
+                       "one of: separation_curve, paper, printed"));
   EXPECT_TRUE(mentions(refusal("lower/hardness: {vickers: 1}"), "lower/hardness/vickers"));
   EXPECT_TRUE(mentions(refusal("[1, 2]"), "must be a map"));
 }
@@ -164,21 +185,28 @@ TEST(Configuration, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead)
   EXPECT_TRUE(mentions(text, "approach/formulation: 'corrected' is no longer there")) << text;
   EXPECT_TRUE(mentions(text, "`separation_curve`")) << text;
   EXPECT_TRUE(mentions(text, "`paper`")) << text;
-  EXPECT_TRUE(mentions(refusal("approach: {formulation: consistent}"), "its name is `separation_curve` now"));
+  EXPECT_TRUE(mentions(refusal("approach: {formulation: consistent}"),
+                       "its name is `separation_curve` now"));
   EXPECT_FALSE(mentions(refusal("approach/formulation: printd"), "no longer")) << text;
 }
 
 TEST(Configuration, UnphysicalValuesAreRefused) {
-  EXPECT_TRUE(mentions(refusal("lower/youngs_modulus: -1"), "lower/youngs_modulus: -1 Pa is not allowed, must be > 0"));
+  EXPECT_TRUE(mentions(refusal("lower/youngs_modulus: -1"),
+                       "lower/youngs_modulus: -1 Pa is not allowed, must be > 0"));
   EXPECT_TRUE(mentions(refusal("lower/poisson_ratio: 0.6"), "lower/poisson_ratio: 0.6"));
-  EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: .nan"), "interface/work_of_adhesion: nan"));
-  EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: .inf"), "interface/work_of_adhesion: inf"));
-  EXPECT_TRUE(mentions(refusal("interface/work_of_adhesion: -.inf"), "interface/work_of_adhesion: -inf"));
+  EXPECT_TRUE(
+      mentions(refusal("interface/work_of_adhesion: .nan"), "interface/work_of_adhesion: nan"));
+  EXPECT_TRUE(
+      mentions(refusal("interface/work_of_adhesion: .inf"), "interface/work_of_adhesion: inf"));
+  EXPECT_TRUE(
+      mentions(refusal("interface/work_of_adhesion: -.inf"), "interface/work_of_adhesion: -inf"));
   EXPECT_TRUE(mentions(refusal("scan/height_scale: 0"), "scan/height_scale: 0"));
-  EXPECT_TRUE(mentions(refusal("scan/pitch_x: 1e-9"), "scan/pitch_x: 1e-09 m with scan/pitch_y 0 m"));
+  EXPECT_TRUE(
+      mentions(refusal("scan/pitch_x: 1e-9"), "scan/pitch_x: 1e-09 m with scan/pitch_y 0 m"));
   EXPECT_TRUE(mentions(refusal("load/voltage: 5"), "interface/insulator_thickness: 0 m"));
-  EXPECT_TRUE(mentions(refusal("{load: {voltage: 5, max_voltage: 2}, interface/insulator_thickness: 1e-9}"),
-                       "load/voltage: 5 V is not allowed, must be in [-2, 2]"));
+  EXPECT_TRUE(
+      mentions(refusal("{load: {voltage: 5, max_voltage: 2}, interface/insulator_thickness: 1e-9}"),
+               "load/voltage: 5 V is not allowed, must be in [-2, 2]"));
 }
 
 TEST(Configuration, AMeasuredCounterSurfaceSaysWhichWayItFaces) {
@@ -186,20 +214,27 @@ TEST(Configuration, AMeasuredCounterSurfaceSaysWhichWayItFaces) {
     const std::string stated = std::string("counter_surface: {file: upper.di, type: ") + type;
     const std::string refused = refusal(stated + "}");
     EXPECT_TRUE(mentions(refused, "counter_surface/facing: must be stated")) << refused;
-    EXPECT_TRUE(mentions(refused, "up = its heights are as an instrument measures them")) << refused;
-    EXPECT_TRUE(mentions(refused, "down = its heights are already those of the mounted surface")) << refused;
-    for (const char* facing : {"up", "down"}) EXPECT_NO_THROW(read(stated + ", facing: " + facing + "}"));
+    EXPECT_TRUE(mentions(refused, "up = its heights are as an instrument measures them"))
+        << refused;
+    EXPECT_TRUE(mentions(refused, "down = its heights are already those of the mounted surface"))
+        << refused;
+    for (const char* facing : {"up", "down"})
+      EXPECT_NO_THROW(read(stated + ", facing: " + facing + "}"));
   }
   EXPECT_NO_THROW(read("counter_surface/type: gaussian")) << "drawn as it is mounted";
 }
 
 TEST(Configuration, CombinationsThatMeanNothingAreRefused) {
   EXPECT_TRUE(mentions(refusal("counter_surface/type: file"), "counter_surface/file: ''"));
-  EXPECT_TRUE(mentions(refusal("output: {hurst_shortest_wavelength: 2e-7, hurst_longest_wavelength: 1e-7}"),
-                       "output/hurst_longest_wavelength: 1e-07 m"));
-  EXPECT_TRUE(mentions(refusal("counter_surface/pose/tilt_x: 1.6"), "counter_surface/pose/tilt_x: 1.6 rad"));
-  EXPECT_TRUE(mentions(refusal("preprocessing/fill/max_fraction: 2"), "preprocessing/fill/max_fraction: 2"));
-  EXPECT_TRUE(mentions(refusal("resolution/min_contact_pixels: -1"), "resolution/min_contact_pixels: -1"));
+  EXPECT_TRUE(
+      mentions(refusal("output: {hurst_shortest_wavelength: 2e-7, hurst_longest_wavelength: 1e-7}"),
+               "output/hurst_longest_wavelength: 1e-07 m"));
+  EXPECT_TRUE(mentions(refusal("counter_surface/pose/tilt_x: 1.6"),
+                       "counter_surface/pose/tilt_x: 1.6 rad"));
+  EXPECT_TRUE(mentions(refusal("preprocessing/fill/max_fraction: 2"),
+                       "preprocessing/fill/max_fraction: 2"));
+  EXPECT_TRUE(
+      mentions(refusal("resolution/min_contact_pixels: -1"), "resolution/min_contact_pixels: -1"));
 }
 
 TEST(Configuration, AllViolationsComeAtOnceAndEachOnce) {
@@ -220,8 +255,8 @@ TEST(Configuration, AKeyGivenTwiceIsRefused) {
 }
 
 TEST(Configuration, ASectionGivenTwiceIsRefusedWithBothLines) {
-  const std::string line =
-      refusal("preprocessing:\n  level: plane\nlower: {hardness: 1e9}\npreprocessing:\n  fill: {}\n");
+  const std::string line = refusal(
+      "preprocessing:\n  level: plane\nlower: {hardness: 1e9}\npreprocessing:\n  fill: {}\n");
   EXPECT_TRUE(mentions(line, "preprocessing: given in line 4 and before in line 1")) << line;
   const std::string inner = refusal("lower:\n  hardness: 1e9\n  hardness: 1e9\n");
   EXPECT_TRUE(mentions(inner, "lower/hardness: given in line 3 and before in line 2")) << inner;
@@ -229,11 +264,13 @@ TEST(Configuration, ASectionGivenTwiceIsRefusedWithBothLines) {
 
 TEST(Configuration, WhatReadersOfYamlTakeForDifferentNumbersIsRefused) {
   EXPECT_TRUE(mentions(refusal("lower: {hardness: 010}"), "lower/hardness: '010' is not allowed"));
-  EXPECT_EQ(configurationFromYaml(YAML::Load("load: {max_voltage: 0.5}")).model.load.max_voltage, 0.5);
+  EXPECT_EQ(configurationFromYaml(YAML::Load("load: {max_voltage: 0.5}")).model.load.max_voltage,
+            0.5);
 }
 
 TEST(Configuration, ADecimalCommaIsNamed) {
-  EXPECT_TRUE(mentions(refusal("load:\n  max_voltage: 0,05\n"), "write 0.05: the decimal sign is a point"));
+  EXPECT_TRUE(
+      mentions(refusal("load:\n  max_voltage: 0,05\n"), "write 0.05: the decimal sign is a point"));
   EXPECT_TRUE(mentions(refusal("load: {max_voltage: 0,05}"), "is it behind a decimal comma?"));
 }
 
@@ -286,22 +323,24 @@ TEST(Configuration, FileErrorsNameTheFile) {
 
 TEST(Configuration, RelativePathsGoByTheFolderOfTheFileThatStatesThem) {
   const ScratchFolder folder;
-  const std::string path = folder.write(
-      "part.yaml",
-      "counter_surface: {type: file, file: upper.npy, facing: up}\npreprocessing/region/mask_file: /whole/mask.png\n");
+  const std::string path = folder.write("part.yaml",
+                                        "counter_surface: {type: file, file: upper.npy, facing: "
+                                        "up}\npreprocessing/region/mask_file: /whole/mask.png\n");
   Configuration defaults;
   defaults.preprocessing.region.polygon_file = "corners.txt";  // another source has stated it
   const Configuration configuration = loadConfiguration(path, defaults);
   EXPECT_EQ(configuration.counter_surface.file, folder.file("upper.npy"));
   EXPECT_EQ(configuration.preprocessing.region.mask_file, "/whole/mask.png");
   EXPECT_EQ(configuration.preprocessing.region.polygon_file, "corners.txt");
-  EXPECT_EQ(read(toYaml(configuration)).counter_surface.file, folder.file("upper.npy"));  // wherever that is put
+  EXPECT_EQ(read(toYaml(configuration)).counter_surface.file,
+            folder.file("upper.npy"));  // wherever that is put
   try {
-    const ScanPredictor predictor(
-        loadConfiguration(folder.write("flat.yaml", "counter_surface: {type: file, file: upper.npy, facing: up}\n")));
+    const ScanPredictor predictor(loadConfiguration(
+        folder.write("flat.yaml", "counter_surface: {type: file, file: upper.npy, facing: up}\n")));
     ADD_FAILURE();
   } catch (const OptionsError& error) {
-    EXPECT_TRUE(mentions(error.what(), folder.file("upper.npy") + ": there is no such file")) << error.what();
+    EXPECT_TRUE(mentions(error.what(), folder.file("upper.npy") + ": there is no such file"))
+        << error.what();
   }
 }
 
@@ -309,7 +348,9 @@ TEST(Configuration, WhatStatesNothingIsSaid) {
   const ScratchFolder folder;
   const auto warnings = [&](const std::string& text) {
     std::string lines;
-    for (const std::string& line : settingsWarnings(loadConfiguration(folder.write("part.yaml", text)))) lines += line;
+    for (const std::string& line :
+         settingsWarnings(loadConfiguration(folder.write("part.yaml", text))))
+      lines += line;
     return lines;
   };
   const std::string path = folder.file("part.yaml");
@@ -382,13 +423,15 @@ TEST(ScanPredictor, NeedsTheCounterSurfaceThatIsConfigured) {
   const HeightMap scan(cv::Mat::eye(8, 8, CV_64FC1) * 1e-9, 1e-8, 1e-8);
   EXPECT_THROW(predictor.predict(scan), SurfaceError);
   EXPECT_NO_THROW(predictor.predict(scan, HeightMap(cv::Mat::zeros(8, 8, CV_64FC1), 1e-8, 1e-8)));
-  EXPECT_THROW(predictor.predict(scan, HeightMap(cv::Mat::zeros(8, 9, CV_64FC1), 1e-8, 1e-8)), SurfaceError);
+  EXPECT_THROW(predictor.predict(scan, HeightMap(cv::Mat::zeros(8, 9, CV_64FC1), 1e-8, 1e-8)),
+               SurfaceError);
 }
 
 TEST(ScanPredictor, LevelsWhenAsked) {
   cv::Mat heights(16, 16, CV_64FC1);
   for (int row = 0; row < 16; ++row) {
-    for (int col = 0; col < 16; ++col) heights.at<double>(row, col) = 1e-9 * ((3 * row + 5 * col) % 7) + 2e-9 * col;
+    for (int col = 0; col < 16; ++col)
+      heights.at<double>(row, col) = 1e-9 * ((3 * row + 5 * col) % 7) + 2e-9 * col;
   }
   const HeightMap scan(heights, 1e-8, 1e-8);
   Configuration configuration;

@@ -25,7 +25,8 @@ void describe(OptionVisitor& visitor) {
 }
 
 TEST(Documents, ParametersAreThoseOfTheCode) {
-  documents::expectUpToDate(kDocuments + "/parameters.md", "core", documents::parameterTables(describe));
+  documents::expectUpToDate(kDocuments + "/parameters.md", "core",
+                            documents::parameterTables(describe));
 }
 
 /// First and second column of the rows of the page's table of defaults, by key.
@@ -43,13 +44,15 @@ std::map<std::string, std::string> defaultsOfSensitivityPage() {
   return defaults;
 }
 
-/// Every numerical choice has its line on the page of sensitivities, and the line states what the code does.
+/// Every numerical choice has its line on the page of sensitivities, and the line states what the
+/// code does.
 TEST(Documents, SensitivitiesStateTheDefaultsOfTheCode) {
   const std::map<std::string, std::string> stated = defaultsOfSensitivityPage();
   for (const char* key :
-       {"paper/step", "approach/max_steps", "approach/max_contact_fraction", "approach/connectivity",
-        "approach/formulation", "approach/deformation", "paper/cutoff_distance", "interface/equilibrium_distance",
-        "preprocessing/refine/factor", "preprocessing/refine/interpolation", "uncertainty/samples"}) {
+       {"paper/step", "approach/max_steps", "approach/max_contact_fraction",
+        "approach/connectivity", "approach/formulation", "approach/deformation",
+        "paper/cutoff_distance", "interface/equilibrium_distance", "preprocessing/refine/factor",
+        "preprocessing/refine/interpolation", "uncertainty/samples"}) {
     ASSERT_EQ(stated.count(key), 1u) << key << " is missing";
   }
   for (const auto& [key, text] : stated) {
@@ -66,7 +69,8 @@ TEST(Documents, SensitivitiesStateTheDefaultsOfTheCode) {
   // The automatic step is no default of a field but what 0 is taken for.
   std::ostringstream automatic;
   automatic << "sigma/" << std::lround(1.0 / approachStep(PaperOptions(), 1.0)) << ")";
-  EXPECT_NE(stated.at("paper/step").find(automatic.str()), std::string::npos) << stated.at("paper/step");
+  EXPECT_NE(stated.at("paper/step").find(automatic.str()), std::string::npos)
+      << stated.at("paper/step");
 }
 
 }  // namespace

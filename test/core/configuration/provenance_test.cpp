@@ -95,8 +95,9 @@ TEST(Provenance, OfItTheStatedFieldsAlone) {
   scan.site_x = 0.0;
   scan.site_y = -1e-3;
   std::string names;
-  visitStatedProvenance(provenanceOf(scan, {}),
-                        [&](const Figure& figure, const auto&) { names += std::string(figure.name) + " "; });
+  visitStatedProvenance(provenanceOf(scan, {}), [&](const Figure& figure, const auto&) {
+    names += std::string(figure.name) + " ";
+  });
   EXPECT_EQ(names, "version settings_hash part_id site_x site_y ");
 }
 

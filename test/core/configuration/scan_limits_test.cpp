@@ -34,7 +34,8 @@ TEST(ScanLimits, AScanOfMorePixelsIsRefused) {
   Configuration configuration;
   configuration.limits.max_pixels = 32 * 32;
   ScanPredictor predictor(configuration);
-  EXPECT_EQ(refusal(predictor, noise(33)), "a scan of 33 x 33 pixels is larger than limits/max_pixels = 1024");
+  EXPECT_EQ(refusal(predictor, noise(33)),
+            "a scan of 33 x 33 pixels is larger than limits/max_pixels = 1024");
   EXPECT_EQ(refusal(predictor, noise(32)), "");
 }
 
@@ -57,7 +58,8 @@ TEST(ScanLimits, AScanThatTakesLongerIsGivenUpAndTheNextOneIsPredicted) {
   configuration.limits.max_time = 0.1;
   ScanPredictor predictor(configuration);
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_NE(refusal(predictor, noise(256)).find("given up after 0.1 s (limits/max_time)"), std::string::npos);
+  EXPECT_NE(refusal(predictor, noise(256)).find("given up after 0.1 s (limits/max_time)"),
+            std::string::npos);
   // a step takes milliseconds at most; a hundred times the limit leaves room for a busy machine
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 

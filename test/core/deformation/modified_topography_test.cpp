@@ -32,9 +32,12 @@ TEST(DeformationShare, isHalfForEqualHardness) {
 
 TEST(DeformationShare, growsWithTheHardnessOfTheOther) {
   // lower by 5 %: s = 1/2 + (1/2) ln(H2/H1)/|ln a|
-  EXPECT_NEAR(shareOf(10e9, 10.5e9).lower(kPlastic), 0.5 + 0.5 * std::log(1.05) / std::log(1 / 0.9), 1e-12);
-  EXPECT_NEAR(shareOf(10.5e9, 10e9).lower(kPlastic), 0.5 - 0.5 * std::log(1.05) / std::log(1 / 0.9), 1e-12);
-  EXPECT_NEAR(shareOf(9.0e9, 10e9).lower(kPlastic), 1.0, 1e-9);  // at the limit, where (13) takes over
+  EXPECT_NEAR(shareOf(10e9, 10.5e9).lower(kPlastic), 0.5 + 0.5 * std::log(1.05) / std::log(1 / 0.9),
+              1e-12);
+  EXPECT_NEAR(shareOf(10.5e9, 10e9).lower(kPlastic), 0.5 - 0.5 * std::log(1.05) / std::log(1 / 0.9),
+              1e-12);
+  EXPECT_NEAR(shareOf(9.0e9, 10e9).lower(kPlastic), 1.0,
+              1e-9);  // at the limit, where (13) takes over
   EXPECT_NEAR(shareOf(10e9, 9.0e9).lower(kPlastic), 0.0, 1e-9);
 }
 
@@ -58,9 +61,11 @@ TEST(DeformationShare, dependsOnTheRegime) {
 
 /// Two rough surfaces that press on each other.
 struct Contact {
-  HeightMap lower = samples::withHoles(samples::gaussian(64, 71, 10 * kNm, 12 * kNm, 4 * kNm, 50 * kNm, 1), 0.03, 3);
-  HeightMap upper = analytic::sum(samples::gaussian(64, 71, 10 * kNm, 12 * kNm, 3 * kNm, 60 * kNm, 2),
-                                  analytic::flat(64, 71, 10 * kNm, 12 * kNm, 1e-6));
+  HeightMap lower = samples::withHoles(
+      samples::gaussian(64, 71, 10 * kNm, 12 * kNm, 4 * kNm, 50 * kNm, 1), 0.03, 3);
+  HeightMap upper =
+      analytic::sum(samples::gaussian(64, 71, 10 * kNm, 12 * kNm, 3 * kNm, 60 * kNm, 2),
+                    analytic::flat(64, 71, 10 * kNm, 12 * kNm, 1e-6));
   Options options = paperOptions();
 
   Contact(double lower_hardness, double upper_hardness) {
@@ -72,7 +77,8 @@ struct Contact {
   Prediction predict() const { return AdhesionModel(options).predict({lower, upper}); }
 
   /// z of the upper surface where the approach has brought it.
-  double approachedHeight(const Prediction& prediction, const cv::Mat& upper_heights, int row, int col) const {
+  double approachedHeight(const Prediction& prediction, const cv::Mat& upper_heights, int row,
+                          int col) const {
     double closest = INFINITY;
     for (int r = 0; r < lower.rows(); ++r) {
       for (int c = 0; c < lower.cols(); ++c) {
@@ -84,7 +90,8 @@ struct Contact {
   }
 };
 
-constexpr double kOffsetRoundOff = 1e-21;  // m, of subtractions at a height of one micrometre: 2e-22 each
+constexpr double kOffsetRoundOff =
+    1e-21;  // m, of subtractions at a height of one micrometre: 2e-22 each
 
 /// Visits every cell in contact with its interference and what both surfaces lost of it.
 template <typename Visitor>
@@ -94,9 +101,12 @@ void forEachContact(const Contact& contact, const Prediction& prediction, Visito
       const auto regime = static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(row, col));
       if (regime == Regime::kApart) continue;
       const double interference =
-          contact.lower.height(row, col) - contact.approachedHeight(prediction, contact.upper.heights(), row, col);
-      const double lost = contact.lower.height(row, col) - prediction.deformed_lower.at<double>(row, col);
-      const double raised = prediction.deformed_upper.at<double>(row, col) - contact.upper.height(row, col);
+          contact.lower.height(row, col) -
+          contact.approachedHeight(prediction, contact.upper.heights(), row, col);
+      const double lost =
+          contact.lower.height(row, col) - prediction.deformed_lower.at<double>(row, col);
+      const double raised =
+          prediction.deformed_upper.at<double>(row, col) - contact.upper.height(row, col);
       visit(regime, interference, lost, raised);
     }
   }
@@ -109,10 +119,13 @@ TEST(ModifiedTopography, ofAFullyPlasticPatchEndsInTouch) {
   int plastic_cells = 0;
   for (int row = 0; row < contact.lower.rows(); ++row) {
     for (int col = 0; col < contact.lower.cols(); ++col) {
-      if (prediction.contact_map.at<std::uint8_t>(row, col) != static_cast<std::uint8_t>(Regime::kPlastic)) continue;
+      if (prediction.contact_map.at<std::uint8_t>(row, col) !=
+          static_cast<std::uint8_t>(Regime::kPlastic))
+        continue;
       ++plastic_cells;
       ASSERT_NEAR(prediction.deformed_lower.at<double>(row, col),
-                  contact.approachedHeight(prediction, prediction.deformed_upper, row, col), kOffsetRoundOff);
+                  contact.approachedHeight(prediction, prediction.deformed_upper, row, col),
+                  kOffsetRoundOff);
     }
   }
   EXPECT_GT(plastic_cells, 10);
@@ -124,13 +137,14 @@ TEST(ModifiedTopography, takesVolumeByTheShareOfHardness) {
   double volume = 0.0;
   double lower_volume = 0.0;
   double upper_volume = 0.0;
-  forEachContact(contact, prediction, [&](Regime regime, double interference, double lost, double raised) {
-    EXPECT_GE(interference, -kOffsetRoundOff);
-    if (regime != Regime::kPlastic) return;
-    volume += interference;
-    lower_volume += lost;
-    upper_volume += raised;
-  });
+  forEachContact(contact, prediction,
+                 [&](Regime regime, double interference, double lost, double raised) {
+                   EXPECT_GE(interference, -kOffsetRoundOff);
+                   if (regime != Regime::kPlastic) return;
+                   volume += interference;
+                   lower_volume += lost;
+                   upper_volume += raised;
+                 });
   const double s = 0.5 + 0.5 * std::log(1.05) / std::log(1 / 0.9);
   ASSERT_GT(volume, 0.0);
   EXPECT_NEAR(lower_volume / volume, s, 1e-6);

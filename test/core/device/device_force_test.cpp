@@ -11,8 +11,8 @@
 #include "device/device_area.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "preprocess/level.hpp"
 #include "prediction/area_adhesion.hpp"
+#include "preprocess/level.hpp"
 #include "roughness/half_spectrum.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/holed_surfaces.hpp"
@@ -57,15 +57,17 @@ cv::Mat domes() {
     for (int col = 0; col < kSide; ++col) {
       const double x = (col % kTile + 0.5 - 0.5 * kTile) * kPitch;
       const double y = (row % kTile + 0.5 - 0.5 * kTile) * kPitch;
-      heights.at<double>(row, col) = tops.at<double>(row / kTile, col / kTile) - (x * x + y * y) / (2.0 * kRadius);
+      heights.at<double>(row, col) =
+          tops.at<double>(row / kTile, col / kTile) - (x * x + y * y) / (2.0 * kRadius);
     }
   }
   return heights;
 }
 
 bool isTold(const DeviceForce& force, const std::string& words) {
-  return std::any_of(force.warnings.begin(), force.warnings.end(),
-                     [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+  return std::any_of(force.warnings.begin(), force.warnings.end(), [&](const std::string& warning) {
+    return warning.find(words) != std::string::npos;
+  });
 }
 
 double areaOfPixels(double side) { return side * side * kPitch * kPitch; }
@@ -89,7 +91,8 @@ class DeviceForceTest : public testing::Test {
 };
 
 TEST_F(DeviceForceTest, TheForceOfALargeSurfaceFromPartsOfIt) {
-  const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+  const double truth =
+      AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
   const DeviceForce found = force(areaOfPixels(kSide));
   EXPECT_GT(found.pull_off_force, truth / 2.0);
   EXPECT_LT(found.pull_off_force, truth * 2.0);
@@ -121,7 +124,8 @@ TEST_F(DeviceForceTest, LongWavesThatAreMissingAreNamedAndWidenTheInterval) {
   surfaces_.scans = {part("first", heights, 0, 0, 256), part("second", heights, 450, 380, 256)};
   const DeviceForce without = force(areaOfPixels(kSide));
   ASSERT_EQ(without.warnings.size(), 1U);
-  EXPECT_NE(without.warnings[0].find("measure a field of at least 7.7 um"), std::string::npos) << without.warnings[0];
+  EXPECT_NE(without.warnings[0].find("measure a field of at least 7.7 um"), std::string::npos)
+      << without.warnings[0];
   // the spectrum goes on to waves as long as the device, and says that nobody has measured those
   EXPECT_FALSE(without.spectrum.front().is_measured);
   EXPECT_NEAR(without.spectrum.front().wavelength, kSide * kPitch, 1e-3 * kSide * kPitch);
@@ -164,7 +168,8 @@ TEST_F(DeviceForceTest, MissingPixelsOfFineScansHardlyMoveTheForce) {
       surfaces_.scans[i].surface = are_scattered ? withScatteredHoles(scans[i].surface, 0.05, seed)
                                                  : withRoundHoles(scans[i].surface, 0.05, seed);
     }
-    EXPECT_NEAR(std::log(force(areaOfPixels(400)).pull_off_force / whole), 0.0, 0.15) << are_scattered;
+    EXPECT_NEAR(std::log(force(areaOfPixels(400)).pull_off_force / whole), 0.0, 0.15)
+        << are_scattered;
   }
 }
 
@@ -177,7 +182,8 @@ TEST_F(DeviceForceTest, AScanWithoutItsSurroundingsIsUsed) {
   heights.setTo(std::numeric_limits<double>::quiet_NaN(), ~inside);
   surfaces_.scans[0].surface = HeightMap(heights, kPitch, kPitch);
   const DeviceForce found = force(areaOfPixels(400));
-  EXPECT_NEAR(std::log(found.pull_off_force / whole), 0.0, 0.4);  // of one scan less than half is left
+  EXPECT_NEAR(std::log(found.pull_off_force / whole), 0.0,
+              0.4);  // of one scan less than half is left
   EXPECT_TRUE(isTold(found, "first: ")) << found.warnings.front();
 }
 
@@ -200,7 +206,8 @@ TEST_F(DeviceForceTest, AScanOfWhichNothingWasMeasuredIsNamed) {
     force(areaOfPixels(kSide));
     FAIL() << "was taken";
   } catch (const SurfaceError& error) {
-    EXPECT_NE(std::string(error.what()).find("dark.opd: its measured pixels lie within 0 x 0"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("dark.opd: its measured pixels lie within 0 x 0"),
+              std::string::npos)
         << error.what();
     EXPECT_NE(std::string(error.what()).find("Leave it out"), std::string::npos) << error.what();
   }
@@ -236,13 +243,16 @@ TEST_F(DeviceForceTest, APlaceThatBondsByItselfIsNamedAndInTheInterval) {
   heights(cv::Rect(64, 128, 64, 64)) *= 0.02;
   surfaces_.scans[1].surface = HeightMap(heights, kPitch, kPitch);
   const DeviceForce uneven = force(areaOfPixels(400));
-  EXPECT_TRUE(isTold(uneven,
-                     "second: its places differ by more than chance. The 0.64 x 0.64 um about x = 0.96 um, "
-                     "y = 1.6 um hold most"));
+  EXPECT_TRUE(
+      isTold(uneven,
+             "second: its places differ by more than chance. The 0.64 x 0.64 um about x = 0.96 um, "
+             "y = 1.6 um hold most"));
   EXPECT_TRUE(isTold(uneven, "By itself it bonds all over"));
-  EXPECT_GT(uneven.pull_off_force_upper / uneven.pull_off_force, 2.0 * even.pull_off_force_upper / even.pull_off_force);
+  EXPECT_GT(uneven.pull_off_force_upper / uneven.pull_off_force,
+            2.0 * even.pull_off_force_upper / even.pull_off_force);
   // less than the law of all scans says no place holds
-  EXPECT_GT(uneven.pull_off_force_lower / uneven.pull_off_force, 0.3 * even.pull_off_force_lower / even.pull_off_force);
+  EXPECT_GT(uneven.pull_off_force_lower / uneven.pull_off_force,
+            0.3 * even.pull_off_force_lower / even.pull_off_force);
   EXPECT_FALSE(isTold(even, "its places differ"));
 }
 
@@ -252,12 +262,14 @@ TEST_F(DeviceForceTest, TheIntervalContainsWhatThePlaceThatHoldsMostHoldsAlone) 
   const cv::Rect place(64, 128, 64, 64);
   heights(place) *= 0.15;
   surfaces_.scans[1].surface = HeightMap(heights, kPitch, kPitch);
-  const Prediction alone = AdhesionModel(model_).predict(levelled(HeightMap(heights(place).clone(), kPitch, kPitch)));
+  const Prediction alone =
+      AdhesionModel(model_).predict(levelled(HeightMap(heights(place).clone(), kPitch, kPitch)));
   ASSERT_FALSE(alone.is_conforming);
   const DeviceForce one = force(areaOfPixels(400));
   EXPECT_GT(alone.pull_off_force, 3.0 * one.pull_off_force);
   EXPECT_GE(one.pull_off_force_upper, alone.pull_off_force);
-  EXPECT_GE(one.apparent_work_of_adhesion_upper, alone.apparent_work_of_adhesion * areaOfPixels(64) / one.area);
+  EXPECT_GE(one.apparent_work_of_adhesion_upper,
+            alone.apparent_work_of_adhesion * areaOfPixels(64) / one.area);
   EXPECT_TRUE(isTold(one, "If the device rests on such a place alone, it holds up to "));
   const DeviceForce four = force(4.0 * areaOfPixels(400), 4);
   EXPECT_GE(four.pull_off_force_upper, 4.0 * alone.pull_off_force);
@@ -268,23 +280,27 @@ TEST_F(DeviceForceTest, APlaceOfTheCounterSurfaceIsNamed) {
   heights(cv::Rect(64, 128, 64, 64)) *= 0.02;
   surfaces_.counter_surface = {{"above", HeightMap(heights, kPitch, kPitch)}};
   const DeviceForce found = force(areaOfPixels(400));
-  EXPECT_TRUE(isTold(found, "above: its places differ by more than chance. The 0.64 x 0.64 um about x = "));
+  EXPECT_TRUE(
+      isTold(found, "above: its places differ by more than chance. The 0.64 x 0.64 um about x = "));
   EXPECT_FALSE(isTold(found, "first: its places"));
   EXPECT_FALSE(isTold(found, "By itself it bonds all over")) << "under the rough scans";
 }
 
 TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {
   surfaces_.scans.push_back(
-      {"other", HeightMap(3.0 * part("", large_, 300, 300, 256).surface.heights(), kPitch, kPitch)});
+      {"other",
+       HeightMap(3.0 * part("", large_, 300, 300, 256).surface.heights(), kPitch, kPitch)});
   EXPECT_TRUE(isTold(force(areaOfPixels(300)), "other contradicts the other scans"));
 }
 
-/// Summits of domes are as round as all of them, those of a Gaussian field of their spectrum are sharp.
+/// Summits of domes are as round as all of them, those of a Gaussian field of their spectrum are
+/// sharp.
 TEST_F(DeviceForceTest, SummitsThatNoLawHasAreToldAndWidenTheInterval) {
   large_ = domes();
   surfaces_.scans = {part("first", large_, 0, 0, 256), part("second", large_, 450, 380, 256)};
   options_.realisations = 8;  // of three, chance decides whether a misfit shows
-  const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+  const double truth =
+      AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
   const DeviceForce found = force(areaOfPixels(kSide));
   EXPECT_TRUE(isTold(found, "times as strongly as scans of the surfaces that were made"));
   double made = 0.0;  // mean logarithm
@@ -297,13 +313,16 @@ TEST_F(DeviceForceTest, SummitsThatNoLawHasAreToldAndWidenTheInterval) {
   EXPECT_GT(found.pull_off_force_upper, truth);
 }
 
-/// Contacts smaller than the scans are parts of them: no surface is made, and their force is that of such parts.
+/// Contacts smaller than the scans are parts of them: no surface is made, and their force is that
+/// of such parts.
 TEST_F(DeviceForceTest, SmallContactsArePartsOfTheScans) {
-  surfaces_.scans = {{"flat but for one summit", HeightMap(cv::Mat::zeros(128, 128, CV_64FC1), kPitch, kPitch)}};
+  surfaces_.scans = {
+      {"flat but for one summit", HeightMap(cv::Mat::zeros(128, 128, CV_64FC1), kPitch, kPitch)}};
   cv::Mat heights = cv::Mat::zeros(128, 128, CV_64FC1);
   for (int row = 0; row < 128; ++row) {
     for (int col = 0; col < 128; ++col) {
-      const double square = (std::pow((row % 32) - 15.5, 2) + std::pow((col % 32) - 15.5, 2)) * kPitch * kPitch;
+      const double square =
+          (std::pow((row % 32) - 15.5, 2) + std::pow((col % 32) - 15.5, 2)) * kPitch * kPitch;
       heights.at<double>(row, col) = -square / (2.0 * 200e-9);
     }
   }
@@ -311,7 +330,9 @@ TEST_F(DeviceForceTest, SmallContactsArePartsOfTheScans) {
   // each part of 32 pixels holds one sphere's summit or its parts; four of them share a height
   const DeviceForce found = force(4.0 * areaOfPixels(32), 4);
   const double sphere =
-      AdhesionModel(model_).predict(HeightMap(heights(cv::Rect(0, 0, 32, 32)).clone(), kPitch, kPitch)).pull_off_force;
+      AdhesionModel(model_)
+          .predict(HeightMap(heights(cv::Rect(0, 0, 32, 32)).clone(), kPitch, kPitch))
+          .pull_off_force;
   EXPECT_GT(found.pull_off_force, 1.5 * sphere);
   EXPECT_LT(found.pull_off_force, 4.5 * sphere);
 }
@@ -327,16 +348,19 @@ TEST_F(DeviceForceTest, ContactsShareOneHeight) {
 TEST_F(DeviceForceTest, LargerAreasThanAreMadeGoOnAsTheForceHasGrown) {
   options_.max_cells = 384.0 * 384.0;
   const DeviceForce found = force(areaOfPixels(kSide));
-  const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+  const double truth =
+      AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
   EXPECT_GT(found.pull_off_force, truth / 4.0);
   EXPECT_LT(found.pull_off_force, truth * 4.0);
   ASSERT_FALSE(found.warnings.empty());
-  EXPECT_NE(found.warnings.back().find("4 times the area that device_force/max_cells makes"), std::string::npos)
+  EXPECT_NE(found.warnings.back().find("4 times the area that device_force/max_cells makes"),
+            std::string::npos)
       << found.warnings.back();
 }
 
 TEST_F(DeviceForceTest, SurfacesThatConformGoWithArea) {
-  for (NamedScan& scan : surfaces_.scans) scan.surface = HeightMap(0.02 * scan.surface.heights(), kPitch, kPitch);
+  for (NamedScan& scan : surfaces_.scans)
+    scan.surface = HeightMap(0.02 * scan.surface.heights(), kPitch, kPitch);
   const DeviceForce found = force(areaOfPixels(kSide));
   EXPECT_TRUE(found.is_conforming);
   EXPECT_NEAR(found.pull_off_force / found.linear_pull_off_force, 1.0, 0.05);
@@ -351,7 +375,8 @@ TEST_F(DeviceForceTest, ALoadOnTheScanIsAPressureOnTheDevice) {
   EXPECT_LT(loaded.separation_at_rest, unloaded.separation_at_rest);
 }
 
-/// The limit is for what is stated, the load on the first scan; on a larger one the same pressure is more.
+/// The limit is for what is stated, the load on the first scan; on a larger one the same pressure
+/// is more.
 TEST_F(DeviceForceTest, ALargerScanMayBePressedByMoreThanTheLargestLoadThatMayBeStated) {
   surfaces_.scans.push_back(part("large", large_, 0, 0, kSide));
   model_.load.mechanical_load = model_.load.max_mechanical_load = 1e8 * areaOfPixels(256);
@@ -397,7 +422,9 @@ TEST_F(DeviceForceTest, thinBodiesAreAMosaicWhoseForceGoesWithArea) {
   const DeviceForce twice = force(2.0 * areaOfPixels(1200));
   const auto tellsOfMosaic = [](const DeviceForce& found) {
     return std::any_of(found.warnings.begin(), found.warnings.end(),
-                       [](const std::string& warning) { return warning.find("is a mosaic of") != std::string::npos; });
+                       [](const std::string& warning) {
+                         return warning.find("is a mosaic of") != std::string::npos;
+                       });
   };
   EXPECT_TRUE(tellsOfMosaic(once));
   EXPECT_TRUE(tellsOfMosaic(twice));
@@ -435,19 +462,22 @@ TEST_F(DeviceForceTest, aTiltedPlateIsTheFramesOwn) {
   EXPECT_EQ(found.separation_at_rest, whole.mean_gap);
 }
 
-/// Few cells of a surface are kept at first: where a load presses far more than those, all of them are.
+/// Few cells of a surface are kept at first: where a load presses far more than those, all of them
+/// are.
 TEST_F(DeviceForceTest, whatIsFoundByFewCellsIsWhatAllOfThemSay) {
   const DevicePieces pieces = piecesOf({areaOfPixels(600), 1}, kPitch, 1e6);
   const DeviceLaws laws = lawsOf(surfaces_, options_, TailForm::kExponential);
   DeviceSurface surface(laws, pieces, 5);
   AreaCells all(kPitch, kPitch);
-  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-    all.add(rowInArea(pieces, piece, row), col, tile);
-  });
+  surface.visitTiles(0, surface.rows(),
+                     [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                       all.add(rowInArea(pieces, piece, row), col, tile);
+                     });
   AreaCells few(kPitch, kPitch, {-1.0, 1.0, 1 << 16});
-  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-    few.add(rowInArea(pieces, piece, row), col, tile);
-  });
+  surface.visitTiles(0, surface.rows(),
+                     [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                       few.add(rowInArea(pieces, piece, row), col, tile);
+                     });
   int beyond_few = 0;
   for (const double pressure : {0.0, 1e6, 3e7, 1e9}) {
     SCOPED_TRACE(pressure);
@@ -476,7 +506,8 @@ TEST_F(DeviceForceTest, platesThatCannotBeTiltedStayLevelAndSaySo) {
   const DeviceForce free = force(areaOfPixels(420), 4);
   EXPECT_EQ(free.pull_off_force, guided.pull_off_force);
   EXPECT_TRUE(isTold(free, "where its contacts lie is not known"));
-  EXPECT_NE(whyLevel(piecesOf({areaOfPixels(3000), 1}, kPitch, 1e8)).find("3000 x 3000 pixels"), std::string::npos);
+  EXPECT_NE(whyLevel(piecesOf({areaOfPixels(3000), 1}, kPitch, 1e8)).find("3000 x 3000 pixels"),
+            std::string::npos);
   EXPECT_EQ(whyLevel(piecesOf({areaOfPixels(2048), 1}, kPitch, 1e8)), "");
 }
 
@@ -494,7 +525,8 @@ TEST_F(DeviceForceTest, severalModelsHaveTheForcesOfEach) {
   models[1].interface.work_of_adhesion *= 20.0;
   for (const double side : {200.0, 260.0}) {  // parts of the scans, made surfaces
     const DeviceArea area{areaOfPixels(side), 1};
-    const std::vector<DeviceForce> together = deviceForces(surfaces_, area, models, uncertainty_, options_);
+    const std::vector<DeviceForce> together =
+        deviceForces(surfaces_, area, models, uncertainty_, options_);
     ASSERT_EQ(together.size(), models.size());
     for (std::size_t i = 0; i < models.size(); ++i) {
       const DeviceForce alone = deviceForce(surfaces_, area, models[i], uncertainty_, options_);

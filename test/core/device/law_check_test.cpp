@@ -65,7 +65,8 @@ TEST(LawCheck, MadeScansHaveTheHolesOfTheScan) {
 TEST(LawCheck, ManyScansTakeTurns) {
   const LawMisfit all = misfitOf(scansOf(1e-9, 1, 10), 10e-9);
   EXPECT_GT(all.difference, 5.0 * all.deviation);
-  EXPECT_NEAR(all.difference, misfitOf(scansOf(1e-9, 1, 4), 10e-9).difference, 0.5 * all.difference);
+  EXPECT_NEAR(all.difference, misfitOf(scansOf(1e-9, 1, 4), 10e-9).difference,
+              0.5 * all.difference);
 }
 
 TEST(LawMisfit, TwoStandardErrorsAreChance) {

@@ -28,7 +28,9 @@ cv::Mat evenHeights(int seed) {
   return field * (5e-9 / deviation[0]);
 }
 
-NamedScan evenScan(const std::string& name, int seed) { return {name, HeightMap(evenHeights(seed), kPitch, kPitch)}; }
+NamedScan evenScan(const std::string& name, int seed) {
+  return {name, HeightMap(evenHeights(seed), kPitch, kPitch)};
+}
 
 /// The block in the second row, third column has this share of the roughness.
 NamedScan scanWithPlace(double share) {
@@ -37,19 +39,22 @@ NamedScan scanWithPlace(double share) {
   return {"patchy", HeightMap(heights, kPitch, kPitch)};
 }
 
-PlaceCheck checkOf(const std::vector<NamedScan>& scans, const std::vector<HeightMap>& counter_surface = {}) {
+PlaceCheck checkOf(const std::vector<NamedScan>& scans,
+                   const std::vector<HeightMap>& counter_surface = {}) {
   constexpr int kRounds = 4;
   PlaceCheck check(Options(), areaOf(scans.front().surface), scans, counter_surface);
   const auto madeLike = [](std::size_t count, int seed) {
     std::vector<HeightMap> made;
-    for (std::size_t i = 0; i < count; ++i) made.push_back(evenScan("", seed + static_cast<int>(i)).surface);
+    for (std::size_t i = 0; i < count; ++i)
+      made.push_back(evenScan("", seed + static_cast<int>(i)).surface);
     return made;
   };
   for (int round = 0; round < kRounds; ++round) check.add(madeLike(scans.size(), 100 + 10 * round));
   const bool is_closing = check.find();
   EXPECT_EQ(is_closing, check.closes());
   for (int round = 0; is_closing && round < kRounds; ++round) {
-    check.compare(madeLike(scans.size(), 100 + 10 * round), madeLike(counter_surface.size(), 200 + 10 * round));
+    check.compare(madeLike(scans.size(), 100 + 10 * round),
+                  madeLike(counter_surface.size(), 200 + 10 * round));
   }
   return check;
 }
@@ -74,14 +79,17 @@ TEST(PlaceCheck, APlaceThatIsSmootherIsNamed) {
   const PlaceCheck check = checkOf({evenScan("one", 1), patchy});
   ASSERT_TRUE(check.isUneven());
   const std::string sentence = check.sentence();
-  EXPECT_NE(sentence.find("patchy: its places differ by more than chance. The 0.32 x 0.32 um about x = 0.8 um, "
-                          "y = 0.48 um hold most, with " +
-                          shortNumber(std::exp(0.5 * smooth.gradient), 2) + " times the rms gradient"),
-            std::string::npos)
+  EXPECT_NE(
+      sentence.find(
+          "patchy: its places differ by more than chance. The 0.32 x 0.32 um about x = 0.8 um, "
+          "y = 0.48 um hold most, with " +
+          shortNumber(std::exp(0.5 * smooth.gradient), 2) + " times the rms gradient"),
+      std::string::npos)
       << sentence;
 }
 
-/// What bonds by itself may hold the device; rough places that hold less are kept apart as in the scan.
+/// What bonds by itself may hold the device; rough places that hold less are kept apart as in the
+/// scan.
 TEST(PlaceCheck, OnlyAPlaceThatBondsByItselfHoldsMoreThanItsScan) {
   const PlaceCheck closing = checkOf({evenScan("one", 1), scanWithPlace(0.01)});
   ASSERT_TRUE(closing.closes());
@@ -94,13 +102,16 @@ TEST(PlaceCheck, OnlyAPlaceThatBondsByItselfHoldsMoreThanItsScan) {
 
 /// What a plane would close, roughness above keeps apart.
 TEST(PlaceCheck, ASmoothPlaceUnderARoughSurfaceDoesNotClose) {
-  const PlaceCheck check = checkOf({evenScan("one", 1), scanWithPlace(0.01)}, {evenScan("", 5).surface});
+  const PlaceCheck check =
+      checkOf({evenScan("one", 1), scanWithPlace(0.01)}, {evenScan("", 5).surface});
   ASSERT_TRUE(check.isUneven());
   EXPECT_FALSE(check.closes());
 }
 
 TEST(PlaceCheck, SmallScansHaveNoPlaces) {
-  EXPECT_TRUE(placeTextures(HeightMap(evenHeights(1)(cv::Rect(0, 0, 64, 64)).clone(), kPitch, kPitch)).empty());
+  EXPECT_TRUE(
+      placeTextures(HeightMap(evenHeights(1)(cv::Rect(0, 0, 64, 64)).clone(), kPitch, kPitch))
+          .empty());
   EXPECT_EQ(placeTextures(evenScan("", 1).surface).size(), 16U);
 }
 

@@ -87,8 +87,9 @@ TEST(SurfaceLaw, LongWavesOfTheWidestScanAreTakenAsTheyAre) {
   const cv::Mat large = 5e-9 * gaussianField(2048, 2e-6, 4) + 1e-9 * gaussianField(2048, 60e-9, 5);
   cv::Mat coarse;
   cv::resize(large, coarse, cv::Size(256, 256), 0.0, 0.0, cv::INTER_AREA);
-  std::vector<HeightMap> scans{HeightMap(large(cv::Rect(700, 700, 512, 512)).clone(), kPitch, kPitch),
-                               HeightMap(coarse, 8 * kPitch, 8 * kPitch)};
+  std::vector<HeightMap> scans{
+      HeightMap(large(cv::Rect(700, 700, 512, 512)).clone(), kPitch, kPitch),
+      HeightMap(coarse, 8 * kPitch, 8 * kPitch)};
   const SurfaceLaw law = surfaceLawOf(scans);
   ASSERT_TRUE(law.own);
   cv::Mat again = made(law, 2048, 1);
@@ -100,7 +101,9 @@ TEST(SurfaceLaw, LongWavesOfTheWidestScanAreTakenAsTheyAre) {
   cv::meanStdDev(difference, mean, left);
   EXPECT_LT(left[0], 1.5e-9);  // of 5 nm: what is drawn are waves shorter than 1.3 um
   // beyond it there are none: a larger device takes random ones
-  EXPECT_GT(cv::norm(made(law, 2300, 1)(cv::Rect(0, 0, 512, 512)), made(law, 2048, 1)(cv::Rect(0, 0, 512, 512))) / 512,
+  EXPECT_GT(cv::norm(made(law, 2300, 1)(cv::Rect(0, 0, 512, 512)),
+                     made(law, 2048, 1)(cv::Rect(0, 0, 512, 512))) /
+                512,
             1e-9);
 }
 

@@ -19,19 +19,21 @@ TEST(OneLine, NoControlCharacterIsLeft) {
 }
 
 TEST(OneLine, BytesThatAreNoUtf8AreSpelledOut) {
-  EXPECT_EQ(oneLine("H\xf6he"), "H\\xf6he");                                // Latin-1
-  EXPECT_EQ(oneLine("\xe2\x82"), "\\xe2\\x82");                             // cut off
-  EXPECT_EQ(oneLine("\xe2\x82\xc3\xb6"), "\\xe2\\x82\xc3\xb6");             // cut off, then a letter
-  EXPECT_EQ(oneLine("\xc0\xaf"), "\\xc0\\xaf");                             // two bytes for one
-  EXPECT_EQ(oneLine("\xe0\x80\xaf"), "\\xe0\\x80\\xaf");                    // three
-  EXPECT_EQ(oneLine("\xf0\x80\x80\xaf"), "\\xf0\\x80\\x80\\xaf");           // four
-  EXPECT_EQ(oneLine("\xed\xa0\x80"), "\\xed\\xa0\\x80");                    // half a pair of UTF-16
-  EXPECT_EQ(oneLine("\xf4\x90\x80\x80\xff"), "\\xf4\\x90\\x80\\x80\\xff");  // beyond the last letter
+  EXPECT_EQ(oneLine("H\xf6he"), "H\\xf6he");                       // Latin-1
+  EXPECT_EQ(oneLine("\xe2\x82"), "\\xe2\\x82");                    // cut off
+  EXPECT_EQ(oneLine("\xe2\x82\xc3\xb6"), "\\xe2\\x82\xc3\xb6");    // cut off, then a letter
+  EXPECT_EQ(oneLine("\xc0\xaf"), "\\xc0\\xaf");                    // two bytes for one
+  EXPECT_EQ(oneLine("\xe0\x80\xaf"), "\\xe0\\x80\\xaf");           // three
+  EXPECT_EQ(oneLine("\xf0\x80\x80\xaf"), "\\xf0\\x80\\x80\\xaf");  // four
+  EXPECT_EQ(oneLine("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // half a pair of UTF-16
+  EXPECT_EQ(oneLine("\xf4\x90\x80\x80\xff"),
+            "\\xf4\\x90\\x80\\x80\\xff");  // beyond the last letter
 }
 
 TEST(OneLine, LettersOfOtherLanguagesStay) {
-  for (const char* text : {"5 \xc2\xb5m", "\xef\xbf\xbf", "\xf4\x8f\xbf\xbf", "H\xc3\xb6he", "\xc3\x9c", "\xe2\x82\xac",
-                           "\xe9\xab\x98\xe3\x81\x95", "\xf0\x9f\x94\xac"}) {
+  for (const char* text :
+       {"5 \xc2\xb5m", "\xef\xbf\xbf", "\xf4\x8f\xbf\xbf", "H\xc3\xb6he", "\xc3\x9c",
+        "\xe2\x82\xac", "\xe9\xab\x98\xe3\x81\x95", "\xf0\x9f\x94\xac"}) {
     EXPECT_EQ(oneLine(text), text);
   }
 }

@@ -19,7 +19,8 @@ TEST(ShortNumber, AWideIntervalLeavesTwoDigits) {
   EXPECT_EQ(knownDigits(2.1, 1.5, 2.9), 2);
   EXPECT_EQ(knownDigits(2.1, 2.05, 2.15), 3);
   EXPECT_EQ(knownDigits(2.1, std::nan(""), std::nan("")), 3);
-  EXPECT_EQ(withInterval(2.123e-7, 1.512e-7, 2.949e-7, "N"), "2.1e-07 N, 95 % within 1.5e-07 to 2.9e-07 N");
+  EXPECT_EQ(withInterval(2.123e-7, 1.512e-7, 2.949e-7, "N"),
+            "2.1e-07 N, 95 % within 1.5e-07 to 2.9e-07 N");
   EXPECT_EQ(withInterval(3.2456, 3.2, 3.29), "3.25, 95 % within 3.2 to 3.29");
   EXPECT_EQ(withInterval(3.2456, std::nan(""), std::nan("")), "3.25");
   EXPECT_EQ(withInterval(HUGE_VAL, HUGE_VAL, HUGE_VAL), "inf");

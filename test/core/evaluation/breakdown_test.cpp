@@ -24,8 +24,10 @@ std::string onlyLine(const std::vector<std::string>& lines) {
 
 TEST(Breakdown, ofTheInsulatorIsTheWholeVoltageOverItsThickness) {
   const std::string line = onlyLine(breakdownWarnings(optionsOf(-20.0, 4e-9), {}, 20e-9));
-  EXPECT_NE(line.find("load/voltage 20 V over interface/insulator_thickness 4e-09 m is a field of 5 GV/m"),
-            std::string::npos)
+  EXPECT_NE(
+      line.find(
+          "load/voltage 20 V over interface/insulator_thickness 4e-09 m is a field of 5 GV/m"),
+      std::string::npos)
       << line;
   EXPECT_EQ(line.find(','), std::string::npos);
   EXPECT_TRUE(breakdownWarnings(optionsOf(99.0, 100e-9), {}, 50e-9).empty());
@@ -35,7 +37,9 @@ TEST(Breakdown, ofTheInsulatorIsTheWholeVoltageOverItsThickness) {
 TEST(Breakdown, ofANarrowGapCountsTheInsulatorByItsPermittivity) {
   // 20 V over 2 nm and 100 nm/25: 3.3 GV/m in the gap, 0.2 GV/m in the insulator
   const std::string line = onlyLine(breakdownWarnings(optionsOf(20.0, 100e-9, 25.0), {}, 2e-9));
-  EXPECT_NE(line.find("the mean gap of 2e-09 m is a field of 3.33 GV/m: metals emit"), std::string::npos) << line;
+  EXPECT_NE(line.find("the mean gap of 2e-09 m is a field of 3.33 GV/m: metals emit"),
+            std::string::npos)
+      << line;
   EXPECT_TRUE(breakdownWarnings(optionsOf(20.0, 100e-9, 25.0), {}, 3e-9).empty());
 }
 
@@ -51,7 +55,8 @@ TEST(Breakdown, ofTheElectrodesIsAskedAtRestAndClosed) {
 
 TEST(Breakdown, needsAVoltage) {
   EXPECT_TRUE(breakdownWarnings(optionsOf(0.0, 0.0), {}, 1e-9).empty());
-  EXPECT_TRUE(breakdownWarnings(optionsOf(5.0, 100e-9), {}, std::nan("")).empty()) << "of bonded surfaces";
+  EXPECT_TRUE(breakdownWarnings(optionsOf(5.0, 100e-9), {}, std::nan("")).empty())
+      << "of bonded surfaces";
 }
 
 }  // namespace

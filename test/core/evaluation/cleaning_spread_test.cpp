@@ -40,7 +40,8 @@ Configuration withDevice() {
 }
 
 const CleaningRow& rowNamed(const std::vector<CleaningRow>& rows, const std::string& cleaning) {
-  return *std::find_if(rows.begin(), rows.end(), [&](const CleaningRow& row) { return row.cleaning == cleaning; });
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const CleaningRow& row) { return row.cleaning == cleaning; });
 }
 
 TEST(CleaningSpread, EachRowIsThePredictionUnderItsCleaning) {
@@ -111,7 +112,8 @@ TEST(CleaningSpread, WithoutADeviceThereIsNoMargin) {
 TEST(CleaningSpread, ACleaningThatTheScanCannotTakeSaysWhyAndDoesNotCount) {
   Configuration configuration;
   cv::Mat heights = rough().heights().clone();
-  heights.rowRange(0, 40).setTo(std::nan(""));  // more is missing than preprocessing/fill/max_fraction
+  heights.rowRange(0, 40).setTo(
+      std::nan(""));  // more is missing than preprocessing/fill/max_fraction
   const std::vector<CleaningRow> rows = cleaningSpread({heights, kPitch, kPitch}, configuration);
   const CleaningRow& filled = rowNamed(rows, "plane, spikes filled");
   EXPECT_FALSE(filled.reason.empty());

@@ -1,4 +1,5 @@
-/// Scans of one surface by pixels of several sizes: which of them a verdict rests on, in every face.
+/// Scans of one surface by pixels of several sizes: which of them a verdict rests on, in every
+/// face.
 
 #include <cstdlib>
 #include <filesystem>
@@ -33,7 +34,8 @@ SurfaceSpectrum spectrumOf(double hurst, double rolloff, double shortest, double
 /// Every so many pixels of a surface, as a scan.
 HeightMap scanOfSurface(const SurfaceSpectrum& spectrum, double pitch, int side, int seed) {
   cv::Mat heights(side, side, CV_32FC1);
-  TiledSurface(spectrum, side, side, pitch, pitch, static_cast<std::uint64_t>(seed)).heights(0, 0, heights);
+  TiledSurface(spectrum, side, side, pitch, pitch, static_cast<std::uint64_t>(seed))
+      .heights(0, 0, heights);
   return {heights, pitch, pitch};
 }
 
@@ -60,13 +62,16 @@ Verdict judged(const HeightMap& scan, const Configuration& configuration) {
   const Prediction prediction = predictor.predict(prepared);
   const std::vector<std::string> warnings =
       predictionWarnings(prepared, configuration, prediction, configuration.model);
-  const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, configuration.model,
-                                    prepared.surfaces.lower.cellArea(), evidenceOfScan(prepared, configuration));
+  const Verdict verdict =
+      verdictOf(prediction, configuration.device, configuration.uncertainty, configuration.model,
+                prepared.surfaces.lower.cellArea(), evidenceOfScan(prepared, configuration));
   const bool is_unresolved = (verdict.regime_flags & kUnresolvedFlag) != 0;
-  EXPECT_EQ(is_unresolved, std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+  EXPECT_EQ(is_unresolved,
+            std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
               return warning.find("does not show what holds") != std::string::npos;
             }));
-  EXPECT_EQ(is_unresolved, verdict.reason.find("what holds") != std::string::npos) << verdict.reason;
+  EXPECT_EQ(is_unresolved, verdict.reason.find("what holds") != std::string::npos)
+      << verdict.reason;
   EXPECT_TRUE(!is_unresolved || verdict.sticks == Sticks::kUnknown);
   return verdict;
 }
@@ -83,7 +88,8 @@ TEST(CoarseScan, ofLightIsUnknownWhereTheForceMicroscopeIsNot) {
 
 TEST(CoarseScan, isNoneOfASurfaceThatItsPixelsShow) {
   // nothing shorter than 2 um: pixels of 200 nm show it all
-  EXPECT_EQ(judged(scanOfSurface(spectrumOf(0.9, 10e-6, 2e-6, 3e-9), 200e-9, 256, 3), stated()).regime_flags &
+  EXPECT_EQ(judged(scanOfSurface(spectrumOf(0.9, 10e-6, 2e-6, 3e-9), 200e-9, 256, 3), stated())
+                    .regime_flags &
                 kUnresolvedFlag,
             0U);
 }
@@ -111,14 +117,16 @@ TEST(CoarseScan, servesAsAWideOneBesideFineScans) {
   const auto predicted = [&](int fine_scans) {
     DevicePredictor predictor(stated());
     for (int i = 0; i < fine_scans; ++i) {
-      predictor.add("fine " + std::to_string(i), scanOfSurface(rough, kFinePitch, 256, 10 + i), {}, {});
+      predictor.add("fine " + std::to_string(i), scanOfSurface(rough, kFinePitch, 256, 10 + i), {},
+                    {});
     }
     predictor.add("wide", wide, {}, {});
     return predictor.predict();
   };
   const DevicePrediction alone = predicted(0);
   EXPECT_EQ(alone.verdict->sticks, Sticks::kUnknown);
-  EXPECT_NE(alone.verdict->reason.find("no scan shows what holds"), std::string::npos) << alone.verdict->reason;
+  EXPECT_NE(alone.verdict->reason.find("no scan shows what holds"), std::string::npos)
+      << alone.verdict->reason;
   ASSERT_FALSE(alone.force.warnings.empty());
   EXPECT_EQ(alone.force.warnings.front(), alone.force.missing_scan);
   const DevicePrediction part = predicted(2);
@@ -129,7 +137,8 @@ TEST(CoarseScan, servesAsAWideOneBesideFineScans) {
 /// The folder of scans that instruments have measured.
 TEST(CoarseScan, OfInstrumentsAreThoseOfLightAndOfCoarsePixels) {
   const char* const folder = std::getenv("MEMS_STICTION_SCANS");
-  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  if (folder == nullptr)
+    GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
   for (const auto& [name, is_coarse] : {std::pair<const char*, bool>{"di-5.di", false},
                                         {"top-1.top", false},
                                         {"example_ps.tiff", false},

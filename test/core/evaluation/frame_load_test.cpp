@@ -32,7 +32,8 @@ TEST(FrameLoad, APressureIsScaledToTheValidCells) {
   cv::Mat heights = surface.heights().clone();
   heights.rowRange(0, 32).setTo(std::numeric_limits<double>::quiet_NaN());
   const HeightMap half(heights, 10e-9, 10e-9);
-  EXPECT_NEAR(onFrame(options, {}, {half, HeightMap()}).load.mechanical_load, 0.5 * whole, 1e-12 * whole);
+  EXPECT_NEAR(onFrame(options, {}, {half, HeightMap()}).load.mechanical_load, 0.5 * whole,
+              1e-12 * whole);
 }
 
 TEST(FrameLoad, AForceOnTheDeviceIsThePressureOnItsContactArea) {

@@ -54,7 +54,8 @@ struct Case {
   }
   HalfSpaceCall call() const { return halfSpaceCall(prediction, prepared, options, configuration); }
   SolvedHalfSpace answer(const HalfSpaceControl& control = {}) const {
-    return answerOf(call(), HalfSpaceSolver(configuration.half_space), halfSpaceProblem(prepared, options), control);
+    return answerOf(call(), HalfSpaceSolver(configuration.half_space),
+                    halfSpaceProblem(prepared, options), control);
   }
 };
 
@@ -84,7 +85,8 @@ TEST(HalfSpaceCall, ThinBodiesAskForTheirOwnStiffness) {
   ASSERT_EQ(answer.status, HalfSpaceStatus::kSolved) << answer.message;
   Configuration thick = withDevice();
   thick.half_space.enabled = HalfSpaceUse::kAlways;
-  EXPECT_GT(std::abs(answer.pull_off_force / Case(thick, kRough).answer().pull_off_force - 1.0), 0.03);
+  EXPECT_GT(std::abs(answer.pull_off_force / Case(thick, kRough).answer().pull_off_force - 1.0),
+            0.03);
 }
 
 TEST(HalfSpaceCall, PublishedFormulationsAreAskedForWhatWasPublished) {
@@ -108,7 +110,9 @@ TEST(HalfSpaceCall, TheSettingCallsForAllOrNone) {
 }
 
 TEST(HalfSpaceCall, OnlyFlagsOfTheModelsForceCount) {
-  EXPECT_EQ(flagsForHalfSpace(kResolutionFlag | kFewContactsFlag | kBorderFlag | kOnePixelFlag | kPlasticityFlag), 0U);
+  EXPECT_EQ(flagsForHalfSpace(kResolutionFlag | kFewContactsFlag | kBorderFlag | kOnePixelFlag |
+                              kPlasticityFlag),
+            0U);
   EXPECT_EQ(flagsForHalfSpace(kBondedFlag), 0U);  // bonded, and no doubt how strongly
   for (const std::uint32_t flag : {kNoEquilibriumFlag, kNearBondingFlag}) {
     EXPECT_EQ(flagsForHalfSpace(flag | kBorderFlag), flag);
@@ -117,8 +121,8 @@ TEST(HalfSpaceCall, OnlyFlagsOfTheModelsForceCount) {
 
 TEST(HalfSpaceCall, TheAnswerIsTheSolvers) {
   const Case flagged(withDevice(), kSmooth);
-  const SolvedHalfSpace expected =
-      HalfSpaceSolver(flagged.configuration.half_space).solve(halfSpaceProblem(flagged.prepared, flagged.options));
+  const SolvedHalfSpace expected = HalfSpaceSolver(flagged.configuration.half_space)
+                                       .solve(halfSpaceProblem(flagged.prepared, flagged.options));
   ASSERT_EQ(expected.status, HalfSpaceStatus::kSolved) << expected.message;
   const SolvedHalfSpace answer = flagged.answer();
   EXPECT_EQ(answer.pull_off_force, expected.pull_off_force);
@@ -142,7 +146,8 @@ TEST(HalfSpaceCall, LargeFramesAreNotSolvedForTheirFlags) {
 TEST(HalfSpaceCall, RestAloneIsNotBegunForFlagsAsItCouldNotJudge) {
   Configuration settings = withDevice();
   settings.half_space.path = HalfSpacePath::kRest;
-  EXPECT_NE(Case(settings, kSmooth).call().objection.find("half_space/path is rest"), std::string::npos);
+  EXPECT_NE(Case(settings, kSmooth).call().objection.find("half_space/path is rest"),
+            std::string::npos);
   SolvedHalfSpace rest;
   rest.status = HalfSpaceStatus::kSolved;
   rest.path = HalfSpacePath::kRest;
@@ -171,7 +176,9 @@ TEST(HalfSpaceCall, ASolutionThatTakesTooMuchIsGivenUpWithAReason) {
   settings.half_space.max_flagged_pixels = 2 * 64 * 64;
   const SolvedHalfSpace answer = Case(settings, kSmooth).answer();
   EXPECT_EQ(answer.status, HalfSpaceStatus::kCancelled);
-  EXPECT_EQ(answer.message.find("its solution takes more than 6 products (half_space/max_flagged_products = 3)"), 0U)
+  EXPECT_EQ(answer.message.find(
+                "its solution takes more than 6 products (half_space/max_flagged_products = 3)"),
+            0U)
       << answer.message;
   EXPECT_EQ(whyNotJudging(answer), answer.message);
 }

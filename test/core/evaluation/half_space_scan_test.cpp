@@ -1,4 +1,5 @@
-/// What the half-space is asked about a prepared scan, and its contact map on the scan's own pixels.
+/// What the half-space is asked about a prepared scan, and its contact map on the scan's own
+/// pixels.
 
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 
@@ -29,7 +30,9 @@ Configuration configuration() {
   return configuration;
 }
 
-int cellsOf(const cv::Mat& map, Regime regime) { return cv::countNonZero(map == static_cast<int>(regime)); }
+int cellsOf(const cv::Mat& map, Regime regime) {
+  return cv::countNonZero(map == static_cast<int>(regime));
+}
 
 TEST(HalfSpaceScan, TheMapShowsTheContactArea) {
   const Configuration settings = configuration();
@@ -37,11 +40,13 @@ TEST(HalfSpaceScan, TheMapShowsTheContactArea) {
   const HalfSpaceProblem problem = halfSpaceProblem(prepared, settings.model);
   const SolvedHalfSpace solved = HalfSpaceSolver(settings.half_space).solve(problem);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
-  const cv::Mat map = halfSpaceContactMap(solved, problem, settings.half_space, prepared.refinement);
+  const cv::Mat map =
+      halfSpaceContactMap(solved, problem, settings.half_space, prepared.refinement);
   EXPECT_EQ(map.size(), cv::Size(kSide, kSide));
   const int cells = cv::countNonZero(map);
   EXPECT_GT(cells, 0);
-  EXPECT_NEAR(cells * kPitch * kPitch, solved.contact_area, 1e-9 * solved.contact_area);  // round-off
+  EXPECT_NEAR(cells * kPitch * kPitch, solved.contact_area,
+              1e-9 * solved.contact_area);  // round-off
 }
 
 TEST(HalfSpaceScan, CellsAtTheHardnessArePlastic) {
@@ -56,7 +61,8 @@ TEST(HalfSpaceScan, CellsAtTheHardnessArePlastic) {
   EXPECT_EQ(cellsOf(map, Regime::kElastoPlastic), 0);
   settings.half_space.flow = false;
   const SolvedHalfSpace elastic = HalfSpaceSolver(settings.half_space).solve(problem);
-  EXPECT_EQ(cellsOf(halfSpaceContactMap(elastic, problem, settings.half_space, 1), Regime::kPlastic), 0);
+  EXPECT_EQ(
+      cellsOf(halfSpaceContactMap(elastic, problem, settings.half_space, 1), Regime::kPlastic), 0);
 }
 
 TEST(HalfSpaceScan, OfARefinedScanTheMapHasTheScansPixels) {
@@ -66,13 +72,15 @@ TEST(HalfSpaceScan, OfARefinedScanTheMapHasTheScansPixels) {
   const HalfSpaceProblem problem = halfSpaceProblem(prepared, settings.model);
   const SolvedHalfSpace solved = HalfSpaceSolver(settings.half_space).solve(problem);
   ASSERT_EQ(solved.pressure.rows, 2 * kSide);
-  const cv::Mat map = halfSpaceContactMap(solved, problem, settings.half_space, prepared.refinement);
+  const cv::Mat map =
+      halfSpaceContactMap(solved, problem, settings.half_space, prepared.refinement);
   ASSERT_EQ(map.size(), cv::Size(kSide, kSide));
   int touching = 0;
   for (int row = 0; row < kSide; ++row) {
     for (int col = 0; col < kSide; ++col) {
       const cv::Mat pixel = solved.pressure(cv::Rect(2 * col, 2 * row, 2, 2));
-      EXPECT_EQ(map.at<std::uint8_t>(row, col) != 0, cv::countNonZero(pixel > 0.0) > 0) << row << " " << col;
+      EXPECT_EQ(map.at<std::uint8_t>(row, col) != 0, cv::countNonZero(pixel > 0.0) > 0)
+          << row << " " << col;
       touching += map.at<std::uint8_t>(row, col) != 0 ? 1 : 0;
     }
   }
@@ -80,7 +88,8 @@ TEST(HalfSpaceScan, OfARefinedScanTheMapHasTheScansPixels) {
 }
 
 TEST(HalfSpaceScan, WithoutAStateAtRestThereIsNoMap) {
-  EXPECT_TRUE(halfSpaceContactMap(SolvedHalfSpace(), HalfSpaceProblem(), HalfSpaceOptions(), 1).empty());
+  EXPECT_TRUE(
+      halfSpaceContactMap(SolvedHalfSpace(), HalfSpaceProblem(), HalfSpaceOptions(), 1).empty());
 }
 
 }  // namespace

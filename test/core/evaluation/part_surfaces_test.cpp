@@ -32,7 +32,8 @@ ScanStatement named(const std::string& name) {
 std::vector<double> heightsOf(const PartSurfaces& parts, const PartName& part) {
   std::vector<double> heights;
   const ScannedPart found = parts.of(part).value();  // lives as long as the loop
-  for (const ScannedSurface& scan : found.scans) heights.push_back(scan.scan.surfaces.lower.height(0, 0));
+  for (const ScannedSurface& scan : found.scans)
+    heights.push_back(scan.scan.surfaces.lower.height(0, 0));
   return heights;
 }
 
@@ -46,7 +47,8 @@ TEST(PartSurfaces, HoldsWhatStatesTheSamePart) {
   EXPECT_EQ(heightsOf(parts, kPart), (std::vector<double>{1.0, 3.0, 4.0}));
   EXPECT_EQ(heightsOf(parts, kOther), std::vector<double>{2.0});
   std::vector<std::string> names;
-  for (const ScanStatement& statement : parts.of(kPart)->statements()) names.push_back(statement.scan_name);
+  for (const ScanStatement& statement : parts.of(kPart)->statements())
+    names.push_back(statement.scan_name);
   EXPECT_EQ(names, (std::vector<std::string>{"a", "a 2", "scan 3"}));
   EXPECT_EQ(parts.scans(), 4U);
   EXPECT_EQ(parts.bytes(), 4 * kBytes);

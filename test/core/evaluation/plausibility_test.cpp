@@ -24,12 +24,13 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   Configuration configuration;
   configuration.model.interface.work_of_adhesion = 50.0;
   EXPECT_EQ(onlyWarning(configuration),
-            "interface/work_of_adhesion 50 J/m^2 is implausible (1e-07 to 20 J/m^2 are taken): probably 50 mJ/m^2; "
+            "interface/work_of_adhesion 50 J/m^2 is implausible (1e-07 to 20 J/m^2 are taken): "
+            "probably 50 mJ/m^2; "
             "write 0.05");
   configuration.model.interface.work_of_adhesion = 15.0;
-  EXPECT_EQ(
-      onlyWarning(configuration),
-      "interface/work_of_adhesion 15 J/m^2 is outside the usual 1e-06 to 10 J/m^2: probably 15 mJ/m^2; write 0.015");
+  EXPECT_EQ(onlyWarning(configuration),
+            "interface/work_of_adhesion 15 J/m^2 is outside the usual 1e-06 to 10 J/m^2: probably "
+            "15 mJ/m^2; write 0.015");
   configuration = Configuration();
   configuration.model.lower.youngs_modulus = 169.0;
   EXPECT_NE(onlyWarning(configuration).find("probably 169 GPa; write 1.69e+11"), std::string::npos);
@@ -42,7 +43,8 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   configuration = Configuration();
   configuration.model.formulation = "paper";
   configuration.model.solver.of<PaperOptions>().step = 0.1;
-  EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is outside the usual"), std::string::npos);
+  EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is outside the usual"),
+            std::string::npos);
   configuration = Configuration();
   configuration.model.capillary.relative_humidity = 0.4;
   configuration.model.capillary.temperature = 25.0;
@@ -67,7 +69,8 @@ TEST(Plausibility, AreasInSquareMicrometresAreNamed) {
   }
   Configuration configuration;
   configuration.device.contact_area = 1e-15;
-  EXPECT_NE(onlyWarning(configuration).find("device/contact_area 1e-15 m^2 is outside the usual"), std::string::npos);
+  EXPECT_NE(onlyWarning(configuration).find("device/contact_area 1e-15 m^2 is outside the usual"),
+            std::string::npos);
   configuration.device.contact_area = 40e-12;
   EXPECT_TRUE(settingsWarnings(configuration).empty());
   configuration.device.electrode_area = 40e-6;
@@ -130,17 +133,21 @@ TEST(Plausibility, ALoadThatNoAreaCouldCarryIsNamed) {
   prediction.mechanical_load = 1.0;  // 1 uN given as 1
   const std::vector<std::string> lines = frameWarnings(prediction, options, {});
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("the mechanical load of 1 N is 2.778e+10 Pa on this frame"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("the mechanical load of 1 N is 2.778e+10 Pa on this frame"),
+            std::string::npos)
+      << lines[0];
   EXPECT_EQ(lines[0].find(','), std::string::npos);
 }
 
 TEST(Plausibility, DegreesAndOtherSlipsOfLengthAndStressAreNamed) {
   Configuration configuration;
   configuration.counter_surface.pose.tilt_x = -1.0;
-  EXPECT_NE(onlyWarning(configuration).find("probably -1 degrees; write -0.01745"), std::string::npos);
+  EXPECT_NE(onlyWarning(configuration).find("probably -1 degrees; write -0.01745"),
+            std::string::npos);
   configuration = Configuration();
   configuration.counter_surface.pose.rotation = 45.0;
-  EXPECT_NE(onlyWarning(configuration).find("probably 45 degrees; write 0.7854"), std::string::npos);
+  EXPECT_NE(onlyWarning(configuration).find("probably 45 degrees; write 0.7854"),
+            std::string::npos);
   configuration = Configuration();
   configuration.preprocessing.region.width = 2.0;
   EXPECT_NE(onlyWarning(configuration).find("probably 2 um; write 2e-06"), std::string::npos);
@@ -155,7 +162,8 @@ TEST(Plausibility, DegreesAndOtherSlipsOfLengthAndStressAreNamed) {
 TEST(Plausibility, WhatSettingsSayOfEachOtherIsNamed) {
   Configuration configuration;
   configuration.model.lower.hardness = 12e6;  // kPa for MPa
-  EXPECT_NE(onlyWarning(configuration).find("lower/hardness 1.2e+07 Pa beside lower/youngs_modulus 1.69e+11 Pa"),
+  EXPECT_NE(onlyWarning(configuration)
+                .find("lower/hardness 1.2e+07 Pa beside lower/youngs_modulus 1.69e+11 Pa"),
             std::string::npos);
   configuration = Configuration();
   DeviceOptions& device = configuration.device;
@@ -179,9 +187,11 @@ TEST(Plausibility, WhatAVoltageBendsOfAPartIsSaid) {
   configuration.model.load.voltage = 20.0;
   EXPECT_TRUE(settingsWarnings(configuration).empty());
   configuration.model.upper.thickness = 2e-6;
-  EXPECT_EQ(onlyWarning(configuration).find("load/voltage 20 V beside upper/thickness 2e-06 m: "), 0U);
+  EXPECT_EQ(onlyWarning(configuration).find("load/voltage 20 V beside upper/thickness 2e-06 m: "),
+            0U);
   EXPECT_EQ(onlyWarning(configuration).find(','), std::string::npos);
-  configuration.model.upper.backing = Backing::kBonded;  // a film lies on something that no field bends
+  configuration.model.upper.backing =
+      Backing::kBonded;  // a film lies on something that no field bends
   EXPECT_TRUE(settingsWarnings(configuration).empty());
   configuration.model.upper.backing = Backing::kFree;
   configuration.model.load.voltage = 0.0;
@@ -191,16 +201,19 @@ TEST(Plausibility, WhatAVoltageBendsOfAPartIsSaid) {
 TEST(Plausibility, ASettingOfWhatIsOffIsNamed) {
   Configuration configuration;
   configuration.preprocessing.spikes.threshold = 4.0;
-  EXPECT_EQ(onlyWarning(configuration),
-            "preprocessing/spikes/threshold 4 has no effect: preprocessing/spikes/enabled is false");
+  EXPECT_EQ(
+      onlyWarning(configuration),
+      "preprocessing/spikes/threshold 4 has no effect: preprocessing/spikes/enabled is false");
   configuration.preprocessing.spikes.enabled = true;
   EXPECT_TRUE(settingsWarnings(configuration).empty());
   configuration.counter_surface.gaussian.gaussian.rms_height = 9e-9;
   EXPECT_EQ(onlyWarning(configuration),
-            "counter_surface/gaussian/rms_height 9e-09 has no effect: counter_surface/type is not gaussian");
+            "counter_surface/gaussian/rms_height 9e-09 has no effect: counter_surface/type is not "
+            "gaussian");
   configuration = Configuration();
   configuration.device.beam_length = 200e-6;
-  EXPECT_EQ(onlyWarning(configuration), "device/beam_length 0.0002 has no effect: device/beam_type is none");
+  EXPECT_EQ(onlyWarning(configuration),
+            "device/beam_length 0.0002 has no effect: device/beam_type is none");
 }
 
 TEST(Plausibility, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields

@@ -41,7 +41,8 @@ Configuration cleaning(CounterSurfaceType type = CounterSurfaceType::kFlat) {
 }
 
 bool showSamePixels(const HeightMap& a, const HeightMap& b) {
-  return !a.empty() && a.heights().data == b.heights().data && a.heights().size() == b.heights().size();
+  return !a.empty() && a.heights().data == b.heights().data &&
+         a.heights().size() == b.heights().size();
 }
 
 bool areEqual(const HeightMap& a, const HeightMap& b) {
@@ -69,9 +70,10 @@ TEST(ScanPreparer, HoldsNoScanForLongerThanItTakes) {
   preparer.prepare({message->heights(), message->pitchX(), message->pitchY(), message});
   EXPECT_EQ(message.use_count(), 1);
   const auto counter_message = std::make_shared<HeightMap>(rough(3));
-  preparer.setMeasuredCounterSurface(
-      {counter_message->heights(), counter_message->pitchX(), counter_message->pitchY(), counter_message});
-  EXPECT_EQ(preparer.prepare(rough(1)).surfaces.upper.heights().data, counter_message->heights().data);
+  preparer.setMeasuredCounterSurface({counter_message->heights(), counter_message->pitchX(),
+                                      counter_message->pitchY(), counter_message});
+  EXPECT_EQ(preparer.prepare(rough(1)).surfaces.upper.heights().data,
+            counter_message->heights().data);
   preparer.setMeasuredCounterSurface(rough(2));
   EXPECT_EQ(counter_message.use_count(), 1);
 }
@@ -86,8 +88,10 @@ TEST(PreparedScan, RefinesBothSurfacesForTheModelAlone) {
   EXPECT_EQ(fine.refinement, 3);
   EXPECT_TRUE(areEqual(fine.surfaces.lower, plain.surfaces.lower));
   EXPECT_TRUE(areEqual(fine.surfaces.upper, plain.surfaces.upper));
-  EXPECT_TRUE(areEqual(fine.model_surfaces.lower, refined(plain.surfaces.lower, configuration.preprocessing.refine)));
-  EXPECT_TRUE(areEqual(fine.model_surfaces.upper, refined(plain.surfaces.upper, configuration.preprocessing.refine)));
+  EXPECT_TRUE(areEqual(fine.model_surfaces.lower,
+                       refined(plain.surfaces.lower, configuration.preprocessing.refine)));
+  EXPECT_TRUE(areEqual(fine.model_surfaces.upper,
+                       refined(plain.surfaces.upper, configuration.preprocessing.refine)));
 }
 
 TEST(PreparedScan, ServesEveryLoadAndOutput) {
@@ -129,7 +133,8 @@ TEST(PreparedScan, SaysWhereTheSpectrumFillsMissingPixels) {
   configuration.spatial_roughness.enabled = true;
   const PreparedScan prepared = ScanPreparer(configuration).prepare(holed);
   ASSERT_EQ(prepared.warnings.size(), 1U);
-  EXPECT_NE(prepared.warnings[0].find("output/spatial_roughness: 1 of "), std::string::npos) << prepared.warnings[0];
+  EXPECT_NE(prepared.warnings[0].find("output/spatial_roughness: 1 of "), std::string::npos)
+      << prepared.warnings[0];
 }
 
 TEST(ScanPreparer, CleansEachMeasuredSurfaceOnce) {
@@ -167,7 +172,8 @@ TEST(ScanPreparer, AnotherCounterSurfaceOrPoseTakesNoCleaningOfTheScan) {
   EXPECT_EQ(ScanPredictor(configuration).predict(prepared).pull_off_force,
             ScanPredictor(configuration).predict(expected).pull_off_force);
 
-  preparer.setMeasuredCounterSurface(analytic::withInvalidPixel(analytic::flat(64, 96, 5e-9, 5e-9), 0, 0));
+  preparer.setMeasuredCounterSurface(
+      analytic::withInvalidPixel(analytic::flat(64, 96, 5e-9, 5e-9), 0, 0));
   pose.offset_x = 1.0;  // far away
   preparer.setCounterSurfacePose(pose);
   const PreparedScan kept = prepared;
@@ -203,7 +209,8 @@ TEST(ScanPreparer, SaysThatTheScanMeetsItsOwnCast) {
   configuration.counter_surface.type = CounterSurfaceType::kFile;
   configuration.counter_surface.file = folder.file("same.tiff");
   configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
-  EXPECT_NE(counterWarning(ScanPreparer(configuration).prepare(rough(1))).find("as its cast does"), std::string::npos);
+  EXPECT_NE(counterWarning(ScanPreparer(configuration).prepare(rough(1))).find("as its cast does"),
+            std::string::npos);
   EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(2))), "");
   configuration.counter_surface.facing = CounterSurfaceFacing::kUp;
   EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(1))), "");
@@ -215,7 +222,8 @@ TEST(ScanPreparer, SaysThatFeaturesHavePulledThePlane) {
   heights.colRange(0, 30) += 100e-9;
   Configuration configuration;
   configuration.preprocessing.level.shape = LevelShape::kPlane;
-  PreparedScan prepared = ScanPreparer(configuration).prepare({heights, scan.pitchX(), scan.pitchY()});
+  PreparedScan prepared =
+      ScanPreparer(configuration).prepare({heights, scan.pitchX(), scan.pitchY()});
   ASSERT_EQ(prepared.warnings.size(), 1u);
   EXPECT_NE(prepared.warnings[0].find("set preprocessing/level_robust to true"), std::string::npos)
       << prepared.warnings[0];
@@ -242,7 +250,8 @@ TEST(ScanPreparer, SaysThatAScanIsTiltedUntilItIsLevelled) {
 
 TEST(ScanPreparer, SaysThatAFilterLongerThanTheScanLeavesNothing) {
   Configuration configuration;
-  configuration.preprocessing.low_pass.cutoff_wavelength = 1e-6;  // um for nm; the scan is half as wide
+  configuration.preprocessing.low_pass.cutoff_wavelength =
+      1e-6;  // um for nm; the scan is half as wide
   const std::vector<std::string> warnings = ScanPreparer(configuration).prepare(rough(1)).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("longer than the scan's width"), std::string::npos) << warnings[0];
@@ -254,7 +263,8 @@ TEST(ScanPreparer, SaysThatAFilterLongerThanTheScanLeavesNothing) {
 TEST(ScanPreparer, SaysHowMuchOfTheScanACounterSurfaceCovers) {
   const ScratchFolder folder;
   const HeightMap scan = rough(1);  // 64 x 96
-  const HeightMap quarter(rough(2).heights()(cv::Rect(0, 0, 48, 32)).clone(), scan.pitchX(), scan.pitchY());
+  const HeightMap quarter(rough(2).heights()(cv::Rect(0, 0, 48, 32)).clone(), scan.pitchX(),
+                          scan.pitchY());
   writeScan(folder.file("quarter.tiff"), quarter, "a counter-surface");
   writeScan(folder.file("whole.tiff"), rough(2), "a counter-surface");
   const std::string a_quarter = "the counter-surface covers 25 % of the scan";
@@ -279,22 +289,25 @@ TEST(ScanPreparer, SaysHowMuchOfTheScanACounterSurfaceCovers) {
   cv::Mat heights = holed.heights().clone();
   for (int row = 0; row < heights.rows; ++row) {  // no whole lines, which would be said apart
     for (int col = 0; col < heights.cols; ++col) {
-      if ((row + col) % 4 != 0) heights.at<double>(row, col) = std::numeric_limits<double>::quiet_NaN();
+      if ((row + col) % 4 != 0)
+        heights.at<double>(row, col) = std::numeric_limits<double>::quiet_NaN();
     }
   }
   of_topic.setMeasuredCounterSurface({heights, scan.pitchX(), scan.pitchY()});
   EXPECT_EQ(counterWarning(of_topic.prepare(scan)).find(a_quarter), 0U);
   of_topic.setMeasuredCounterSurface(rough(2));
   EXPECT_EQ(counterWarning(of_topic.prepare(scan)), "");
-  EXPECT_EQ(counterWarning(ScanPreparer(cleaning(CounterSurfaceType::kGaussian)).prepare(scan)), "");
+  EXPECT_EQ(counterWarning(ScanPreparer(cleaning(CounterSurfaceType::kGaussian)).prepare(scan)),
+            "");
 }
 
 TEST(ScanPreparer, RefusesWhatNoInstrumentGivesUnlessItIsMeant) {
   const HeightMap scan = rough(1);
   const HeightMap in_nanometres(scan.asDouble().heights() * 1e9, 5e-9, 5e-9);
   const HeightMap in_metres(scan.heights(), 20.0, 20.0);
-  for (const auto& [implausible, part] : {std::make_pair(in_nanometres, "more than the scan's width"),
-                                          std::make_pair(in_metres, "pitch_x 20 m is above 1 mm")}) {
+  for (const auto& [implausible, part] :
+       {std::make_pair(in_nanometres, "more than the scan's width"),
+        std::make_pair(in_metres, "pitch_x 20 m is above 1 mm")}) {
     Configuration configuration = cleaning();
     try {
       ScanPreparer(configuration).prepare(implausible);
@@ -302,10 +315,13 @@ TEST(ScanPreparer, RefusesWhatNoInstrumentGivesUnlessItIsMeant) {
     } catch (const SurfaceError& error) {
       EXPECT_EQ(std::string(error.what()).find("implausible: "), 0U) << error.what();
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("limits/accept_implausible: true"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("limits/accept_implausible: true"),
+                std::string::npos)
+          << error.what();
     }
     configuration.limits.accept_implausible = true;
-    const std::vector<std::string> warnings = ScanPreparer(configuration).prepare(implausible).warnings;
+    const std::vector<std::string> warnings =
+        ScanPreparer(configuration).prepare(implausible).warnings;
     ASSERT_FALSE(warnings.empty());
     EXPECT_NE(warnings.front().find(part), std::string::npos) << "still said";
     Configuration topic = cleaning(CounterSurfaceType::kTopic);
@@ -338,7 +354,8 @@ TEST(ScanPreparer, LooksAtCounterSurfacesAsAtScans) {
   EXPECT_NE(of_file.find("was 5e-09 m meant?"), std::string::npos) << of_file;
 
   ScanPreparer of_topic(cleaning(CounterSurfaceType::kTopic));
-  of_topic.setMeasuredCounterSurface({rough(2).asDouble().heights() * 1e-9, scan.pitchX(), scan.pitchY()});
+  of_topic.setMeasuredCounterSurface(
+      {rough(2).asDouble().heights() * 1e-9, scan.pitchX(), scan.pitchY()});
   const std::string measured = counterWarning(of_topic.prepare(scan));
   EXPECT_EQ(measured.find("the counter-surface: rms slope"), 0U) << measured;
 }

@@ -43,7 +43,8 @@ TEST(Record, HasItsWarningsInYamlAsInJson) {
   extras.warnings = {"the pitch: is \"odd\"", "# and - so: {is this"};
   const YAML::Node record = YAML::Load(yamlRecord("scan.tiff", scan(), example(), extras));
   EXPECT_EQ(record["warnings"].as<std::vector<std::string>>(), extras.warnings);
-  EXPECT_EQ(nlohmann::json::parse(jsonRecord("scan.tiff", scan(), example(), extras))["warnings"], extras.warnings);
+  EXPECT_EQ(nlohmann::json::parse(jsonRecord("scan.tiff", scan(), example(), extras))["warnings"],
+            extras.warnings);
   EXPECT_FALSE(YAML::Load(yamlRecord("scan.tiff", scan(), example()))["warnings"]);
 }
 

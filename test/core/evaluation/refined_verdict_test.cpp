@@ -1,4 +1,5 @@
-/// A verdict on a refined scan: the area that each contact of the device has, and what counts as a pixel.
+/// A verdict on a refined scan: the area that each contact of the device has, and what counts as a
+/// pixel.
 
 #include <cmath>
 #include <limits>
@@ -50,8 +51,8 @@ Answer answerWith(int refinement) {
   const HeightMap scan = roughScan();
   Answer answer;
   answer.prediction = ScanPredictor(configuration).predict(scan);
-  answer.verdict = verdictOf(answer.prediction, configuration.device, configuration.uncertainty, configuration.model,
-                             scan.cellArea());
+  answer.verdict = verdictOf(answer.prediction, configuration.device, configuration.uncertainty,
+                             configuration.model, scan.cellArea());
   return answer;
 }
 
@@ -60,15 +61,18 @@ TEST(RefinedVerdict, scalesFromTheAreaThatWasScanned) {
     const Answer answer = answerWith(refinement);
     ASSERT_EQ(answer.prediction.status, Status::kEquilibrium);
     EXPECT_NEAR(answer.prediction.nominal_area / kScannedArea, 1.0, kRoundOff) << refinement;
-    EXPECT_NEAR(answer.verdict.device_pull_off_force / (50.0 * answer.prediction.pull_off_force), 1.0, kRoundOff);
-    EXPECT_NEAR(answer.verdict.margin * 50.0 * answer.prediction.pull_off_force / 2e-6, 1.0, kRoundOff);
+    EXPECT_NEAR(answer.verdict.device_pull_off_force / (50.0 * answer.prediction.pull_off_force),
+                1.0, kRoundOff);
+    EXPECT_NEAR(answer.verdict.margin * 50.0 * answer.prediction.pull_off_force / 2e-6, 1.0,
+                kRoundOff);
     EXPECT_LT(answer.verdict.margin_lower, answer.verdict.margin);
   }
 }
 
 TEST(RefinedVerdict, judgesContactsByThePixelsThatWereMeasured) {
   const Answer fine = answerWith(3);
-  // Most of the adhesion is of contacts of less than 20 measured pixels and more than 20 interpolated ones.
+  // Most of the adhesion is of contacts of less than 20 measured pixels and more than 20
+  // interpolated ones.
   const double measured_cell = 80e-18;
   ASSERT_EQ(regimeFlags(fine.prediction, measured_cell / 9.0) & kResolutionFlag, 0U);
   EXPECT_NE(fine.verdict.regime_flags & kResolutionFlag, 0U);

@@ -83,8 +83,10 @@ TEST(ScanPredictor, SaysTheSameOfAScanThatItHasSeen) {
 }
 
 TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
-  // A sphere whose apex lies on a pixel, away from the middle: where it is found must not depend on the refinement.
-  const HeightMap scan = analytic::paraboloid(61, 81, kPitch, kPitch, 1e-6, 10 * kPitch, -7 * kPitch);
+  // A sphere whose apex lies on a pixel, away from the middle: where it is found must not depend on
+  // the refinement.
+  const HeightMap scan =
+      analytic::paraboloid(61, 81, kPitch, kPitch, 1e-6, 10 * kPitch, -7 * kPitch);
   Configuration configuration = pressed(2e-7);
   configuration.model.deformation = Deformation::kThreeRegimes;  // so that something goes down
   const Prediction plain = ScanPredictor(configuration).predict(scan);
@@ -97,14 +99,17 @@ TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
     EXPECT_EQ(refined.deformed_upper.size(), scan.heights().size());
     EXPECT_EQ(refined.contact_map.size(), scan.heights().size());
     EXPECT_NEAR(refined.nominal_area / plain.nominal_area, 1.0, 1e-12);
-    EXPECT_NEAR(refined.pull_off_force / plain.pull_off_force, 1.0, 0.15);  // chi follows the radius, the contact chi
+    EXPECT_NEAR(refined.pull_off_force / plain.pull_off_force, 1.0,
+                0.15);  // chi follows the radius, the contact chi
     ASSERT_EQ(refined.asperities.size(), 1u);
     EXPECT_NEAR(refined.asperities[0].x, plain.asperities[0].x, 0.51 * kPitch);
     EXPECT_NEAR(refined.asperities[0].y, plain.asperities[0].y, 0.51 * kPitch);
-    EXPECT_NEAR(refined.median_contact_pixels * kPitch * kPitch, refined.contact_area, 1e-12 * refined.contact_area);
+    EXPECT_NEAR(refined.median_contact_pixels * kPitch * kPitch, refined.contact_area,
+                1e-12 * refined.contact_area);
     // Untouched pixels keep their heights to the bit; what went down lies where the contact is.
     const cv::Mat untouched = refined.contact_map == 0;
-    cv::Mat change = refining.preparer().prepare(scan).surfaces.lower.asDouble().heights() - refined.deformed_lower;
+    cv::Mat change = refining.preparer().prepare(scan).surfaces.lower.asDouble().heights() -
+                     refined.deformed_lower;
     EXPECT_GT(change.at<double>(23, 50), 0.0);
     change.setTo(0.0, refined.contact_map != 0);
     EXPECT_EQ(cv::countNonZero(change), 0);
@@ -146,7 +151,8 @@ TEST(CounterSurface, ATiltedPlaneIsATiltedScanTheOtherWayRound) {
   configuration.counter_surface.pose.tilt_x = std::atan(0.02);
   configuration.counter_surface.pose.tilt_y = std::atan(-0.01);
   const Prediction tilted_plane = ScanPredictor(configuration).predict(scan);
-  const HeightMap slope = analytic::tiltedPlane(scan.rows(), scan.cols(), kPitch, kPitch, -0.02, 0.01);
+  const HeightMap slope =
+      analytic::tiltedPlane(scan.rows(), scan.cols(), kPitch, kPitch, -0.02, 0.01);
   const Prediction tilted_scan = ScanPredictor(pressed()).predict(analytic::sum(scan, slope));
   EXPECT_NEAR(tilted_plane.contact_area, tilted_scan.contact_area, 1e-9 * tilted_scan.contact_area);
   EXPECT_NE(tilted_plane.contact_area, ScanPredictor(pressed()).predict(scan).contact_area);
@@ -154,8 +160,8 @@ TEST(CounterSurface, ATiltedPlaneIsATiltedScanTheOtherWayRound) {
 
 TEST(CounterSurface, APoseGivenLaterIsThatOfTheConfiguration) {
   const HeightMap scan = rough();
-  for (const CounterSurfaceType type :
-       {CounterSurfaceType::kFlat, CounterSurfaceType::kGaussian, CounterSurfaceType::kSelfAffine}) {
+  for (const CounterSurfaceType type : {CounterSurfaceType::kFlat, CounterSurfaceType::kGaussian,
+                                        CounterSurfaceType::kSelfAffine}) {
     Configuration configuration = pressed();
     configuration.counter_surface.type = type;
     configuration.counter_surface.self_affine.rolloff_wavelength = 300e-9;
@@ -203,7 +209,8 @@ TEST(CounterSurface, GeneratedSummitsPointTowardsTheScan) {
   options.type = CounterSurfaceType::kGaussian;
   options.gaussian.skewness = 1.0;
   options.gaussian.kurtosis = 5.0;
-  options.gaussian.gaussian.correlation_length_x = options.gaussian.gaussian.correlation_length_y = 10e-9;
+  options.gaussian.gaussian.correlation_length_x = options.gaussian.gaussian.correlation_length_y =
+      10e-9;
   const HeightMap mounted = generatedCounterSurface(rough(1, 256, 256), options);
   const HeightStatistics heights = heightStatistics(mounted);
   EXPECT_GT(-heights.min, 1.3 * heights.max) << "high summits reach down";
@@ -219,7 +226,8 @@ TEST(CounterSurface, SettingsThatTheGridCannotHoldAreRefusedInOneLine) {
     FAIL() << "was accepted";
   } catch (const SurfaceError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("counter_surface/self_affine/rolloff_wavelength"), std::string::npos) << text;
+    EXPECT_NE(text.find("counter_surface/self_affine/rolloff_wavelength"), std::string::npos)
+        << text;
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   }
 }
@@ -228,7 +236,8 @@ TEST(CounterSurface, AFileIsTheMeasuredSurfaceOfATopic) {
   const ScratchFolder folder;
   const HeightMap measured = rough(9);
   writeScan(folder.file("counter.tiff"), measured, "a counter-surface");
-  for (const CounterSurfaceFacing facing : {CounterSurfaceFacing::kDown, CounterSurfaceFacing::kUp}) {
+  for (const CounterSurfaceFacing facing :
+       {CounterSurfaceFacing::kDown, CounterSurfaceFacing::kUp}) {
     Configuration configuration = pressed();
     configuration.preprocessing.level.shape = LevelShape::kPlane;
     configuration.counter_surface.facing = facing;
@@ -257,12 +266,14 @@ TEST(CounterSurface, AFileThatCannotBeUsedIsRefusedAtTheStart) {
     FAIL() << "was accepted";
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 1u);
-    EXPECT_NE(error.violations()[0].find("none.tiff: there is no such file"), std::string::npos) << error.what();
+    EXPECT_NE(error.violations()[0].find("none.tiff: there is no such file"), std::string::npos)
+        << error.what();
   }
 }
 
 TEST(CounterSurface, TheTipComesOffTheSideThatItTouched) {
-  // A sphere as a blunt tip draws it, mounted upside down: corrected, it is the sharp one again, from either statement.
+  // A sphere as a blunt tip draws it, mounted upside down: corrected, it is the sharp one again,
+  // from either statement.
   TipOptions tip;
   tip.radius = 200e-9;
   const HeightMap sharp = analytic::paraboloid(81, 81, kPitch, kPitch, 300e-9);
@@ -277,10 +288,12 @@ TEST(CounterSurface, TheTipComesOffTheSideThatItTouched) {
   configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   const double down = ScanPredictor(configuration).predict(scan, turnedOver(drawn)).pull_off_force;
   configuration.preprocessing.tip = TipOptions();
-  const double expected = ScanPredictor(configuration).predict(scan, turnedOver(sharp)).pull_off_force;
+  const double expected =
+      ScanPredictor(configuration).predict(scan, turnedOver(sharp)).pull_off_force;
   EXPECT_EQ(up, down);
   EXPECT_NEAR(up / expected, 1.0, 0.05);
-  EXPECT_GT(ScanPredictor(configuration).predict(scan, turnedOver(drawn)).pull_off_force, 1.3 * expected);
+  EXPECT_GT(ScanPredictor(configuration).predict(scan, turnedOver(drawn)).pull_off_force,
+            1.3 * expected);
 }
 
 // ------------------------------------------------------------------ resolution
@@ -315,8 +328,10 @@ TEST(Resolution, AStatedTipCountsTheContactsThatItHasDrawn) {
   EXPECT_EQ(prediction.tip_limit, 0.0);
   EXPECT_EQ(prediction.below_tip_count, 0);
   configuration.resolution.tip_radius = 0.0;
-  configuration.preprocessing.tip.radius = 0.8e-6;  // sharper than any tip of 0.8 um: its own shape all over
-  prediction = ScanPredictor(configuration).predict(analytic::paraboloid(301, 301, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9));
+  configuration.preprocessing.tip.radius =
+      0.8e-6;  // sharper than any tip of 0.8 um: its own shape all over
+  prediction = ScanPredictor(configuration)
+                   .predict(analytic::paraboloid(301, 301, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9));
   EXPECT_GT(prediction.tip_limit, 0.0);
   EXPECT_EQ(prediction.below_tip_count, prediction.pull_off_contact_count);
 }
@@ -333,7 +348,8 @@ TEST(Resolution, TheDefaultLimitIsWhereASpheresRadiusIsWithinFivePercent) {
     const double pitch = 1e-9 * std::pow(10.0, 1.6 * std::fmod(0.618034 * i, 1.0));
     const double x = pitch * (std::fmod(0.754878 * i, 1.0) - 0.5);
     const double y = pitch * (std::fmod(0.569840 * i, 1.0) - 0.5);
-    const Prediction prediction = predictor.predict(analytic::paraboloid(61, 61, pitch, pitch, 1e-6, x, y));
+    const Prediction prediction =
+        predictor.predict(analytic::paraboloid(61, 61, pitch, pitch, 1e-6, x, y));
     if (prediction.status != Status::kEquilibrium || prediction.is_resolution_limited) continue;
     ++count;
     if (std::fabs(prediction.median_composite_radius / 1e-6 - 1.0) > 0.05) ++far;
@@ -358,7 +374,8 @@ TEST(Decimated, TakesMeansOfBlocksAndLeavesOutTheRest) {
 TEST(Convergence, FullResolutionIsThePredictionAndAResolvedSphereHardlyMoves) {
   const HeightMap sphere = analytic::paraboloid(240, 240, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9);
   ScanPredictor predictor(pressed(1e-6));
-  const std::vector<ConvergenceRow> rows = predictor.convergence(predictor.preparer().prepare(sphere));
+  const std::vector<ConvergenceRow> rows =
+      predictor.convergence(predictor.preparer().prepare(sphere));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].pull_off_force, predictor.predict(sphere).pull_off_force);
   EXPECT_EQ(rows[0].pull_off_force_ratio, 1.0);
@@ -369,7 +386,8 @@ TEST(Convergence, FullResolutionIsThePredictionAndAResolvedSphereHardlyMoves) {
     EXPECT_NEAR(row.contact_area_ratio, 1.0, 0.1);
   }
   const std::string table = convergenceTable(rows, "# ");
-  for (const char* part : {"# full ", "# half ", "# quarter ", "240 x 240", "From half to full resolution"}) {
+  for (const char* part :
+       {"# full ", "# half ", "# quarter ", "240 x 240", "From half to full resolution"}) {
     EXPECT_NE(table.find(part), std::string::npos) << table;
   }
 }
@@ -378,14 +396,16 @@ TEST(Convergence, AllResolutionsSeeTheSameAreaAndTheSameCounterSurface) {
   Configuration configuration = pressed();
   configuration.counter_surface.type = CounterSurfaceType::kGaussian;
   ScanPredictor predictor(configuration);
-  const std::vector<ConvergenceRow> rows = predictor.convergence(predictor.preparer().prepare(rough(4, 131, 130)));
+  const std::vector<ConvergenceRow> rows =
+      predictor.convergence(predictor.preparer().prepare(rough(4, 131, 130)));
   for (const ConvergenceRow& row : rows) {
     EXPECT_EQ(row.rows * row.decimation, 128);
     EXPECT_EQ(row.cols * row.decimation, 128);
     EXPECT_EQ(row.status, Status::kEquilibrium);
   }
   ScanPredictor on_a_plane(pressed());
-  const PreparedScan small = on_a_plane.preparer().prepare(analytic::paraboloid(15, 64, kPitch, kPitch, 1e-6));
+  const PreparedScan small =
+      on_a_plane.preparer().prepare(analytic::paraboloid(15, 64, kPitch, kPitch, 1e-6));
   EXPECT_THROW(on_a_plane.convergence(small), SurfaceError);
 }
 
@@ -409,7 +429,8 @@ TEST(SpatialRoughness, IsThatOfTheCleanedScanWhenAskedFor) {
   EXPECT_TRUE(std::isnan(ScanPredictor(configuration).predict(scan).spatial_roughness.sal));
   configuration.spatial_roughness.enabled = true;
   const SpatialRoughness roughness = ScanPredictor(configuration).predict(scan).spatial_roughness;
-  // sigma^2 exp(-r^2/l^2) falls to 0.2 at l sqrt(ln 5); m2 = 2 sigma^2/l^2, alpha = 3, within a sample's scatter
+  // sigma^2 exp(-r^2/l^2) falls to 0.2 at l sqrt(ln 5); m2 = 2 sigma^2/l^2, alpha = 3, within a
+  // sample's scatter
   EXPECT_NEAR(roughness.sal / (40e-9 * std::sqrt(std::log(5.0))), 1.0, 0.15);
   EXPECT_GT(roughness.str, 0.7);
   EXPECT_NEAR(roughness.m0 / 4e-18, 1.0, 0.15);
@@ -426,7 +447,8 @@ TEST(SpatialRoughness, HurstIsThatOfASelfAffineSurface) {
   surface.cutoff_wavelength = 20e-9;
   SpatialRoughnessOptions options;
   EXPECT_NEAR(spatialRoughness(selfAffineSurface(surface), options).hurst, 0.7, 0.1);
-  const SpatialRoughness tiny = spatialRoughness(analytic::paraboloid(5, 5, 1e-9, 1e-9, 1e-6), options);
+  const SpatialRoughness tiny =
+      spatialRoughness(analytic::paraboloid(5, 5, 1e-9, 1e-9, 1e-6), options);
   EXPECT_TRUE(std::isnan(tiny.hurst));
 }
 

@@ -23,7 +23,8 @@ TEST(ContentHash, isTheSameInWhateverPiecesTheContentComes) {
     const std::string bytes = bytesOf(size);
     for (const std::size_t piece : {1u, 3u, 8u, 13u, 999u}) {
       ContentHash hash;
-      for (std::size_t at = 0; at < size; at += piece) hash.add(std::string_view(bytes).substr(at, piece));
+      for (std::size_t at = 0; at < size; at += piece)
+        hash.add(std::string_view(bytes).substr(at, piece));
       EXPECT_EQ(hash.text(), contentHash(bytes)) << size << " in " << piece;
     }
   }

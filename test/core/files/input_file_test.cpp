@@ -28,7 +28,8 @@ std::string refusal(const std::string& path, const InputKind& kind) {
 class Pipe {
  public:
   explicit Pipe(const std::string& text) {
-    if (pipe(ends_) != 0 || write(ends_[1], text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    if (pipe(ends_) != 0 ||
+        write(ends_[1], text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
       throw FileError("no pipe");
     }
     close(ends_[1]);
@@ -44,7 +45,8 @@ class Pipe {
 
 TEST(InputFile, AFileIsReadWholeAndMayBeEmpty) {
   const ScratchFolder folder;
-  EXPECT_EQ(readInput(folder.write("some", std::string(100'000, 'x')), kFile), std::string(100'000, 'x'));
+  EXPECT_EQ(readInput(folder.write("some", std::string(100'000, 'x')), kFile),
+            std::string(100'000, 'x'));
   EXPECT_EQ(readInput(folder.write("none", ""), kFile), "");
   EXPECT_EQ(readInputStart(folder.write("two", "ab"), kFile, 1), "a");
 }
@@ -65,16 +67,19 @@ TEST(InputFile, TooLargeAFileIsRefusedBeforeItIsRead) {
   const ScratchFolder folder;
   const std::string path = folder.write("large", "");
   std::filesystem::resize_file(path, std::uint64_t{1} << 40);  // a hole: no disk is used
-  EXPECT_EQ(refusal(path, kFile), path + ": has 1099511627776 bytes, more than the 100000 of a list");
+  EXPECT_EQ(refusal(path, kFile),
+            path + ": has 1099511627776 bytes, more than the 100000 of a list");
 }
 
 TEST(InputFile, WhatTheShellHasOpenedIsReadUpToTheLimitWhereItIsTaken) {
   const Pipe pipe("first\nsecond\n");
-  EXPECT_EQ(refusal(pipe.path(), kFile), pipe.path() + ": is a pipe, a socket or a device, not a file");
+  EXPECT_EQ(refusal(pipe.path(), kFile),
+            pipe.path() + ": is a pipe, a socket or a device, not a file");
   EXPECT_EQ(readInput(pipe.path(), kFileOrStream), "first\nsecond\n");
   EXPECT_EQ(readInput("/dev/null", kFileOrStream), "");
   const Pipe long_pipe("12345");
-  EXPECT_EQ(refusal(long_pipe.path(), {"a list", 4, true}), long_pipe.path() + ": has more than the 4 bytes of a list");
+  EXPECT_EQ(refusal(long_pipe.path(), {"a list", 4, true}),
+            long_pipe.path() + ": has more than the 4 bytes of a list");
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ TEST(OutputFile, ReplacesTheFileAndKeepsItsMode) {
   struct stat status {};
   ASSERT_EQ(stat(path.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 07777, 0640u);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(std::filesystem::path(path).parent_path()), {}), 1);
+  EXPECT_EQ(std::distance(
+                std::filesystem::directory_iterator(std::filesystem::path(path).parent_path()), {}),
+            1);
 }
 
 TEST(OutputFile, AFullDiskIsAnErrorThatNamesTheFile) {
@@ -53,9 +55,12 @@ TEST(OutputFile, APipeThatTheShellHasOpenedIsWrittenTo) {
   close(ends[1]);
 }
 
-TEST(OutputFile, AFolderThatIsMissingLeavesNothing) { EXPECT_THROW(writeFile("/nonexistent/out", "x"), FileError); }
+TEST(OutputFile, AFolderThatIsMissingLeavesNothing) {
+  EXPECT_THROW(writeFile("/nonexistent/out", "x"), FileError);
+}
 
-/// Somebody who guesses the name of the partial file lays a link there: the file behind it is not ours.
+/// Somebody who guesses the name of the partial file lays a link there: the file behind it is not
+/// ours.
 TEST(OutputFile, IsNeverWrittenThroughALinkThatLiesBesideIt) {
   const ScratchFolder folder;
   const std::string path = folder.file("rows.csv");

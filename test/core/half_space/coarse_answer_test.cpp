@@ -43,7 +43,8 @@ class BothAnswers {
   std::vector<float> coarse(const std::vector<float>& traction) {
     std::vector<float> displacement(grid_.size(), 0.0F);
     coarse_.find(shift(), traction.data());
-    for (int row = 0; row < grid_.rows; ++row) coarse_.row(row, displacement.data() + grid_.offset(row));
+    for (int row = 0; row < grid_.rows; ++row)
+      coarse_.row(row, displacement.data() + grid_.offset(row));
     return displacement;
   }
   std::vector<float> noise(unsigned seed) const {
@@ -54,12 +55,14 @@ class BothAnswers {
   std::vector<float> wave(int along, int down) const {
     return field([&](int row, int col) {
       return std::cos(2.0 * kPi *
-                      (static_cast<double>(along * col) / grid_.cols + static_cast<double>(down * row) / grid_.rows));
+                      (static_cast<double>(along * col) / grid_.cols +
+                       static_cast<double>(down * row) / grid_.rows));
     });
   }
   double product(const std::vector<float>& a, const std::vector<float>& b) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
     return sum;
   }
 
@@ -70,7 +73,8 @@ class BothAnswers {
     std::vector<float> values(grid_.size(), 0.0F);
     for (int row = 0; row < grid_.rows; ++row) {
       for (int col = 0; col < grid_.cols; ++col) {
-        values[grid_.offset(row) + static_cast<std::size_t>(col)] = static_cast<float>(at(row, col));
+        values[grid_.offset(row) + static_cast<std::size_t>(col)] =
+            static_cast<float>(at(row, col));
       }
     }
     return values;
@@ -93,7 +97,8 @@ TEST_P(CoarseAnswerOfFrame, LongWavesAreAnsweredAsByAllCells) {
     const std::vector<float> fine = answers.fine(traction);
     const std::vector<float> coarse = answers.coarse(traction);
     double error = 0.0;
-    for (std::size_t i = 0; i < fine.size(); ++i) error += std::pow(static_cast<double>(coarse[i] - fine[i]), 2);
+    for (std::size_t i = 0; i < fine.size(); ++i)
+      error += std::pow(static_cast<double>(coarse[i] - fine[i]), 2);
     EXPECT_LT(std::sqrt(error / answers.product(fine, fine)), 0.2) << waves;
   }
 }
@@ -103,7 +108,8 @@ TEST_P(CoarseAnswerOfFrame, WhatVariesFromCellToCellIsNotAnswered) {
   const HalfSpaceGrid& grid = answers.grid();
   const std::vector<float> traction = answers.wave(grid.cols / 2, grid.rows / 2);
   const std::vector<float> fine = answers.fine(traction);
-  EXPECT_LT(answers.product(answers.coarse(traction), traction), 0.1 * answers.product(fine, traction));
+  EXPECT_LT(answers.product(answers.coarse(traction), traction),
+            0.1 * answers.product(fine, traction));
 }
 
 TEST_P(CoarseAnswerOfFrame, IsSymmetricAndNeverNegative) {
@@ -113,7 +119,8 @@ TEST_P(CoarseAnswerOfFrame, IsSymmetricAndNeverNegative) {
   const std::vector<float> answer = answers.coarse(one);
   const double scale = answers.product(answer, one);
   EXPECT_GT(scale, 0.0);
-  EXPECT_NEAR(answers.product(answer, other), answers.product(answers.coarse(other), one), 1e-4 * scale);
+  EXPECT_NEAR(answers.product(answer, other), answers.product(answers.coarse(other), one),
+              1e-4 * scale);
 }
 
 TEST_P(CoarseAnswerOfFrame, BitsDoNotDependOnTheThreads) {

@@ -1,4 +1,5 @@
-/// The step of Newton's method against its own equation, (K + t') s = r, with small and with large contacts.
+/// The step of Newton's method against its own equation, (K + t') s = r, with small and with large
+/// contacts.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double kModulus = 88.8e9;
 
-/// A grid whose contacts are one cell in `every`, that hold with `stiffness` over that of the shortest waves.
+/// A grid whose contacts are one cell in `every`, that hold with `stiffness` over that of the
+/// shortest waves.
 struct Case {
   HalfSpaceBoundary boundary;
   int every;
@@ -37,7 +39,8 @@ class SolvedCase {
         const bool is_frame = row < grid_.frame_rows && col < grid_.frame_cols;
         gradients_.residual()[i] = is_frame ? 1e6F * static_cast<float>(random() % 1000) : 0.0F;
         const bool is_held = is_frame && (row * grid_.frame_cols + col) % asked.every == 0;
-        gradients_.slope()[i] = is_held ? static_cast<float>(asked.stiffness * stiffness_.largest()) : 0.0F;
+        gradients_.slope()[i] =
+            is_held ? static_cast<float>(asked.stiffness * stiffness_.largest()) : 0.0F;
         system.mean_slope += static_cast<double>(gradients_.slope()[i]) / grid_.cellCount();
         system.mean_residual += static_cast<double>(gradients_.residual()[i]) / grid_.cellCount();
       }
@@ -58,7 +61,8 @@ class SolvedCase {
     forEachCell([&](std::size_t i) {
       largest = std::max(largest, std::abs(static_cast<double>(residual_[i])));
       left.push_back(static_cast<double>(residual_[i]) - static_cast<double>(traction[i]) -
-                     static_cast<double>(gradients_.slope()[i]) * static_cast<double>(gradients_.step()[i]));
+                     static_cast<double>(gradients_.slope()[i]) *
+                         static_cast<double>(gradients_.step()[i]));
       sum += left.back();
     });
     const double mean = stiffness_.resistsMean() ? 0.0 : sum / grid_.cellCount();
@@ -79,7 +83,8 @@ class SolvedCase {
     });
     forEachCell([&](std::size_t i) {
       largest = std::max(largest, std::abs(static_cast<double>(traction[i])));
-      error = std::max(error, std::abs(static_cast<double>(gradients_.stepTraction()[i] - traction[i]) - mean));
+      error = std::max(
+          error, std::abs(static_cast<double>(gradients_.stepTraction()[i] - traction[i]) - mean));
     });
     return error / largest;
   }
@@ -93,7 +98,8 @@ class SolvedCase {
   template <typename Work>
   void forEachCell(const Work& work) const {
     for (int row = 0; row < grid_.rows; ++row) {
-      for (int col = 0; col < grid_.cols; ++col) work(grid_.offset(row) + static_cast<std::size_t>(col));
+      for (int col = 0; col < grid_.cols; ++col)
+        work(grid_.offset(row) + static_cast<std::size_t>(col));
     }
   }
 
@@ -107,7 +113,8 @@ class SolvedCase {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     all.push_back({boundary, 540, 0.3});  // one contact: small
     all.push_back({boundary, 3, 0.1});
     all.push_back({boundary, 3, 30.0});
@@ -122,8 +129,10 @@ TEST(ConjugateGradients, TheStepSolvesItsEquation) {
                                     << asked.stiffness);
     for (const bool is_coarse : {false, true}) {
       SolvedCase solved(asked, 1, is_coarse);
-      EXPECT_LT(solved.error(), 0.02) << is_coarse;          // a thousandth in the norm of the preconditioner
-      EXPECT_LT(solved.tractionError(), 1e-4) << is_coarse;  // single precision over some dozen iterations
+      EXPECT_LT(solved.error(), 0.02)
+          << is_coarse;  // a thousandth in the norm of the preconditioner
+      EXPECT_LT(solved.tractionError(), 1e-4)
+          << is_coarse;  // single precision over some dozen iterations
       EXPECT_GT(solved.direction.decrease, 0.0);
       EXPECT_FALSE(solved.direction.is_unstable);
     }
@@ -131,7 +140,8 @@ TEST(ConjugateGradients, TheStepSolvesItsEquation) {
 }
 
 TEST(ConjugateGradients, StiffContactsTakeFewProducts) {
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     // a third of the frame held a thousand times as stiffly as the shortest waves
     const int of_all = SolvedCase({boundary, 3, 1000.0}, 1, false).products();
     EXPECT_LT(of_all, 40);
@@ -141,7 +151,8 @@ TEST(ConjugateGradients, StiffContactsTakeFewProducts) {
 }
 
 TEST(ConjugateGradients, BitsDoNotDependOnTheThreads) {
-  for (const Case& asked : cases()) EXPECT_EQ(SolvedCase(asked, 1).step(), SolvedCase(asked, 3).step());
+  for (const Case& asked : cases())
+    EXPECT_EQ(SolvedCase(asked, 1).step(), SolvedCase(asked, 3).step());
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ class ContactMinimiserOf : public testing::TestWithParam<HalfSpaceBoundary> {
  protected:
   ContactMinimiserOf()
       : law_(TractionLawOptions()),
-        minimiser_(HalfSpaceGrid(kPixels, kPixels, kPitch, kPitch, GetParam()), law_, kModulus, rough(),
-                   MinimiserSettings()) {}
+        minimiser_(HalfSpaceGrid(kPixels, kPixels, kPitch, kPitch, GetParam()), law_, kModulus,
+                   rough(), MinimiserSettings()) {}
 
   double height(double in_ranges) const { return in_ranges * law_.range(); }
   ContactState solveExactly(double at) { return minimiser_.solve(height(at)); }
@@ -49,9 +49,11 @@ class ContactMinimiserOf : public testing::TestWithParam<HalfSpaceBoundary> {
   /// Of all cells [m].
   LargePageVector<double> displacement() const { return minimiser_.place().displacement.values; }
   /// Largest |one - other| [z0].
-  double difference(const LargePageVector<double>& one, const LargePageVector<double>& other) const {
+  double difference(const LargePageVector<double>& one,
+                    const LargePageVector<double>& other) const {
     double largest = 0.0;
-    for (std::size_t i = 0; i < one.size(); ++i) largest = std::max(largest, std::abs(one[i] - other[i]));
+    for (std::size_t i = 0; i < one.size(); ++i)
+      largest = std::max(largest, std::abs(one[i] - other[i]));
     return largest / law_.range();
   }
 
@@ -61,7 +63,8 @@ class ContactMinimiserOf : public testing::TestWithParam<HalfSpaceBoundary> {
 INSTANTIATE_TEST_SUITE_P(Edges, ContactMinimiserOf,
                          testing::Values(HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree),
                          [](const auto& tested) {
-                           return tested.param == HalfSpaceBoundary::kPeriodic ? "periodic" : "free";
+                           return tested.param == HalfSpaceBoundary::kPeriodic ? "periodic"
+                                                                               : "free";
                          });
 
 TEST_P(ContactMinimiserOf, AStateSolvedInTwoSearchesIsTakenBackAsAWhole) {

@@ -34,7 +34,8 @@ LargePageVector<double> rough(int rows, int cols, double rms_height) {
 /// A frame whose surfaces have not answered yet: u = 0.
 class Undeformed {
  public:
-  Undeformed(const HalfSpaceGrid& grid, LargePageVector<double> relief, double height, int threads = 1)
+  Undeformed(const HalfSpaceGrid& grid, LargePageVector<double> relief, double height,
+             int threads = 1)
       : grid_(grid),
         law_(law()),
         stiffness_(grid, kModulus, 1, memory_),
@@ -50,9 +51,9 @@ class Undeformed {
     settings.threads = threads;
     ContactWindows windows(grid_, law_, ElasticResponse{kModulus}, settings);
     largest_before = largest(residual_);
-    did_relax = windows.relax(
-        {height_, relief_.data(), zeros_.data(), zeros_.data(), residual_.data(), mean(residual_), largest_before},
-        stiffness_, change.data());
+    did_relax = windows.relax({height_, relief_.data(), zeros_.data(), zeros_.data(),
+                               residual_.data(), mean(residual_), largest_before},
+                              stiffness_, change.data());
   }
 
   /// Largest residual after u has answered the changes.
@@ -62,7 +63,8 @@ class Undeformed {
     LargePageVector<float> after(grid_.size(), 0.0F);
     for (std::size_t i = 0; i < after.size(); ++i) after[i] = -change[i];
     forEachCell([&](std::size_t cell, std::size_t in_frame) {
-      after[cell] += static_cast<float>(law_.at(height_ + relief_[in_frame] - displacement[cell]).traction);
+      after[cell] +=
+          static_cast<float>(law_.at(height_ + relief_[in_frame] - displacement[cell]).traction);
     });
     return largest(after);
   }
@@ -72,9 +74,9 @@ class Undeformed {
   void forEachCell(const Work& work) const {
     for (int row = 0; row < grid_.frame_rows; ++row) {
       for (int col = 0; col < grid_.frame_cols; ++col) {
-        work(
-            grid_.offset(row) + static_cast<std::size_t>(col),
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols) + static_cast<std::size_t>(col));
+        work(grid_.offset(row) + static_cast<std::size_t>(col),
+             static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols) +
+                 static_cast<std::size_t>(col));
       }
     }
   }
@@ -141,7 +143,8 @@ TEST(ContactWindows, FramesThatTouchAllOverAreLeftToNewton) {
   EXPECT_FALSE(frame.did_relax);
   EXPECT_EQ(
       cv::norm(cv::Mat(1, static_cast<int>(frame.change.size()), CV_32F,
-                       const_cast<float*>(frame.change.data()))),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+                       const_cast<float*>(
+                           frame.change.data()))),  // NOLINT(cppcoreguidelines-pro-type-const-cast)
       0.0);
 }
 
@@ -149,7 +152,8 @@ TEST(ContactWindows, WindowsGoOnBeyondTheEdgesOfAPeriodicFrame) {
   const int rows = 240, cols = 304;
   const HalfSpaceGrid grid(rows, cols, kPitch, kPitch, HalfSpaceBoundary::kPeriodic);
   const LargePageVector<double> relief = rough(rows, cols, 4e-9);
-  const auto summit = static_cast<int>(std::min_element(relief.begin(), relief.end()) - relief.begin());
+  const auto summit =
+      static_cast<int>(std::min_element(relief.begin(), relief.end()) - relief.begin());
   // the highest summit to the corner, by whole blocks, so that windows lie about contacts as before
   const int down = rows - summit / cols / 8 * 8;
   const int right = cols - summit % cols / 8 * 8;
@@ -158,7 +162,8 @@ TEST(ContactWindows, WindowsGoOnBeyondTheEdgesOfAPeriodicFrame) {
     return static_cast<std::size_t>(turned_place);
   };
   const auto inFrame = [&](int row, int col) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) +
+           static_cast<std::size_t>(col);
   };
   LargePageVector<double> turned(relief.size());
   for (int row = 0; row < rows; ++row) {
@@ -171,7 +176,8 @@ TEST(ContactWindows, WindowsGoOnBeyondTheEdgesOfAPeriodicFrame) {
   for (int row = 0; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
       const std::size_t there = place(row, col);
-      const std::size_t cell = grid.offset(static_cast<int>(there) / cols) + there % static_cast<std::size_t>(cols);
+      const std::size_t cell =
+          grid.offset(static_cast<int>(there) / cols) + there % static_cast<std::size_t>(cols);
       const float here = inside.change[grid.offset(row) + static_cast<std::size_t>(col)];
       difference = std::max(difference, std::abs(static_cast<double>(here - corner.change[cell])));
     }
@@ -206,7 +212,8 @@ void expectTheSameStates(const HalfSpaceGrid& grid, const ElasticResponse& respo
     ASSERT_TRUE(one.is_converged);
     ASSERT_TRUE(other.is_converged);
     largest_force = std::max(largest_force, std::abs(other.force));
-    EXPECT_NEAR(one.force, other.force, 1e-3 * (response.layers == nullptr ? std::abs(other.force) : largest_force))
+    EXPECT_NEAR(one.force, other.force,
+                1e-3 * (response.layers == nullptr ? std::abs(other.force) : largest_force))
         << height;
     EXPECT_NEAR(one.energy, other.energy, 1e-3 * std::abs(other.energy)) << height;
     EXPECT_EQ(one.contact_area, other.contact_area) << height;
@@ -217,7 +224,8 @@ void expectTheSameStates(const HalfSpaceGrid& grid, const ElasticResponse& respo
 }
 
 TEST_P(WindowsOfFrame, StatesAreThoseOfNewtonsMethodAlone) {
-  expectTheSameStates(HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()), ElasticResponse{kModulus}, 0.5);
+  expectTheSameStates(HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()),
+                      ElasticResponse{kModulus}, 0.5);
 }
 
 TEST_P(WindowsOfFrame, PlatesAndFilmsAreRelaxedToo) {
@@ -232,9 +240,10 @@ TEST_P(WindowsOfFrame, PlatesAndFilmsAreRelaxedToo) {
       lower.backing = backing;
       const WaveStiffness layers(lower, upper);
       SCOPED_TRACE(thickness / kPitch);
-      expectTheSameStates(HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()),
-                          ElasticResponse{ContactPair(lower, upper).contact_modulus, nullptr, &layers},
-                          backing == Backing::kFree ? 0.9 : 0.5);
+      expectTheSameStates(
+          HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()),
+          ElasticResponse{ContactPair(lower, upper).contact_modulus, nullptr, &layers},
+          backing == Backing::kFree ? 0.9 : 0.5);
     }
   }
 }

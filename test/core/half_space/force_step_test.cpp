@@ -40,7 +40,8 @@ TEST(StepParabola, IsHighestAtItsSummitOrAtAnEnd) {
 }
 
 TEST(StepParabola, SagIsWhatALineWouldMiss) {
-  EXPECT_NEAR(aboutSummit(2.0).curvatureError(), 2.0 / 3.0, 1e-12);  // the mean of 3 - x^2 over [-1, 1] is 8/3, that of its ends 2
+  EXPECT_NEAR(aboutSummit(2.0).curvatureError(), 2.0 / 3.0,
+              1e-12);  // the mean of 3 - x^2 over [-1, 1] is 8/3, that of its ends 2
 }
 
 }  // namespace

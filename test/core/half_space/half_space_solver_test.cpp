@@ -1,4 +1,5 @@
-/// The half-space against closed forms of whole surfaces, in SI, and what it says when there is no solution.
+/// The half-space against closed forms of whole surfaces, in SI, and what it says when there is no
+/// solution.
 
 #include <atomic>
 #include <cmath>
@@ -29,7 +30,8 @@ HalfSpaceProblem problemOf(const HeightMap& lower, double contact_modulus = kMod
 
 HalfSpaceOptions elastic() { return half_space_cases::elastic(kRange); }
 
-SolvedHalfSpace solve(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
+SolvedHalfSpace solve(const HalfSpaceProblem& problem,
+                      const HalfSpaceOptions& options = elastic()) {
   return HalfSpaceSolver(options).solve(problem);
 }
 
@@ -40,8 +42,9 @@ HeightMap waves(int rows, int cols, double pitch_x, double pitch_y, double ampli
     for (int col = 0; col < cols; ++col) {
       const double x = 2.0 * kPi * col / cols;
       const double y = 2.0 * kPi * row / rows;
-      heights.at<double>(row, col) = amplitude * (std::cos(x + 0.3) + std::cos(y) + 0.5 * std::cos(2.0 * x - y) +
-                                                  0.4 * std::cos(3.0 * y + 2.0 * x));
+      heights.at<double>(row, col) =
+          amplitude * (std::cos(x + 0.3) + std::cos(y) + 0.5 * std::cos(2.0 * x - y) +
+                       0.4 * std::cos(3.0 * y + 2.0 * x));
     }
   }
   return HeightMap(heights, pitch_x, pitch_y);
@@ -53,7 +56,8 @@ TEST(HalfSpaceSolver, FlatOnFlatIsTheLawItself) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   const double area = 12 * 15 * 6e-18;
   // the parabola between steps of 0.2 z0
-  EXPECT_NEAR(solution.pull_off_force / (16.0 * 0.05 / (9.0 * std::sqrt(3.0) * kRange) * area), 1.0, 5e-3);
+  EXPECT_NEAR(solution.pull_off_force / (16.0 * 0.05 / (9.0 * std::sqrt(3.0) * kRange) * area), 1.0,
+              5e-3);
   // rest lies within a thousandth of the largest force of z0, the work is quadratic there
   EXPECT_NEAR(solution.work_of_adhesion / 0.05, 1.0, 1e-4);
   EXPECT_NEAR(solution.rest_height / kRange, 1.0, 1e-3);
@@ -73,9 +77,11 @@ TEST(HalfSpaceSolver, HertzsSphereWithoutAttraction) {
   problem.load.mechanical_load = hertz::load(1e-9, radius, kModulus);
   const SolvedHalfSpace solution = solve(problem, options);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-  EXPECT_NEAR(-solution.rest_height / 1e-9, 1.0, 0.01);  // of it z0 0.5 %, the pitch of a/14 the rest
+  EXPECT_NEAR(-solution.rest_height / 1e-9, 1.0,
+              0.01);  // of it z0 0.5 %, the pitch of a/14 the rest
   const double contact = hertz::contactRadius(problem.load.mechanical_load, radius, kModulus);
-  EXPECT_NEAR(solution.contact_area / (kPi * contact * contact), 1.0, 0.05);  // a rim of half a pixel in a/14
+  EXPECT_NEAR(solution.contact_area / (kPi * contact * contact), 1.0,
+              0.05);  // a rim of half a pixel in a/14
   EXPECT_EQ(solution.contact_count, 1);
   const double peak = hertz::maximumPressure(problem.load.mechanical_load, radius, kModulus);
   EXPECT_NEAR(solution.pressure.at<float>(31, 31) / peak, 1.0, 0.01);
@@ -107,7 +113,8 @@ TEST(HalfSpaceSolver, WestergaardsWavyWall) {
 double waveAmplitude(const cv::Mat& map) {
   double sum = 0.0;
   for (int col = 0; col < map.cols; ++col) {
-    sum += 2.0 / map.cols * static_cast<double>(map.at<float>(1, col)) * std::sin(2.0 * kPi * col / map.cols);
+    sum += 2.0 / map.cols * static_cast<double>(map.at<float>(1, col)) *
+           std::sin(2.0 * kPi * col / map.cols);
   }
   return std::abs(sum);
 }
@@ -122,7 +129,8 @@ TEST(HalfSpaceSolver, AWaveInFullContactNeedsItsStiffnessTimesItsAmplitude) {
   HalfSpaceProblem problem = problemOf(analytic::sine(2, cols, pitch, pitch, amplitude, 1));
   problem.lower_material.poisson_ratio = 0.3;
   for (const auto& [backing, substrate] :
-       {std::pair(Backing::kFree, 0.0), std::pair(Backing::kBonded, 0.0), std::pair(Backing::kBonded, 10e9)}) {
+       {std::pair(Backing::kFree, 0.0), std::pair(Backing::kBonded, 0.0),
+        std::pair(Backing::kBonded, 10e9)}) {
     for (const double s : {0.05, 0.4, 1.5, 6.0, 100.0}) {
       problem.lower_material.thickness = s / q;
       problem.lower_material.backing = backing;
@@ -134,7 +142,8 @@ TEST(HalfSpaceSolver, AWaveInFullContactNeedsItsStiffnessTimesItsAmplitude) {
       ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
       const double of_gap = waveAmplitude(solution.gap);
       EXPECT_LT(of_gap, 0.01 * amplitude) << s;
-      EXPECT_NEAR(waveAmplitude(solution.pressure) / (stiffness * (amplitude - of_gap)), 1.0, 1e-3) << s;
+      EXPECT_NEAR(waveAmplitude(solution.pressure) / (stiffness * (amplitude - of_gap)), 1.0, 1e-3)
+          << s;
     }
   }
 }
@@ -201,18 +210,21 @@ TEST(HalfSpaceSolver, RefusesWhatFreeEdgesCannotHaveBehindThem) {
   problem.upper_material.thickness = 2e-6;
   EXPECT_EQ(
       refusal(),
-      "upper/thickness: 2e-06 m with half_space/boundary free and upper/backing free is not allowed: how far a plate "
+      "upper/thickness: 2e-06 m with half_space/boundary free and upper/backing free is not "
+      "allowed: how far a plate "
       "bends under a contact depends on where it is held; must be 0 m, or the boundary periodic");
   problem.upper_material.backing = Backing::kBonded;
   EXPECT_EQ(refusal(), "");
   problem.upper_material.thickness = 0.2e-9;
-  EXPECT_NE(refusal().find("upper/thickness: 2e-10 m with half_space/boundary free is not allowed: too thin"),
+  EXPECT_NE(refusal().find(
+                "upper/thickness: 2e-10 m with half_space/boundary free is not allowed: too thin"),
             std::string::npos)
       << refusal();
   options.boundary = HalfSpaceBoundary::kPeriodic;
   EXPECT_EQ(refusal(), "");
   problem.lower_material.substrate.youngs_modulus = 1e9;
-  EXPECT_NE(refusal().find("lower/substrate/youngs_modulus: 1e+09 Pa with lower/backing free"), std::string::npos);
+  EXPECT_NE(refusal().find("lower/substrate/youngs_modulus: 1e+09 Pa with lower/backing free"),
+            std::string::npos);
 }
 
 TEST(HalfSpaceSolver, ForcesScaleWithModulusAndAdhesionTogether) {
@@ -259,12 +271,15 @@ TEST(HalfSpaceSolver, PrimeSizesAreSolvedToo) {
 
 TEST(HalfSpaceSolver, AnyNumberOfColumnsTakesAsFewProducts) {
   // a soft sphere that jumps; rows of 68 pixels end within a vector of eight, rows of 72 do not
-  const SolvedHalfSpace one = solve(problemOf(analytic::paraboloid(68, 68, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
-  const SolvedHalfSpace other = solve(problemOf(analytic::paraboloid(72, 72, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
+  const SolvedHalfSpace one =
+      solve(problemOf(analytic::paraboloid(68, 68, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
+  const SolvedHalfSpace other =
+      solve(problemOf(analytic::paraboloid(72, 72, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
   ASSERT_EQ(one.status, HalfSpaceStatus::kSolved) << one.message;
   ASSERT_EQ(other.status, HalfSpaceStatus::kSolved) << other.message;
-  EXPECT_NEAR(one.pull_off_force / other.pull_off_force, 1.0, 0.02);  // the frame's edges lie elsewhere
-  EXPECT_LT(one.products, 2.0 * other.products);                      // as above
+  EXPECT_NEAR(one.pull_off_force / other.pull_off_force, 1.0,
+              0.02);                              // the frame's edges lie elsewhere
+  EXPECT_LT(one.products, 2.0 * other.products);  // as above
 }
 
 TEST(HalfSpaceSolver, TwoSurfacesAreTheirComposite) {
@@ -297,7 +312,8 @@ TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {
   EXPECT_TRUE(std::isnan(solution.gap.at<float>(3, 2)));
   EXPECT_TRUE(std::isnan(solution.pressure.at<float>(3, 2)));
   EXPECT_TRUE(std::isnan(solution.deformed_lower.height(3, 2)));
-  // the others pull as before but for the few picometres by which the surface gives way around the hole
+  // the others pull as before but for the few picometres by which the surface gives way around the
+  // hole
   EXPECT_NEAR(solution.pull_off_force / whole.pull_off_force, 29.0 / 30.0, 0.01);
 }
 
@@ -309,7 +325,8 @@ TEST(HalfSpaceSolver, MechanicalLoadIsReachedAndLeavesElasticSurfacesAsTheyWere)
   ASSERT_EQ(loaded.status, HalfSpaceStatus::kSolved) << loaded.message;
   EXPECT_NEAR(loaded.rest_force / -2e-6, 1.0, 2e-3);
   EXPECT_GT(loaded.contact_area, unloaded.contact_area);
-  EXPECT_NEAR(loaded.pull_off_force / unloaded.pull_off_force, 1.0, 5e-3);  // other heights on the same curve
+  EXPECT_NEAR(loaded.pull_off_force / unloaded.pull_off_force, 1.0,
+              5e-3);  // other heights on the same curve
   EXPECT_NEAR(loaded.work_of_adhesion / unloaded.work_of_adhesion, 1.0, 5e-3);
   EXPECT_EQ(loaded.flowed_volume, 0.0);
 }
@@ -341,22 +358,26 @@ TEST(HalfSpaceSolver, PressureBeyondTheHardnessChangesTheSurface) {
 }
 
 TEST(HalfSpaceSolver, ASphereInFlowBesideFiniteElements) {
-  // fits of Jackson and Green, Tribol. Int. 38 (2005) 906, to finite elements (recalled), for E/Sy = 80 and 10 times the
-  // depth of first yield; the cap stands at the hardness 2.84 Sy of a shallow dent
+  // fits of Jackson and Green, Tribol. Int. 38 (2005) 906, to finite elements (recalled), for E/Sy
+  // = 80 and 10 times the depth of first yield; the cap stands at the hardness 2.84 Sy of a shallow
+  // dent
   const double radius = 200e-9;
   const double yield = kModulus / 80.0;
   const double c = 1.295 * std::exp(0.736 * 0.3);
   const double depth_of_yield = std::pow(kPi * c * yield / (2.0 * kModulus), 2.0) * radius;
-  const double load_of_yield = 4.0 / 3.0 * std::pow(radius / kModulus, 2.0) * std::pow(c * kPi * yield / 2.0, 3.0);
-  const double area_of_yield = std::pow(kPi, 3.0) * std::pow(c * yield * radius / (2.0 * kModulus), 2.0);
+  const double load_of_yield =
+      4.0 / 3.0 * std::pow(radius / kModulus, 2.0) * std::pow(c * kPi * yield / 2.0, 3.0);
+  const double area_of_yield =
+      std::pow(kPi, 3.0) * std::pow(c * yield * radius / (2.0 * kModulus), 2.0);
   const double depth = 10.0;
   const double power = 0.14 * std::exp(23.0 / 80.0);
   const double area = area_of_yield * depth * std::pow(depth / 1.9, power);
   const double a_over_r = kPi * c / 160.0 * std::sqrt(depth) * std::pow(depth / 1.9, power / 2.0);
   const double hardness = 2.84 * (1.0 - std::exp(-0.82 * std::pow(a_over_r, -0.7)));
   const double load =
-      load_of_yield * (std::exp(-0.25 * std::pow(depth, 5.0 / 12.0)) * std::pow(depth, 1.5) +
-                       4.0 * hardness / c * (1.0 - std::exp(-std::pow(depth, 5.0 / 9.0) / 25.0)) * depth);
+      load_of_yield *
+      (std::exp(-0.25 * std::pow(depth, 5.0 / 12.0)) * std::pow(depth, 1.5) +
+       4.0 * hardness / c * (1.0 - std::exp(-std::pow(depth, 5.0 / 9.0) / 25.0)) * depth);
   HalfSpaceProblem problem = problemOf(analytic::paraboloid(63, 63, 1e-9, 1e-9, radius));
   problem.lower_material.hardness = problem.upper_material.hardness = 2.84 * yield;
   problem.load.mechanical_load = load;
@@ -370,7 +391,8 @@ TEST(HalfSpaceSolver, ASphereInFlowBesideFiniteElements) {
   const SolvedHalfSpace solved = solve(problem, options);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
   EXPECT_NEAR(-solved.rest_height / (depth * depth_of_yield), 1.0, 0.1);
-  // their sphere bears less than 2.84 Sy as the contact grows against it, and spreads the further: a cap knows neither
+  // their sphere bears less than 2.84 Sy as the contact grows against it, and spreads the further:
+  // a cap knows neither
   EXPECT_NEAR(solved.contact_area / area, 0.76, 0.05);
   EXPECT_NEAR(load / solved.contact_area / (2.84 * yield), 0.94, 0.04);
 }
@@ -386,10 +408,12 @@ TEST(HalfSpaceSolver, TheVoltageHasGoneBeforeTheBodiesAreDrawnApart) {
       problem.load.voltage = voltage;
       const SolvedHalfSpace charged = solve(problem);
       ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
-      // elastic bodies forget what pressed them, but for the points of the path, which lie at other heights
+      // elastic bodies forget what pressed them, but for the points of the path, which lie at other
+      // heights
       EXPECT_NEAR(charged.pull_off_force / plain.pull_off_force, 1.0, 0.005) << voltage;
       EXPECT_NEAR(charged.work_of_adhesion / plain.work_of_adhesion, 1.0, 0.005) << voltage;
-      EXPECT_NEAR(charged.hysteresis / plain.work_of_adhesion, plain.hysteresis / plain.work_of_adhesion, 0.01);
+      EXPECT_NEAR(charged.hysteresis / plain.work_of_adhesion,
+                  plain.hysteresis / plain.work_of_adhesion, 0.01);
       EXPECT_GT(charged.contact_area, plain.contact_area);
       EXPECT_NEAR(charged.retraction.front().height, charged.rest_height, 1e-15);
       EXPECT_LT(charged.retraction.front().force, -load);  // which now carries what the voltage was
@@ -406,9 +430,11 @@ TEST(HalfSpaceSolver, AVoltageThatStaysOnHoldsByItsField) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   const double area = 12 * 15 * 6e-18;
   // the field at the height of the largest force of two planes, where it hardly changes: 3^(1/6) z0
-  const double gap = std::pow(3.0, 1.0 / 6.0) * kRange + 20e-9 / problem.interface.insulator_relative_permittivity;
+  const double gap =
+      std::pow(3.0, 1.0 / 6.0) * kRange + 20e-9 / problem.interface.insulator_relative_permittivity;
   const double field = 0.5 * kVacuumPermittivity * 400.0 / (gap * gap) * area;
-  EXPECT_NEAR(solution.pull_off_force_under_voltage - solution.pull_off_force, field, 5e-3 * solution.pull_off_force);
+  EXPECT_NEAR(solution.pull_off_force_under_voltage - solution.pull_off_force, field,
+              5e-3 * solution.pull_off_force);
 }
 
 TEST(HalfSpaceSolver, WhatFlowedUnderAVoltageStaysFlowed) {
@@ -451,7 +477,8 @@ TEST(HalfSpaceSolver, BitsDoNotDependOnTheThreads) {
 }
 
 TEST(HalfSpaceSolver, HalvingTheStepChangesThePullOffForceByLessThanTwoPercent) {
-  // at 10 GPa this frame parts along one of two ways, whose forces differ by 5 %: round-off chooses, not the step
+  // at 10 GPa this frame parts along one of two ways, whose forces differ by 5 %: round-off
+  // chooses, not the step
   for (const double modulus : {20e9, 88.8e9}) {
     const HalfSpaceProblem problem = problemOf(waves(48, 48, 3e-9, 3e-9, 0.5e-9), modulus);
     HalfSpaceOptions options = elastic();
@@ -527,7 +554,8 @@ TEST(HalfSpaceSolver, CancelledBeforeItBeginsItSolvesNothing) {
   const std::atomic<bool> cancel{true};
   HalfSpaceControl control;
   control.cancel = &cancel;
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     HalfSpaceOptions options = elastic();
     options.boundary = boundary;
     const SolvedHalfSpace solution =
@@ -563,7 +591,8 @@ TEST(HalfSpaceSolver, ImpossibleProblemsAreRefusedByName) {
   EXPECT_NE(errorOf(problem).find("no valid pixel"), std::string::npos);
   options = elastic();
   options.max_pixels = 255;
-  EXPECT_NE(errorOf(problemOf(lower), options).find("half_space/max_pixels = 255"), std::string::npos);
+  EXPECT_NE(errorOf(problemOf(lower), options).find("half_space/max_pixels = 255"),
+            std::string::npos);
 }
 
 TEST(HalfSpaceSolver, OptionsOutOfRangeAreRefusedByName) {

@@ -1,5 +1,5 @@
-/// Frames that took too many steps: soft ones, whose contacts close pixel by pixel, and those near bonding. Products are
-/// counted, not timed: they are the same on every machine.
+/// Frames that took too many steps: soft ones, whose contacts close pixel by pixel, and those near
+/// bonding. Products are counted, not timed: they are the same on every machine.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,8 @@
 namespace mems_stiction {
 namespace {
 
-/// Micrometres of rough silicon that touch in dozens of places, pressed on average with `pressure` [Pa].
+/// Micrometres of rough silicon that touch in dozens of places, pressed on average with `pressure`
+/// [Pa].
 HalfSpaceProblem pressed(double pressure) {
   GaussianSurfaceOptions surface;
   surface.rows = surface.cols = 256;
@@ -29,7 +30,8 @@ HalfSpaceProblem pressed(double pressure) {
   return problem;
 }
 
-HalfSpaceProblem gaussian(int size, double correlation_length, double rms_height, int seed = 1, double pitch = 5e-9) {
+HalfSpaceProblem gaussian(int size, double correlation_length, double rms_height, int seed = 1,
+                          double pitch = 5e-9) {
   GaussianSurfaceOptions surface;
   surface.rows = surface.cols = size;
   surface.pitch_x = surface.pitch_y = pitch;
@@ -54,13 +56,15 @@ TEST(HardFrames, SoftSurfacesThatCloseInOneJumpAreSolvedAndCalledUnresolved) {
 }
 
 TEST(HardFrames, FewSmallContactsTakeFewProducts) {
-  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(512, 100e-9, 3e-9));
+  const SolvedHalfSpace solution =
+      HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(512, 100e-9, 3e-9));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_LT(solution.products, 60);  // 49; 275 by Newton's method on the whole frame
 }
 
 TEST(HardFrames, LargerFramesTakeNoMoreProductsForTheirContacts) {
-  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(1024, 100e-9, 3e-9));
+  const SolvedHalfSpace solution =
+      HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(1024, 100e-9, 3e-9));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   // 76 for five times the contacts of the frame above; 459 by Newton's method on the whole frame
   EXPECT_LT(solution.products, 95);
@@ -87,7 +91,9 @@ TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
     const auto isSame = [&](const ForcePoint& other) {
       return other.height == point.height && other.force == point.force;
     };
-    if (point.is_solved && std::any_of(solution.retraction.begin(), solution.retraction.end(), isSame)) ++shared;
+    if (point.is_solved &&
+        std::any_of(solution.retraction.begin(), solution.retraction.end(), isSame))
+      ++shared;
   }
   EXPECT_GT(shared, loading / 2);
   EXPECT_NEAR(solution.hysteresis / solution.work_of_adhesion, 0.0, 1e-9);
@@ -104,8 +110,11 @@ TEST(HardFrames, WhatFlowsHasAWayOutOfItsOwn) {
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   ASSERT_GT(solution.flowed_volume, 0.0);
-  const auto isStronger = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
-  const double loading = std::max_element(solution.approach.begin(), solution.approach.end(), isStronger)->force;
+  const auto isStronger = [](const ForcePoint& one, const ForcePoint& other) {
+    return one.force < other.force;
+  };
+  const double loading =
+      std::max_element(solution.approach.begin(), solution.approach.end(), isStronger)->force;
   EXPECT_GT(std::abs(solution.pull_off_force / loading - 1.0), 0.01);
 }
 
@@ -114,7 +123,8 @@ TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_LT(solution.products,
-            500);  // 418; 564 with an unloading branch of its own, 1519 in steps as for bodies that nothing presses
+            500);  // 418; 564 with an unloading branch of its own, 1519 in steps as for bodies that
+                   // nothing presses
   EXPECT_TRUE(solution.is_step_converged);
   const SolvedHalfSpace reference = inSmallSteps(problem);
   EXPECT_NEAR(solution.contact_area / reference.contact_area, 1.0, 5e-3);
@@ -122,7 +132,8 @@ TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
   EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
   EXPECT_NEAR(solution.work_of_adhesion / reference.work_of_adhesion, 1.0, 1e-2);
   EXPECT_NEAR(solution.contact_stiffness / reference.contact_stiffness, 1.0, 5e-3);
-  // between states far apart, too, the curve is that of small steps: the forces of both at the same heights
+  // between states far apart, too, the curve is that of small steps: the forces of both at the same
+  // heights
   std::size_t i = 0;
   for (const ForcePoint& point : solution.approach) {
     while (i + 1 < reference.approach.size() && reference.approach[i].height > point.height) ++i;
@@ -131,7 +142,8 @@ TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
     const ForcePoint& below = reference.approach[i];
     if (below.height > point.height) continue;
     const double share = (above.height - point.height) / (above.height - below.height);
-    EXPECT_NEAR(point.force / (above.force + share * (below.force - above.force)), 1.0, 0.02) << point.height;
+    EXPECT_NEAR(point.force / (above.force + share * (below.force - above.force)), 1.0, 0.02)
+        << point.height;
   }
 }
 
@@ -152,7 +164,8 @@ TEST(HardFrames, RestAloneIsTheRestOfTheWholePathForLess) {
   EXPECT_NEAR(rest.contact_stiffness / whole.contact_stiffness, 1.0, 5e-3);
   EXPECT_FALSE(rest.pressure.empty());
   EXPECT_LT(cv::norm(rest.gap, whole.gap, cv::NORM_INF), 0.02 * whole.range);
-  for (const double figure : {rest.pull_off_force, rest.work_of_adhesion, rest.hysteresis, rest.pull_off_uncertainty}) {
+  for (const double figure :
+       {rest.pull_off_force, rest.work_of_adhesion, rest.hysteresis, rest.pull_off_uncertainty}) {
     EXPECT_TRUE(std::isnan(figure)) << figure;
   }
   EXPECT_FALSE(rest.is_step_converged);
@@ -214,33 +227,37 @@ TEST(HardFrames, NearlyClosedFramesThatFlowAreSolvedInFewProducts) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_GT(solution.flowed_volume, 0.0);
   EXPECT_NEAR(solution.contact_fraction, 0.76, 0.02);
-  EXPECT_LT(solution.products, 3000);  // some 2000; no equilibrium after 3291 Newton steps with tangents of the law
+  EXPECT_LT(solution.products,
+            3000);  // some 2000; no equilibrium after 3291 Newton steps with tangents of the law
   expectTheAnswersOfSmallSteps(problem, HalfSpaceOptions(), solution);
 }
 
 TEST(HardFrames, NearBondingTakesFewProducts) {
-  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9));
+  const SolvedHalfSpace solution =
+      HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_LT(solution.products, 4200);  // 3757; 4641 with (K + shift)^-1 alone
   EXPECT_TRUE(solution.is_step_converged);
 }
 
 TEST(HardFrames, NoStepGoesOverTheJumpThatEndsTheBranchOfTheLargestForce) {
-  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9, 3));
+  const SolvedHalfSpace solution =
+      HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9, 3));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-  // with an eighth of the step; 16.3 uN where a step met a lower branch with the mean of its ends by chance
+  // with an eighth of the step; 16.3 uN where a step met a lower branch with the mean of its ends
+  // by chance
   EXPECT_NEAR(solution.pull_off_force / 17.796e-6, 1.0, 0.02);
 }
 
 TEST(HardFrames, SoftSurfacesHoldInUsualStepsWhatTheyDoInFineOnes) {
-  // from a stiff rest the force rises to its largest within a few hundredths of z0 and ends by a jump: the usual steps before
-  // went over both, and lost up to a fifth of it
+  // from a stiff rest the force rises to its largest within a few hundredths of z0 and ends by a
+  // jump: the usual steps before went over both, and lost up to a fifth of it
   int usual_newton_steps = 0;
   int fine_newton_steps = 0;
   for (const double modulus : {8e9, 12e9}) {
     for (int seed = 1; seed <= 6; ++seed) {
-      HalfSpaceProblem problem =
-          half_space_cases::onRigidPlane(gaussian(32, 30e-9, 0.25e-9, seed, 2.5e-9).surfaces.lower, modulus);
+      HalfSpaceProblem problem = half_space_cases::onRigidPlane(
+          gaussian(32, 30e-9, 0.25e-9, seed, 2.5e-9).surfaces.lower, modulus);
       HalfSpaceOptions options;
       options.flow = false;
       const SolvedHalfSpace usual = HalfSpaceSolver(options).solve(problem);
@@ -248,7 +265,8 @@ TEST(HardFrames, SoftSurfacesHoldInUsualStepsWhatTheyDoInFineOnes) {
       options.step *= 0.25;
       const SolvedHalfSpace fine = HalfSpaceSolver(options).solve(problem);
       ASSERT_EQ(fine.status, HalfSpaceStatus::kSolved) << fine.message;
-      EXPECT_NEAR(usual.pull_off_force / fine.pull_off_force, 1.0, 5e-3) << modulus << " Pa, seed " << seed;
+      EXPECT_NEAR(usual.pull_off_force / fine.pull_off_force, 1.0, 5e-3)
+          << modulus << " Pa, seed " << seed;
       usual_newton_steps += usual.newton_steps;
       fine_newton_steps += fine.newton_steps;
     }
@@ -261,7 +279,8 @@ TEST(HardFrames, WhatDoesNotAttractHoldsNothing) {
   options.attraction = false;
   const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(pressed(10e6));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-  EXPECT_EQ(solution.pull_off_force, 0.0);  // 2 nN where the curve between two states was a parabola that turned
+  EXPECT_EQ(solution.pull_off_force,
+            0.0);  // 2 nN where the curve between two states was a parabola that turned
   for (const ForcePoint& point : solution.retraction) EXPECT_LE(point.force, 0.0) << point.height;
 }
 
@@ -273,7 +292,8 @@ TEST(HardFrames, WhatCannotFlowTakesHardlyMoreProductsThanWhatCould) {
   options.flow = false;
   const SolvedHalfSpace elastic = HalfSpaceSolver(options).solve(problem);
   ASSERT_EQ(elastic.status, HalfSpaceStatus::kSolved) << elastic.message;
-  EXPECT_LT(elastic.products, 1.3 * could_flow.products);  // three times as many against the law's own wall
+  EXPECT_LT(elastic.products,
+            1.3 * could_flow.products);  // three times as many against the law's own wall
   EXPECT_NEAR(elastic.contact_area / could_flow.contact_area, 1.0, 2e-3);
   EXPECT_NEAR(elastic.pull_off_force / could_flow.pull_off_force, 1.0, 2e-3);
 }

@@ -1,4 +1,5 @@
-/// The half-space on what instruments measured. The folder is named by the environment variable MEMS_STICTION_SCANS.
+/// The half-space on what instruments measured. The folder is named by the environment variable
+/// MEMS_STICTION_SCANS.
 
 #include <cmath>
 #include <cstdlib>
@@ -37,10 +38,12 @@ TEST(MeasuredScans, AreSolvedWithinWhatTheLawAllows) {
     EXPECT_TRUE(usual.is_converged);
     EXPECT_GT(usual.pull_off_force, 0.0);
     const double area = kPart * kPart * problem.surfaces.lower.cellArea();
-    EXPECT_LT(usual.pull_off_force, 1.026 * work / usual.range * area);  // the largest traction everywhere
+    EXPECT_LT(usual.pull_off_force,
+              1.026 * work / usual.range * area);  // the largest traction everywhere
     EXPECT_GT(usual.work_of_adhesion, 0.0);
     EXPECT_LE(usual.work_of_adhesion, work);
-    EXPECT_GE(usual.hysteresis, -1e-3 * usual.work_of_adhesion);  // a cycle gains nothing but for the residual
+    EXPECT_GE(usual.hysteresis,
+              -1e-3 * usual.work_of_adhesion);  // a cycle gains nothing but for the residual
     options.step *= 0.5;
     const SolvedHalfSpace half = HalfSpaceSolver(options).solve(problem);
     ASSERT_EQ(half.status, HalfSpaceStatus::kSolved) << half.message;

@@ -18,7 +18,8 @@ class RevertibleDisplacementOf : public testing::TestWithParam<bool> {
   void step(float by) {
     const std::vector<float> move(kCols, by);
     const std::vector<float> traction(kCols, 2.0F * by);
-    for (int row = 0; row < kRows; ++row) displacement_.step(row, {1.0, move.data(), traction.data()});
+    for (int row = 0; row < kRows; ++row)
+      displacement_.step(row, {1.0, move.data(), traction.data()});
   }
   void begin(double share) {
     displacement_.begin(share, 0.25);

@@ -82,7 +82,9 @@ TEST(SolutionPause, EndlessUrgentWorkLeavesATenth) {
     EXPECT_GE(waited, std::min<Clock::duration>(9 * worked, SolutionPause::kLongestWait));
     most = std::min(most, waited - 9 * worked);
   }
-  EXPECT_LT(most, milliseconds(500));  // the best of them on a busy machine; a second if endless work held it
+  EXPECT_LT(
+      most,
+      milliseconds(500));  // the best of them on a busy machine; a second if endless work held it
 }
 
 TEST(SolutionPause, LongWorkDoesNotWaitForMoreThanASecond) {
@@ -141,8 +143,9 @@ TEST(SolutionPause, ASolutionInHoldIsCancelledSoon) {
   HalfSpaceProblem problem = sphere();
   problem.surfaces.lower = analytic::paraboloid(512, 512, 1e-9, 1e-9, 60e-9);
   SolvedHalfSpace solution;
-  std::thread solving(
-      [&] { solution = HalfSpaceSolver(half_space_cases::elastic(1.608e-10)).solve(problem, control); });
+  std::thread solving([&] {
+    solution = HalfSpaceSolver(half_space_cases::elastic(1.608e-10)).solve(problem, control);
+  });
   while (!has_begun) std::this_thread::sleep_for(milliseconds(1));
   const SolutionPause::Request request(pause);
   std::this_thread::sleep_for(milliseconds(50));

@@ -1,5 +1,6 @@
-/// The half-space against frames that an independent solver has solved. Their folder is named by the environment:
-/// MEMS_STICTION_HALF_SPACE holds reference.json and one 32-bit TIFF for each frame.
+/// The half-space against frames that an independent solver has solved. Their folder is named by
+/// the environment: MEMS_STICTION_HALF_SPACE holds reference.json and one 32-bit TIFF for each
+/// frame.
 
 #include <algorithm>
 #include <cmath>
@@ -31,19 +32,22 @@ double forceAt(const std::vector<ForcePoint>& curve, double height) {
 
 TEST(SolvedFrames, CurvesAndFiguresAreThoseOfAnotherSolver) {
   const char* const folder = std::getenv("MEMS_STICTION_HALF_SPACE");
-  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_HALF_SPACE names no folder of solved frames";
+  if (folder == nullptr)
+    GTEST_SKIP() << "MEMS_STICTION_HALF_SPACE names no folder of solved frames";
   std::ifstream file(std::string(folder) + "/reference.json");
   ASSERT_TRUE(file) << folder << "/reference.json cannot be read";
   const nlohmann::json reference = nlohmann::json::parse(file);
   ASSERT_FALSE(reference["frames"].empty());
   for (const auto& [name, frame] : reference["frames"].items()) {
     SCOPED_TRACE(name);
-    const HeightMap heights(cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
-                            frame["pitch"], frame["pitch"]);
-    const HalfSpaceProblem problem =
-        half_space_cases::onRigidPlane(heights, frame["contact_modulus"], reference["work_of_adhesion"]);
+    const HeightMap heights(
+        cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
+        frame["pitch"], frame["pitch"]);
+    const HalfSpaceProblem problem = half_space_cases::onRigidPlane(
+        heights, frame["contact_modulus"], reference["work_of_adhesion"]);
     HalfSpaceOptions options = half_space_cases::elastic(reference["z0"]);
-    options.step = 0.1;  // by default one height of the 180 is off by 2 %, where the curve falls by half within 0.2 z0
+    options.step = 0.1;  // by default one height of the 180 is off by 2 %, where the curve falls by
+                         // half within 0.2 z0
     const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
     ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
     const double pull_off = frame["pull_off_force"];
@@ -60,7 +64,8 @@ TEST(SolvedFrames, CurvesAndFiguresAreThoseOfAnotherSolver) {
         EXPECT_NEAR(solved, force, 0.01 * pull_off) << direction << " at " << height << " m";
       }
     }
-    // the reference has points at every fifth of z0 only: where it is right at them, its maximum is up to 3 % too small
+    // the reference has points at every fifth of z0 only: where it is right at them, its maximum is
+    // up to 3 % too small
     EXPECT_GT(solution.pull_off_force, 0.999 * pull_off);
     EXPECT_LT(solution.pull_off_force, 1.03 * pull_off);
     EXPECT_TRUE(solution.is_step_converged);

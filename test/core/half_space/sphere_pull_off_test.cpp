@@ -20,7 +20,9 @@ constexpr double kWork = 0.05;
 constexpr double kRange = 1.608e-10;
 
 /// Contact modulus that gives Tabor's parameter.
-double modulusOf(double tabor) { return std::sqrt(kRadius * kWork * kWork / std::pow(tabor * kRange, 3.0)); }
+double modulusOf(double tabor) {
+  return std::sqrt(kRadius * kWork * kWork / std::pow(tabor * kRange, 3.0));
+}
 
 /// Over pi Gamma R.
 double pullOff(double tabor, int pixels, double pitch) {
@@ -34,7 +36,8 @@ double pullOff(double tabor, int pixels, double pitch) {
 }
 
 TEST(SpherePullOff, StiffSphereIsBradleys) {
-  // 2 at Tabor's parameter 0; Maugis' exact value at 0.05 is within 1 % of it. Attraction beyond the frame of 32 nm: 1 %
+  // 2 at Tabor's parameter 0; Maugis' exact value at 0.05 is within 1 % of it. Attraction beyond
+  // the frame of 32 nm: 1 %
   const double maugis = maugis::pullOffPrefactor(maugis::transitionParameter(0.05));
   EXPECT_NEAR(pullOff(0.05, 64, 0.5e-9) / maugis, 1.0, 0.02);
 }

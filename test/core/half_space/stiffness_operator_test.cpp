@@ -64,19 +64,22 @@ struct Body {
 
 /// Every wave of a periodic frame needs stiffness_of(its wave number).
 template <typename StiffnessOf>
-void expectWaves(const Frame& frame, const ElasticResponse& response, const StiffnessOf& stiffness_of) {
-  const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y, HalfSpaceBoundary::kPeriodic);
+void expectWaves(const Frame& frame, const ElasticResponse& response,
+                 const StiffnessOf& stiffness_of) {
+  const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y,
+                           HalfSpaceBoundary::kPeriodic);
   SpectrumMemory memory;
   StiffnessOperator<double> stiffness(grid, response, 1, memory);
   for (int wave_y = 0; wave_y <= frame.rows / 2; wave_y += 2) {
     for (int wave_x = 0; wave_x <= frame.cols / 2; wave_x += 3) {
       const double q =
-          2.0 * kPi * std::hypot(wave_x / (frame.cols * frame.pitch_x), wave_y / (frame.rows * frame.pitch_y));
+          2.0 * kPi *
+          std::hypot(wave_x / (frame.cols * frame.pitch_x), wave_y / (frame.rows * frame.pitch_y));
       LargePageVector<double> wave(grid.size(), 0.0);
       for (int row = 0; row < frame.rows; ++row) {
         for (int col = 0; col < frame.cols; ++col) {
-          wave[grid.offset(row) + static_cast<std::size_t>(col)] =
-              std::cos(2.0 * kPi * (double(wave_x) * col / frame.cols - double(wave_y) * row / frame.rows));
+          wave[grid.offset(row) + static_cast<std::size_t>(col)] = std::cos(
+              2.0 * kPi * (double(wave_x) * col / frame.cols - double(wave_y) * row / frame.rows));
         }
       }
       LargePageVector<double> traction(grid.size(), 0.0);
@@ -94,8 +97,8 @@ TEST_P(StiffnessOfFrame, WaveNeedsHalfModulusTimesWaveNumber) {
 }
 
 TEST_P(StiffnessOfFrame, WaveNeedsTheStiffnessOfAPlateOrFilm) {
-  for (const Body& body :
-       {Body(8e-9, Backing::kFree), Body(8e-9, Backing::kBonded), Body(8e-9, Backing::kBonded, 5e9)}) {
+  for (const Body& body : {Body(8e-9, Backing::kFree), Body(8e-9, Backing::kBonded),
+                           Body(8e-9, Backing::kBonded, 5e9)}) {
     const WaveStiffness layers(body.lower, body.upper);
     expectWaves(GetParam(), ElasticResponse{body.contactModulus(), nullptr, &layers},
                 [&](double q) { return q > 0.0 ? layers.at(q) : 0.0; });
@@ -112,7 +115,8 @@ TEST(StiffnessOperator, ThickBodiesAnswerAsHalfSpacesToTheBit) {
     const WaveStiffness layers(body.lower, body.upper);
     StiffnessOperator<double> half_space(grid, body.contactModulus(), 1, memory);
     half_space.multiply(displacement.data(), of_half_space.data());
-    StiffnessOperator<double> thick(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+    StiffnessOperator<double> thick(grid, ElasticResponse{body.contactModulus(), nullptr, &layers},
+                                    1, memory);
     thick.multiply(displacement.data(), of_thick.data());
     EXPECT_EQ(of_half_space, of_thick);
     EXPECT_EQ(half_space.smallest(), thick.smallest());
@@ -126,12 +130,14 @@ TEST(StiffnessOperator, KnowsTheSoftestAndTheStiffestWave) {
   body.lower.poisson_ratio = 0.5;  // long waves and short ones are stiff
   const WaveStiffness layers(body.lower, body.upper);
   SpectrumMemory memory;
-  const StiffnessOperator<double> stiffness(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+  const StiffnessOperator<double> stiffness(
+      grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
   double smallest = 1e300, largest = 0.0;
   for (int row = 0; row <= 12; ++row) {
     for (int col = 0; col <= 15; ++col) {
       if (row + col == 0) continue;
-      const double of_wave = layers.at(2.0 * kPi * std::hypot(row / (24 * 4e-9), col / (30 * 5e-9)));
+      const double of_wave =
+          layers.at(2.0 * kPi * std::hypot(row / (24 * 4e-9), col / (30 * 5e-9)));
       smallest = std::min(smallest, of_wave);
       largest = std::max(largest, of_wave);
     }
@@ -145,7 +151,8 @@ double ofGaussianPressure(const WaveStiffness& layers, double width, double dist
   double sum = 0.0;
   const double step = 2e-3 / width;
   for (double q = 0.5 * step; q * width < 7.0; q += step) {
-    sum += step * q / layers.at(q) * width * width * std::exp(-0.5 * q * q * width * width) * ::j0(q * distance);
+    sum += step * q / layers.at(q) * width * width * std::exp(-0.5 * q * q * width * width) *
+           ::j0(q * distance);
   }
   return sum;
 }
@@ -163,10 +170,13 @@ TEST(StiffnessOperator, FilmsWithFreeEdgesGiveWayAsTheirWavesDo) {
       body.upper.thickness = 0.0;
       body.upper.youngs_modulus *= 3.0;
       const WaveStiffness layers(body.lower, body.upper);
-      StiffnessOperator<double> stiffness(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+      StiffnessOperator<double> stiffness(
+          grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
       EXPECT_GT(stiffness.smallest(), 0.0);
       LargePageVector<double> traction(grid.size(), 0.0), displacement(grid.size(), 0.0);
-      const auto place = [&](int row, int col) { return grid.offset(row) + static_cast<std::size_t>(col); };
+      const auto place = [&](int row, int col) {
+        return grid.offset(row) + static_cast<std::size_t>(col);
+      };
       for (int row = 0; row < cells; ++row) {
         for (int col = 0; col < cells; ++col) {
           const double r = pitch * std::hypot(row - cells / 2, col - cells / 2);
@@ -176,9 +186,11 @@ TEST(StiffnessOperator, FilmsWithFreeEdgesGiveWayAsTheirWavesDo) {
       stiffness.precondition(1e-12 * stiffness.smallest(), traction.data(), displacement.data());
       const double deepest = ofGaussianPressure(layers, width, 0.0);
       for (const int away : {0, 5, 17, 40}) {
-        EXPECT_NEAR(displacement[place(cells / 2, cells / 2 + away)], ofGaussianPressure(layers, width, away * pitch),
+        EXPECT_NEAR(displacement[place(cells / 2, cells / 2 + away)],
+                    ofGaussianPressure(layers, width, away * pitch),
                     1e-3 * deepest)
-            << pixels << ' ' << substrate << ' ' << away;  // the pressure of each cell is that of its middle
+            << pixels << ' ' << substrate << ' '
+            << away;  // the pressure of each cell is that of its middle
       }
     }
   }
@@ -205,15 +217,18 @@ void expectInverse(const Frame& frame, HalfSpaceBoundary boundary, double tolera
   for (int row = 0; row < grid.rows; ++row) {
     for (int col = 0; col < grid.cols; ++col) {
       const std::size_t i = grid.offset(row) + static_cast<std::size_t>(col);
-      ASSERT_NEAR(back[i] + shift * static_cast<double>(displacement[i]), traction[i] - mean, tolerance);
+      ASSERT_NEAR(back[i] + shift * static_cast<double>(displacement[i]), traction[i] - mean,
+                  tolerance);
     }
   }
   EXPECT_NEAR(product, expected_product, tolerance * expected_product + 1e-300);
 }
 
 TEST_P(StiffnessOfFrame, PreconditionerIsTheShiftedInverse) {
-  // round-off of the transforms of values up to 1, times the ratio of the stiffest wave to the shift
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  // round-off of the transforms of values up to 1, times the ratio of the stiffest wave to the
+  // shift
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     expectInverse<double>(GetParam(), boundary, 1e-12);
     expectInverse<float>(GetParam(), boundary, 1e-4);
   }
@@ -228,7 +243,8 @@ TEST_P(StiffnessOfFrame, PreconditionerIsTheShiftedInverse) {
 
 TEST_P(StiffnessOfFrame, FreeBoundaryAddsTheLoadsOfAllCells) {
   const Frame& frame = GetParam();
-  const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y, HalfSpaceBoundary::kFree);
+  const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y,
+                           HalfSpaceBoundary::kFree);
   SpectrumMemory memory;
   StiffnessOperator<double> stiffness(grid, kModulus, 1, memory);
   const LargePageVector<double> traction = noise<double>(grid, true);
@@ -241,7 +257,8 @@ TEST_P(StiffnessOfFrame, FreeBoundaryAddsTheLoadsOfAllCells) {
       double expected = 0.0;
       for (int y = 0; y < frame.rows; ++y) {
         for (int x = 0; x < frame.cols; ++x) {
-          // the midpoint rule for the integral of 1/r over the cell; an even number of points avoids r = 0
+          // the midpoint rule for the integral of 1/r over the cell; an even number of points
+          // avoids r = 0
           double integral = 0.0;
           for (int j = 0; j < fine; ++j) {
             for (int i = 0; i < fine; ++i) {
@@ -250,12 +267,14 @@ TEST_P(StiffnessOfFrame, FreeBoundaryAddsTheLoadsOfAllCells) {
               integral += frame.pitch_x * frame.pitch_y / (fine * fine) / std::hypot(dx, dy);
             }
           }
-          expected += integral / (kPi * kModulus) * traction[grid.offset(y) + static_cast<std::size_t>(x)];
+          expected +=
+              integral / (kPi * kModulus) * traction[grid.offset(y) + static_cast<std::size_t>(x)];
         }
       }
       // the midpoint rule misses 2 % of the loaded cell's own 1/r with 40 x 40 points
       const double own = 3.6 * std::max(frame.pitch_x, frame.pitch_y) / (kPi * kModulus);
-      ASSERT_NEAR(displacement[grid.offset(row) + static_cast<std::size_t>(col)], expected, 0.02 * own);
+      ASSERT_NEAR(displacement[grid.offset(row) + static_cast<std::size_t>(col)], expected,
+                  0.02 * own);
     }
   }
 }
@@ -264,13 +283,15 @@ TEST(StiffnessOperator, SetUpOfFreeEdgesEndsWhenCancelled) {
   const HalfSpaceGrid grid(40, 30, 1e-9, 1e-9, HalfSpaceBoundary::kFree);
   SpectrumMemory memory;
   std::atomic<bool> cancel{false};
-  EXPECT_TRUE(std::isfinite(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
+  EXPECT_TRUE(
+      std::isfinite(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
   cancel = true;
   EXPECT_TRUE(std::isinf(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
 }
 
 TEST(StiffnessOperator, ProductsEndWhenCancelled) {
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     const HalfSpaceGrid grid(40, 30, 1e-9, 1e-9, boundary);
     SpectrumMemory memory;
     std::atomic<bool> cancel{false};
@@ -284,15 +305,16 @@ TEST(StiffnessOperator, ProductsEndWhenCancelled) {
 }
 
 TEST(StiffnessOperator, BitsDoNotDependOnTheThreads) {
-  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+  for (const HalfSpaceBoundary boundary :
+       {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     const HalfSpaceGrid grid(45, 70, 1e-9, 1e-9, boundary);
     const LargePageVector<float> traction = noise<float>(grid, false);
     SpectrumMemory memory;
     LargePageVector<float> one(grid.size(), 0.0F), three(grid.size(), 0.0F);
-    const double product_of_one =
-        StiffnessOperator<float>(grid, kModulus, 1, memory).precondition(1e19, traction.data(), one.data());
-    const double product_of_three =
-        StiffnessOperator<float>(grid, kModulus, 3, memory).precondition(1e19, traction.data(), three.data());
+    const double product_of_one = StiffnessOperator<float>(grid, kModulus, 1, memory)
+                                      .precondition(1e19, traction.data(), one.data());
+    const double product_of_three = StiffnessOperator<float>(grid, kModulus, 3, memory)
+                                        .precondition(1e19, traction.data(), three.data());
     EXPECT_EQ(one, three);
     EXPECT_EQ(product_of_one, product_of_three);
   }

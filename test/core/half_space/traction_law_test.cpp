@@ -41,11 +41,13 @@ void expectDerivatives(const TractionLawOptions& options) {
     const auto below = law.at(gap - h);
     const auto above = law.at(gap + h);
     const auto here = law.at(gap);
-    // central differences: error h^2 of the third derivative; kinks only where a straight line begins
+    // central differences: error h^2 of the third derivative; kinks only where a straight line
+    // begins
     if (std::abs(gap - law.closestGap()) < 2.0 * h) continue;
     const double scale = std::abs(here.traction) + law.stress();
     EXPECT_NEAR((above.energy - below.energy) / (2.0 * h), here.traction, 1e-6 * scale) << gap / z0;
-    EXPECT_NEAR((above.traction - below.traction) / (2.0 * h), here.slope, 1e-6 * (std::abs(here.slope) + scale / z0))
+    EXPECT_NEAR((above.traction - below.traction) / (2.0 * h), here.slope,
+                1e-6 * (std::abs(here.slope) + scale / z0))
         << gap / z0;
   }
 }
@@ -72,7 +74,8 @@ TEST(TractionLaw, WaterAddsItsEnergyPerArea) {
   EXPECT_NEAR(law.at(0.8 * law.range()).energy - TractionLaw(dry).at(0.8 * law.range()).energy,
               -water.pressure() * water.gapLimit(), 1e-12);
   const double inside = law.range() + 0.5 * water.gapLimit();
-  EXPECT_NEAR(law.at(inside).traction - TractionLaw(dry).at(inside).traction, water.pressure(), 1e-3);
+  EXPECT_NEAR(law.at(inside).traction - TractionLaw(dry).at(inside).traction, water.pressure(),
+              1e-3);
   EXPECT_GT(law.reach(), law.range() + water.gapLimit());
 }
 
@@ -116,7 +119,8 @@ TEST(TractionLaw, UpToAPressureItIsTheSameAndBeyondItsTangent) {
   EXPECT_EQ(wall.steepUpTo(1e30).closestGap(), wall.closestGap());  // its own line begins before
   TractionLawOptions flowing;
   flowing.hardness = 5e9;
-  EXPECT_EQ(TractionLaw(flowing).steepUpTo(1e9).at(inside).traction, TractionLaw(flowing).at(inside).traction);
+  EXPECT_EQ(TractionLaw(flowing).steepUpTo(1e9).at(inside).traction,
+            TractionLaw(flowing).at(inside).traction);
 }
 
 TEST(TractionLaw, WithoutAttractionActsBelowItsRangeOnly) {
@@ -170,7 +174,8 @@ TEST(TractionLaw, SecantsGoOnAlongTheLineBehindTheNarrowestGap) {
   EXPECT_NEAR(law.secant(gap, law.at(gap).traction, law.at(other).traction) / begin, 1.0, 1e-9);
   const double wide = 0.6 * law.range();
   const double expected = (law.at(other).traction - law.at(wide).traction) / (other - wide);
-  EXPECT_NEAR(law.secant(wide, law.at(wide).traction, law.at(other).traction) / expected, 1.0, 1e-3);
+  EXPECT_NEAR(law.secant(wide, law.at(wide).traction, law.at(other).traction) / expected, 1.0,
+              1e-3);
 }
 
 TEST(TractionLaw, SecantsEndWhereTheSurfacesFlow) {
@@ -195,11 +200,13 @@ TEST(TractionLaw, TheGapUnderAPressureHasIt) {
 
 TEST(TractionLaw, SecantsOfSeveralGapsAreThoseOfEach) {
   const TractionLaw law{TractionLawOptions()};
-  const double gaps[] = {0.4 * law.range(), 0.6 * law.range(), 0.9 * law.range(), 0.97 * law.range()};
-  const double tractions[] = {law.at(gaps[0]).traction, law.at(gaps[1]).traction, law.at(gaps[2]).traction,
-                              law.at(gaps[3]).traction};
+  const double gaps[] = {0.4 * law.range(), 0.6 * law.range(), 0.9 * law.range(),
+                         0.97 * law.range()};
+  const double tractions[] = {law.at(gaps[0]).traction, law.at(gaps[1]).traction,
+                              law.at(gaps[2]).traction, law.at(gaps[3]).traction};
   const double others[] = {-3e9, -1e14, 0.0, -2e8};
-  const Packet secants = law.secant(Packet::load(gaps), Packet::load(tractions), Packet::load(others));
+  const Packet secants =
+      law.secant(Packet::load(gaps), Packet::load(tractions), Packet::load(others));
   for (std::size_t i = 0; i < Packet::kCount; ++i) {
     EXPECT_DOUBLE_EQ(secants[i], law.secant(gaps[i], tractions[i], others[i])) << i;
   }

@@ -40,7 +40,8 @@ TEST(HeightMap, ADoubleCopyHoldsItsOwnPixelsOrTheOwnerOfThose) {
 
   auto doubles = std::make_shared<std::vector<double>>(4, 5.0);
   const std::weak_ptr<std::vector<double>> watched = doubles;
-  const HeightMap same = HeightMap(cv::Mat(2, 2, CV_64FC1, doubles->data()), 1e-9, 1e-9, doubles).asDouble();
+  const HeightMap same =
+      HeightMap(cv::Mat(2, 2, CV_64FC1, doubles->data()), 1e-9, 1e-9, doubles).asDouble();
   doubles.reset();
   ASSERT_FALSE(watched.expired());
   EXPECT_EQ(same.height(1, 0), 5.0);

@@ -44,7 +44,8 @@ TEST(RawScan, EveryAcceptedTypeIsScaledInDouble) {
     ASSERT_EQ(map.heights().type(), CV_64FC1);
     for (int row = 0; row < 2; ++row) {
       // Exactly the formula, so exactly its value.
-      for (int col = 0; col < 3; ++col) EXPECT_EQ(map.height(row, col), (10 * row + col) * 0.5e-9 + 7e-9) << type;
+      for (int col = 0; col < 3; ++col)
+        EXPECT_EQ(map.height(row, col), (10 * row + col) * 0.5e-9 + 7e-9) << type;
     }
   }
 }
@@ -91,7 +92,8 @@ TEST(RawScan, QualityChannelOnlyCountsWhenNotANumber) {
 TEST(RawScan, RowsWithPaddingAreRead) {
   cv::Mat wide(4, 8, CV_16UC1);
   for (int row = 0; row < 4; ++row) {
-    for (int col = 0; col < 8; ++col) wide.at<std::uint16_t>(row, col) = static_cast<std::uint16_t>(10 * row + col);
+    for (int col = 0; col < 8; ++col)
+      wide.at<std::uint16_t>(row, col) = static_cast<std::uint16_t>(10 * row + col);
   }
   const HeightMap map = heightMapFromPixels(wide(cv::Rect(2, 1, 3, 2)), options());
   EXPECT_EQ(map.height(0, 0), 12.0);

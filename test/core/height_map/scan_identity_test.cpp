@@ -21,7 +21,8 @@ TEST(ScanIdentity, HalfASiteIsNamed) {
   identity.site_y = 0.0;
   EXPECT_EQ(identityComplaints(identity, ""), Lines());
   identity.site_x = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(identityComplaints(identity, ""), Lines{"site_y: 0 is stated without site_x: state both, or none"});
+  EXPECT_EQ(identityComplaints(identity, ""),
+            Lines{"site_y: 0 is stated without site_x: state both, or none"});
 }
 
 TEST(ScanIdentity, InfinitePlacesAndTextsThatNobodyReadsAreNamed) {

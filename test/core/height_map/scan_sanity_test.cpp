@@ -29,7 +29,8 @@ std::string said(const HeightMap& scan) {
   return text;
 }
 
-HeightMap rough(double pitch_x, double pitch_y, double rms_height, double correlation_pixels = 8.0) {
+HeightMap rough(double pitch_x, double pitch_y, double rms_height,
+                double correlation_pixels = 8.0) {
   GaussianSurfaceOptions options;
   options.rows = 64;
   options.cols = 96;
@@ -44,7 +45,8 @@ HeightMap rough(double pitch_x, double pitch_y, double rms_height, double correl
 HeightMap tilted(const HeightMap& scan, double slope) {
   cv::Mat heights = scan.asDouble().heights().clone();
   for (int row = 0; row < heights.rows; ++row) {
-    for (int col = 0; col < heights.cols; ++col) heights.at<double>(row, col) += slope * col * scan.pitchX();
+    for (int col = 0; col < heights.cols; ++col)
+      heights.at<double>(row, col) += slope * col * scan.pitchX();
   }
   return {heights, scan.pitchX(), scan.pitchY()};
 }
@@ -64,9 +66,11 @@ TEST(ScanSanity, PlausibleScansGiveNoWarning) {
 }
 
 TEST(ScanSanity, PitchOutsideOnePicometreToOneMillimetre) {
-  EXPECT_TRUE(mentions(scanWarnings(wave(20.0, 5e-9)), "pitch_x 20 m is above 1 mm: probably nm or um"));
+  EXPECT_TRUE(
+      mentions(scanWarnings(wave(20.0, 5e-9)), "pitch_x 20 m is above 1 mm: probably nm or um"));
   EXPECT_TRUE(mentions(scanWarnings(wave(20.0, 5e-9)), "was 2e-08 m meant?"));
-  EXPECT_TRUE(mentions(scanWarnings(wave(20e-15, 5e-24)), "pitch_y 2e-14 m is below 1 pm: probably converted"));
+  EXPECT_TRUE(mentions(scanWarnings(wave(20e-15, 5e-24)),
+                       "pitch_y 2e-14 m is below 1 pm: probably converted"));
   EXPECT_FALSE(mentions(scanWarnings(wave(1e-3, 5e-3)), "pitch"));
   EXPECT_FALSE(mentions(scanWarnings(wave(1e-12, 5e-13)), "pitch"));
 }
@@ -84,7 +88,8 @@ TEST(ScanSanity, APitchThatIsAThousandTimesTooLargeOrSmall) {
 
 TEST(ScanSanity, PixelsFarLongerThanWide) {
   const std::string tall = said(rough(20e-9, 20e-6, 3e-9));
-  EXPECT_NE(tall.find("pitch_x 2e-08 m and pitch_y 2e-05 m: pixels 1000 times as long as wide"), std::string::npos)
+  EXPECT_NE(tall.find("pitch_x 2e-08 m and pitch_y 2e-05 m: pixels 1000 times as long as wide"),
+            std::string::npos)
       << tall;
   EXPECT_NE(tall.find("instead of 2e-05 m was 2e-08 m meant?"), std::string::npos) << tall;
   const std::string wide = said(rough(2e-12, 2e-9, 1e-9));
@@ -102,27 +107,35 @@ TEST(ScanSanity, HeightsInMetresThatWereScaledAgain) {
   for (const double factor : {1e-3, 1e-6, 1e-9}) {
     const std::string line = said(rough(20e-9, 20e-9, 5e-9 * factor));
     EXPECT_NE(line.find("rms slope"), std::string::npos) << line;
-    EXPECT_NE(line.find("times as large (scan/height_scale on heights in metres)"), std::string::npos) << line;
+    EXPECT_NE(line.find("times as large (scan/height_scale on heights in metres)"),
+              std::string::npos)
+        << line;
   }
   EXPECT_NE(said(rough(20e-9, 20e-9, 5e-18)).find("1e+09 times as large"), std::string::npos);
 }
 
 TEST(ScanSanity, FramesThatSayNothingAboutRoughness) {
-  for (const cv::Size size : {cv::Size(1, 1), cv::Size(512, 1), cv::Size(1, 512), cv::Size(512, 7)}) {
+  for (const cv::Size size :
+       {cv::Size(1, 1), cv::Size(512, 1), cv::Size(1, 512), cv::Size(512, 7)}) {
     const HeightMap frame(cv::Mat::eye(size, CV_64FC1) * 1e-9, 20e-9, 20e-9);
     const std::string line = said(frame);
-    EXPECT_NE(line.find("a frame of " + std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels"),
+    EXPECT_NE(line.find("a frame of " + std::to_string(size.width) + " x " +
+                        std::to_string(size.height) + " pixels"),
               std::string::npos)
         << line;
   }
-  EXPECT_NE(said(analytic::flat(64, 64, 1e-9, 1e-9, 3e-9)).find("every height is 3e-09 m says nothing about roughness"),
+  EXPECT_NE(said(analytic::flat(64, 64, 1e-9, 1e-9, 3e-9))
+                .find("every height is 3e-09 m says nothing about roughness"),
             std::string::npos);
-  EXPECT_NE(said(tilted(analytic::flat(64, 64, 20e-9, 20e-9), 0.1)).find("rms slope"), std::string::npos) << "a plane";
+  EXPECT_NE(said(tilted(analytic::flat(64, 64, 20e-9, 20e-9), 0.1)).find("rms slope"),
+            std::string::npos)
+      << "a plane";
 }
 
 TEST(ScanSanity, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields
-  for (const HeightMap& scan : {wave(20.0, 5.0), wave(20e-15, 5e-9), wave(20e-6, 5e-9), rough(2e-8, 2e-5, 3e-9),
-                                analytic::flat(4, 4, 1e-9, 1e-9), analytic::asSingle(wave(20e-9, 1e-9, 5e-3))}) {
+  for (const HeightMap& scan :
+       {wave(20.0, 5.0), wave(20e-15, 5e-9), wave(20e-6, 5e-9), rough(2e-8, 2e-5, 3e-9),
+        analytic::flat(4, 4, 1e-9, 1e-9), analytic::asSingle(wave(20e-9, 1e-9, 5e-3))}) {
     EXPECT_NE(said(scan), "");
     EXPECT_EQ(said(scan).find(','), std::string::npos) << said(scan);
   }
@@ -132,12 +145,14 @@ TEST(ScanSanity, StageOffsetThatSwallowsTheRoughness) {
   // float32 numbers near 5 mm are 0.47 nm apart; the sine's rms is 1 nm / sqrt(2).
   const HeightMap scan = wave(20e-9, 1e-9, 5e-3);
   EXPECT_TRUE(mentions(scanWarnings(analytic::asSingle(scan)), "stage offset"));
-  EXPECT_TRUE(mentions(scanWarnings(analytic::asSingle(scan).asDouble()), "stage offset")) << "widened afterwards";
+  EXPECT_TRUE(mentions(scanWarnings(analytic::asSingle(scan).asDouble()), "stage offset"))
+      << "widened afterwards";
   EXPECT_TRUE(scanWarnings(scan).empty()) << "double all the way loses nothing";
 }
 
 TEST(ScanSanity, NoValidPixelIsLeftToThePrediction) {
-  const HeightMap empty(cv::Mat(4, 4, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN())), 1e-9, 1e-9);
+  const HeightMap empty(
+      cv::Mat(4, 4, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN())), 1e-9, 1e-9);
   EXPECT_TRUE(scanWarnings(empty).empty());
 }
 

@@ -23,10 +23,13 @@ HeightMap mapOf(const cv::Mat& heights) { return {heights, 1e-8, 1e-8}; }
 /// Pixels that were valid and are none now.
 int leftOut(const cv::Mat& heights) {
   return cv::countNonZero(heights == heights) -
-         cv::countNonZero(measuredPart(mapOf(heights)).heights() == measuredPart(mapOf(heights)).heights());
+         cv::countNonZero(measuredPart(mapOf(heights)).heights() ==
+                          measuredPart(mapOf(heights)).heights());
 }
 
-bool isShared(const cv::Mat& heights) { return measuredPart(mapOf(heights)).heights().data == heights.data; }
+bool isShared(const cv::Mat& heights) {
+  return measuredPart(mapOf(heights)).heights().data == heights.data;
+}
 
 TEST(StoppedLines, WhatAStoppedScanIsFilledWithIsMissing) {
   for (const int type : {CV_32FC1, CV_64FC1}) {
@@ -37,8 +40,10 @@ TEST(StoppedLines, WhatAStoppedScanIsFilledWithIsMissing) {
       const HeightMap measured = measuredPart(mapOf(heights));
       EXPECT_EQ(leftOut(heights), 17 * 32);
       EXPECT_TRUE(std::isnan(measured.height(31, 0)) && std::isfinite(measured.height(30, 0)));
-      EXPECT_EQ(heights.depth() == CV_32F ? static_cast<double>(heights.at<float>(47, 0)) : heights.at<double>(47, 0),
-                heights.depth() == CV_32F ? static_cast<double>(static_cast<float>(filler)) : filler)
+      EXPECT_EQ(
+          heights.depth() == CV_32F ? static_cast<double>(heights.at<float>(47, 0))
+                                    : heights.at<double>(47, 0),
+          heights.depth() == CV_32F ? static_cast<double>(static_cast<float>(filler)) : filler)
           << "the pixels that came are as they were";
     }
   }
@@ -102,7 +107,8 @@ TEST(StoppedLines, FlatFramesOfGeneratorsStayWhole) {
     for (int j = 0; j < 41; ++j) {
       if (i < 40 && j < 40) grating.at<double>(i, j) = i / 5 % 2 == 0 ? 0.0 : 1e-8;
       if (i < 40 && j < 40) tilt.at<double>(i, j) = i * 1e-9;
-      cap.at<double>(i, j) = std::max(0.0, 2e-8 - 1e-10 * ((i - 20) * (i - 20) + (j - 20) * (j - 20)));
+      cap.at<double>(i, j) =
+          std::max(0.0, 2e-8 - 1e-10 * ((i - 20) * (i - 20) + (j - 20) * (j - 20)));
     }
   }
   EXPECT_TRUE(isShared(grating) && isShared(grating.t()));
@@ -110,7 +116,8 @@ TEST(StoppedLines, FlatFramesOfGeneratorsStayWhole) {
   EXPECT_TRUE(isShared(step) && isShared(step.t()));
   EXPECT_TRUE(isShared(cap)) << "its plane goes on beside it";
   EXPECT_TRUE(isShared(cap(cv::Range(0, 20), cv::Range(0, 20)).clone())) << "a cap in the corner";
-  EXPECT_TRUE(isShared(rough(1, 50)) && isShared(rough(50, 1)) && isShared(cv::Mat(1, 50, CV_64FC1, cv::Scalar(1e-9))));
+  EXPECT_TRUE(isShared(rough(1, 50)) && isShared(rough(50, 1)) &&
+              isShared(cv::Mat(1, 50, CV_64FC1, cv::Scalar(1e-9))));
 }
 
 TEST(StoppedLines, FewPixelsOfOneValueAreChance) {

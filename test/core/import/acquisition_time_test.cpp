@@ -32,15 +32,16 @@ TEST(AcquisitionTime, DatesOfMakersAreWrittenByIso8601) {
 }
 
 TEST(AcquisitionTime, WhatCanBeReadInTwoWaysOrIsNoDayOfTheCalendarStays) {
-  for (const char* text : {"03/11/2011, 20:23:46.484", "2011-02-29", "2011-13-01", "2011-10-20 25:00",
-                           "2011-10-20 13:00 PM", "2011-10-20 2012-10-20", "1-2-03", "20.10.2011 in the morning"}) {
+  for (const char* text :
+       {"03/11/2011, 20:23:46.484", "2011-02-29", "2011-13-01", "2011-10-20 25:00",
+        "2011-10-20 13:00 PM", "2011-10-20 2012-10-20", "1-2-03", "20.10.2011 in the morning"}) {
     EXPECT_EQ(acquisitionTime(text), text);
   }
 }
 
 TEST(AcquisitionTime, WhatNamesNoDayIsNone) {
-  for (const char* text : {"", "0. 0. 0", "0000-00-00 00:00:00", "1970-01-01T01:00:00", "12.5 s", "1414156",
-                           "yesterday", "15:48:33", "Oct"}) {
+  for (const char* text : {"", "0. 0. 0", "0000-00-00 00:00:00", "1970-01-01T01:00:00", "12.5 s",
+                           "1414156", "yesterday", "15:48:33", "Oct"}) {
     EXPECT_EQ(acquisitionTime(text), "") << text;
   }
   EXPECT_EQ(acquisitionTime(std::string(100000, '1')), "");

@@ -25,7 +25,9 @@ std::string refusal(const std::string& path) {
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(FileBytes, PipesAndDevicesAreRefusedWithoutWaiting) {
   const ScratchFolder folder;
@@ -39,7 +41,8 @@ TEST(FileBytes, PipesAndDevicesAreRefusedWithoutWaiting) {
 TEST(FileBytes, TooLargeAFileIsRefusedBeforeItIsRead) {
   const ScratchFolder folder;
   folder.write("large.txt", "1 2\n");
-  std::filesystem::resize_file(folder.file("large.txt"), kMaxFileBytes + 1);  // a hole: no disk is used
+  std::filesystem::resize_file(folder.file("large.txt"),
+                               kMaxFileBytes + 1);  // a hole: no disk is used
   EXPECT_TRUE(mentions(refusal(folder.file("large.txt")), "more than the"));
 }
 
@@ -47,13 +50,16 @@ TEST(FileBytes, TooLargeAFileIsRefusedBeforeItIsRead) {
 
 std::string zip(const std::string& content, std::uint32_t checksum, const std::string& name = "a") {
   const std::string name_size = littleBytes(static_cast<std::uint16_t>(name.size()));
-  const std::string sizes = littleBytes(checksum) + littleBytes(static_cast<std::uint32_t>(content.size())) +
+  const std::string sizes = littleBytes(checksum) +
+                            littleBytes(static_cast<std::uint32_t>(content.size())) +
                             littleBytes(static_cast<std::uint32_t>(content.size()));
-  const std::string stored = std::string(2, '\0') + std::string(2, '\0') + std::string(4, '\0') + sizes;
-  const std::string local =
-      "PK\3\4" + littleBytes(std::uint16_t{20}) + stored + name_size + littleBytes(std::uint16_t{0}) + name + content;
-  const std::string entry = "PK\1\2" + littleBytes(std::uint16_t{20}) + littleBytes(std::uint16_t{20}) + stored +
-                            name_size + std::string(16, '\0') + name;
+  const std::string stored =
+      std::string(2, '\0') + std::string(2, '\0') + std::string(4, '\0') + sizes;
+  const std::string local = "PK\3\4" + littleBytes(std::uint16_t{20}) + stored + name_size +
+                            littleBytes(std::uint16_t{0}) + name + content;
+  const std::string entry = "PK\1\2" + littleBytes(std::uint16_t{20}) +
+                            littleBytes(std::uint16_t{20}) + stored + name_size +
+                            std::string(16, '\0') + name;
   return local + entry + "PK\5\6" + std::string(4, '\0') + littleBytes(std::uint16_t{1}) +
          littleBytes(std::uint16_t{1}) + littleBytes(static_cast<std::uint32_t>(entry.size())) +
          littleBytes(static_cast<std::uint32_t>(local.size())) + std::string(2, '\0');
@@ -78,7 +84,8 @@ TEST(ZipCheck, AnX3pWithItsFilesInAFolderSaysSo) {
 
 TEST(ZipCheck, AFlippedByteInAPublicArchiveIsRefused) {
   const char* folder = std::getenv("MEMS_STICTION_SCANS");
-  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  if (folder == nullptr)
+    GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
   std::string bytes = ScratchFolder::read(std::string(folder) + "/x3p-2.x3p");
   EXPECT_NO_THROW(checkZip(bytes));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);

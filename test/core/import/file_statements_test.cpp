@@ -20,19 +20,23 @@ TEST(FileStatements, NamesOfMakersAreKnownInAnySection) {
   EXPECT_EQ(x3p.acquisition_time, "2011-10-20T15:48:33");
   EXPECT_EQ(x3p.operator_name, "A. Worker");
   EXPECT_EQ(x3p.instrument, "Maker Two, serial number 0012");
-  const ScanIdentity wsxm = identityFrom({{"General Info/Acquisition time", "20/11/2011, 20:23:46.484"},
-                                          {"General Info/Head type", "AFM"},
-                                          {"Miscellaneous/Dulcinea serial number", "24"}});
+  const ScanIdentity wsxm =
+      identityFrom({{"General Info/Acquisition time", "20/11/2011, 20:23:46.484"},
+                    {"General Info/Head type", "AFM"},
+                    {"Miscellaneous/Dulcinea serial number", "24"}});
   EXPECT_EQ(wsxm.acquisition_time, "2011-11-20T20:23:46.484");
   EXPECT_EQ(wsxm.instrument, "AFM, serial number 24");
-  const ScanIdentity wyko = identityFrom({{"Date", "7/7/2015"}, {"Time", "16:19:48"}, {"User Name", "ann"}});
+  const ScanIdentity wyko =
+      identityFrom({{"Date", "7/7/2015"}, {"Time", "16:19:48"}, {"User Name", "ann"}});
   EXPECT_EQ(wyko.acquisition_time, "2015-07-07T16:19:48");
   EXPECT_EQ(wyko.operator_name, "ann");
 }
 
 TEST(FileStatements, WhatSaysThatNothingIsKnownIsNotStated) {
-  const ScanIdentity none = identityFrom(
-      {{"Date", "1970-01-01T01:00:00"}, {"Operator", " "}, {"Serial", "not available"}, {"Instrument", "Unknown"}});
+  const ScanIdentity none = identityFrom({{"Date", "1970-01-01T01:00:00"},
+                                          {"Operator", " "},
+                                          {"Serial", "not available"},
+                                          {"Instrument", "Unknown"}});
   EXPECT_EQ(none.acquisition_time + none.operator_name + none.instrument, "");
 }
 
@@ -40,7 +44,8 @@ TEST(FileStatements, AreShortLinesOfUtf8) {
   const ScanIdentity hostile = identityFrom({{"Operator", "\x1b[31mann\nbob\xff"},
                                              {"Instrument", std::string(1000000, 'a')},
                                              {"Acquisition time", std::string(1000000, '1')}});
-  EXPECT_EQ(hostile.operator_name, "\\x1b[31mann; bob\xc3\xbf") << "a byte that is no UTF-8 is one of Latin-1";
+  EXPECT_EQ(hostile.operator_name, "\\x1b[31mann; bob\xc3\xbf")
+      << "a byte that is no UTF-8 is one of Latin-1";
   EXPECT_EQ(hostile.instrument.size(), 200u);
   EXPECT_EQ(hostile.instrument.substr(196), "a...");
   EXPECT_EQ(hostile.acquisition_time, "");
@@ -58,8 +63,10 @@ TEST(FileStatements, AreShortLinesOfUtf8) {
 TEST(FileStatements, OfAGwyChannelAreThoseOfItsMetadata) {
   using namespace gwy_bytes;
   const std::string meta =
-      object("/1/meta", "GwyContainer", text("Date", "20.10.2011") + integer("Count", 3) + text("Operator", "ann"));
-  const auto channels = parseGwy(file(field("/0/data", 1, 1, {1e-9}) + field("/1/data", 1, 1, {1e-9}) + meta));
+      object("/1/meta", "GwyContainer",
+             text("Date", "20.10.2011") + integer("Count", 3) + text("Operator", "ann"));
+  const auto channels =
+      parseGwy(file(field("/0/data", 1, 1, {1e-9}) + field("/1/data", 1, 1, {1e-9}) + meta));
   ASSERT_EQ(channels.size(), 2u);
   EXPECT_EQ(channels[0].identity.operator_name, "");
   EXPECT_EQ(channels[1].identity.operator_name, "ann");
@@ -68,12 +75,15 @@ TEST(FileStatements, OfAGwyChannelAreThoseOfItsMetadata) {
 
 TEST(FileStatements, OfNanoscopeAreThoseOfItsFirstList) {
   const std::string header =
-      "\\*File list\r\n\\Date: 01:33:51 PM Mon Dec 15 2014\r\n\\*Equipment list\r\n\\Microscope: Dimension V\r\n"
-      "\\Serial Number: Hybrid 306  \r\n\\*Ciao image list\r\n\\Date: 01:33:51 PM Mon Dec 15 2015\r\n\x1a";
+      "\\*File list\r\n\\Date: 01:33:51 PM Mon Dec 15 2014\r\n\\*Equipment list\r\n\\Microscope: "
+      "Dimension V\r\n"
+      "\\Serial Number: Hybrid 306  \r\n\\*Ciao image list\r\n\\Date: 01:33:51 PM Mon Dec 15 "
+      "2015\r\n\x1a";
   const ScanIdentity identity = checkedNanoscope(header).identity;
   EXPECT_EQ(identity.acquisition_time, "2014-12-15T13:33:51");
   EXPECT_EQ(identity.instrument, "Dimension V, serial number Hybrid 306");
-  EXPECT_EQ(checkedNanoscope("\\Date: 01:33:51 PM Mon Dec 15 2014").identity.acquisition_time, "") << "another file";
+  EXPECT_EQ(checkedNanoscope("\\Date: 01:33:51 PM Mon Dec 15 2014").identity.acquisition_time, "")
+      << "another file";
 }
 
 }  // namespace

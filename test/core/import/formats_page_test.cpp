@@ -1,4 +1,5 @@
-/// The table of formats in doc/scans.md: every row of it is read, and keeps its missing data as it says.
+/// The table of formats in doc/scans.md: every row of it is read, and keeps its missing data as it
+/// says.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,8 @@ std::set<std::string> rowsOfThePage() {
 
 /// A file, made in the folder or public, and how many of its pixels are missing.
 struct Example {
-  std::function<std::string(const ScratchFolder&)> make;  ///< the path; empty if it cannot be had here
+  std::function<std::string(const ScratchFolder&)>
+      make;  ///< the path; empty if it cannot be had here
   int missing = 0;
 };
 
@@ -76,8 +78,10 @@ std::string npyWithNan() {
 }
 
 std::string sdf() {
-  return "aISO-1.0\r\nManufacID = maker\r\nCreateDate = 010120260000\r\nModDate = 010120260000\r\nNumPoints = 3\r\n"
-         "NumProfiles = 2\r\nXscale = 1e-6\r\nYscale = 2e-6\r\nZscale = 1e-9\r\nZresolution = -1\r\nCompression = 0\r\n"
+  return "aISO-1.0\r\nManufacID = maker\r\nCreateDate = 010120260000\r\nModDate = "
+         "010120260000\r\nNumPoints = 3\r\n"
+         "NumProfiles = 2\r\nXscale = 1e-6\r\nYscale = 2e-6\r\nZscale = 1e-9\r\nZresolution = "
+         "-1\r\nCompression = 0\r\n"
          "DataType = 7\r\nCheckType = 0\r\n*\r\n1 2 3\r\n4 5 7\r\n*\r\n";
 }
 
@@ -96,7 +100,9 @@ const std::map<std::string, std::vector<Example>> kRows = {
      {written("a.txt", "1.5 nan\n2.5 3.5\n", 1), written("a.asc", "1.5\tinf\n2.5\t3.5\n", 1),
       written("a.csv", "1.5,,2\n4,5,6\n", 1)}},
     {"`.xyz`", {written("a.xyz", "0 0 1.5\n1 0 2.5\n0 1 0.5\n1 1 0.25\n0 2 7.5\n", 1)}},
-    {"`.grd`", {written("a.grd", "DSAA\n3 2\n0 2e-9\n0 1e-9\n0 1e-9\n0 1e-9 0\n2e-9 1.70141e+38 5e-10\n", 1)}},
+    {"`.grd`",
+     {written("a.grd", "DSAA\n3 2\n0 2e-9\n0 1e-9\n0 1e-9\n0 1e-9 0\n2e-9 1.70141e+38 5e-10\n",
+              1)}},
     {"`.gwy`", {written("a.gwy", gwy_bytes::example(), 1)}},
     {"`.stp` `.top`", {written("a.stp", wsxmImage(), 0), published("top-1.top")}},
     {"`.gsf`", {written("a.gsf", gsf("XYUnits = m\nZUnits = m\n", true), 1)}},
@@ -127,7 +133,8 @@ TEST(FormatsPage, EveryRowIsReadAndKeepsItsMissingData) {
       if (path.empty()) continue;
       SCOPED_TRACE(row + " " + path);
       const HeightMap surface = readScanFile(path, options);
-      EXPECT_EQ(surface.rows() * surface.cols() - cv::countNonZero(validMask(surface.heights())), example.missing);
+      EXPECT_EQ(surface.rows() * surface.cols() - cv::countNonZero(validMask(surface.heights())),
+                example.missing);
       ++read;
     }
   }

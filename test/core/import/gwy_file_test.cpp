@@ -35,9 +35,9 @@ TEST(GwyFile, ChannelsCarrySizeUnitAndTitle) {
 
 TEST(GwyFile, UnitsWithAPrefixAreReadAndAmperesAreNone) {
   const auto channelIn = [](const std::string& unit_xy, const std::string& unit_z) {
-    const std::string content = integer("xres", 2) + integer("yres", 2) + real("xreal", 4.0) + real("yreal", 2.0) +
-                                unit("si_unit_xy", unit_xy) + unit("si_unit_z", unit_z) +
-                                reals("data", {1.0, 2.0, 3.0, 4.0});
+    const std::string content = integer("xres", 2) + integer("yres", 2) + real("xreal", 4.0) +
+                                real("yreal", 2.0) + unit("si_unit_xy", unit_xy) +
+                                unit("si_unit_z", unit_z) + reals("data", {1.0, 2.0, 3.0, 4.0});
     return parseGwy(file(object("/0/data", "GwyDataField", content)))[0];
   };
   const FileChannel scaled = channelIn("um", "nm");
@@ -79,20 +79,24 @@ TEST(GwyFile, PitchIsSizeOverPixels) {
   EXPECT_EQ(surface.pitchY(), 4e-6 / 2);
 }
 
-TEST(GwyFile, NoChannelIsNoError) { EXPECT_TRUE(parseGwy(file(text("/0/base/palette", "Gray"))).empty()); }
+TEST(GwyFile, NoChannelIsNoError) {
+  EXPECT_TRUE(parseGwy(file(text("/0/base/palette", "Gray"))).empty());
+}
 
 TEST(GwyFile, SizesThatDoNotMatchTheDataAreRefused) {
   EXPECT_THROW(parseGwy(file(field("/0/data", 3, 2, {1, 2, 3, 4, 5}))), FileError);
   EXPECT_THROW(parseGwy(file(field("/0/data", 0, 2, {}))), FileError);
   EXPECT_THROW(parseGwy(file(field("/0/data", 0x80000003u, 2, {1, 2, 3, 4, 5, 6}))), FileError);
   EXPECT_THROW(parseGwy(file(field("/0/data", 0xFFFFFFFFu, 0xFFFFFFFFu, {1}))), FileError);
-  EXPECT_THROW(parseGwy(file(field("/0/data", 1, 1, {1}) + field("/0/mask", 2, 1, {1, 1}))), FileError);
+  EXPECT_THROW(parseGwy(file(field("/0/data", 1, 1, {1}) + field("/0/mask", 2, 1, {1, 1}))),
+               FileError);
 }
 
 TEST(GwyFile, HugeCountsAreRefusedBeforeMemoryIsTaken) {
   EXPECT_THROW(parseGwy(file(named("data", 'D') + littleEndian(0xFFFFFFFF, 4))), FileError);
   EXPECT_THROW(parseGwy(file(named("names", 'S') + littleEndian(0xFFFFFFFF, 4))), FileError);
-  EXPECT_THROW(parseGwy("GWYP" + std::string("GwyContainer\0", 13) + littleEndian(0xFFFFFFFF, 4)), FileError);
+  EXPECT_THROW(parseGwy("GWYP" + std::string("GwyContainer\0", 13) + littleEndian(0xFFFFFFFF, 4)),
+               FileError);
 }
 
 TEST(GwyFile, OtherContentIsRefused) {
@@ -105,7 +109,8 @@ TEST(GwyFile, OtherContentIsRefused) {
 TEST(GwyFile, EveryTruncationIsRefused) {
   const std::string whole = example();
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_THROW(parseGwy(whole.substr(0, size)), FileError) << size << " of " << whole.size() << " bytes";
+    EXPECT_THROW(parseGwy(whole.substr(0, size)), FileError)
+        << size << " of " << whole.size() << " bytes";
   }
 }
 
@@ -129,7 +134,8 @@ TEST(GwyFile, RandomBytesAreReadOrRefused) {
   const std::string whole = example();
   for (int round = 0; round < 20000; ++round) {
     std::string damaged = whole;
-    for (int flips = 0; flips < 4; ++flips) damaged[random() % damaged.size()] = static_cast<char>(random());
+    for (int flips = 0; flips < 4; ++flips)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
     try {
       parseGwy(damaged);
     } catch (const FileError&) {
@@ -184,19 +190,25 @@ TEST(ChannelChoice, ClosedLoopSensorGoesBeforeHeight) {
 }
 
 TEST(ChannelChoice, MetresThatAreNotHeightsAreNotTaken) {
-  EXPECT_EQ(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection"), channel(2, "Height")}), 2u);
-  EXPECT_THROW(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection")}), FileError);
+  EXPECT_EQ(chooseHeightChannel(
+                {channel(0, "AmplitudeError"), channel(1, "Deflection"), channel(2, "Height")}),
+            2u);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection")}),
+               FileError);
 }
 
 TEST(ChannelChoice, SensorsOfEveryMakerGoBeforeTheirOpenLoops) {
-  EXPECT_EQ(chooseHeightChannel({channel(0, "Z-Axis forward"), channel(1, "Z-AxisSensor forward")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Z-Axis forward"), channel(1, "Z-AxisSensor forward")}),
+            1u);
   EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height (measured)")}), 1u);
   EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height Sensor")}), 1u);
 }
 
 TEST(ChannelChoice, ForwardGoesBeforeBackward) {
-  EXPECT_EQ(chooseHeightChannel({channel(0, "Height (Backward)"), channel(1, "Height (Forward)")}), 1u);
-  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [<-]"), channel(1, "Topography [->]")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height (Backward)"), channel(1, "Height (Forward)")}),
+            1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [<-]"), channel(1, "Topography [->]")}),
+            1u);
   EXPECT_EQ(chooseHeightChannel({channel(0, "HeightRetrace"), channel(1, "HeightTrace")}), 1u);
   EXPECT_EQ(chooseHeightChannel({channel(0, "Z bwd"), channel(1, "Z fwd")}), 1u);
   // The sensor of the way back is still the sensor.
@@ -204,7 +216,8 @@ TEST(ChannelChoice, ForwardGoesBeforeBackward) {
 }
 
 TEST(ChannelChoice, TheTipOfRhkGoesToTheRightFirst) {
-  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [Left]"), channel(1, "Topography [Right]")}), 1u);
+  EXPECT_EQ(
+      chooseHeightChannel({channel(0, "Topography [Left]"), channel(1, "Topography [Right]")}), 1u);
   EXPECT_EQ(chooseHeightChannel({channel(0, "Upper left corner"), channel(1, "Lower corner")}), 0u);
 }
 
@@ -227,14 +240,18 @@ TEST(ChannelChoice, TopographiesOfOtherSizeAreSaid) {
   const std::string said = othersOfOtherSize({channel(0, "Topography"), smaller}, 0);
   EXPECT_EQ(said, "") << "a title that says nothing is no topography as this one is";
   smaller.title = "Topography zoom";
-  const std::string named = othersOfOtherSize({channel(0, "Topography"), channel(1, "Topography"), smaller}, 0);
-  EXPECT_NE(named.find("0: Topography (4 x 4 pixels of 1e-06 x 1e-06 m) is taken"), std::string::npos) << named;
+  const std::string named =
+      othersOfOtherSize({channel(0, "Topography"), channel(1, "Topography"), smaller}, 0);
+  EXPECT_NE(named.find("0: Topography (4 x 4 pixels of 1e-06 x 1e-06 m) is taken"),
+            std::string::npos)
+      << named;
   EXPECT_NE(named.find("--channel takes another: 7: Topography zoom"), std::string::npos) << named;
   EXPECT_EQ(othersOfOtherSize({channel(0, "Topography"), channel(1, "Topography")}, 0), "");
 }
 
 TEST(ChannelChoice, NamesOfSignalsInMetresAreNamesOfSamples) {
-  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase")}), 0u) << "interferometers call their heights so";
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase")}), 0u)
+      << "interferometers call their heights so";
   EXPECT_EQ(chooseHeightChannel({channel(0, "Adhesion sample 4")}), 0u);
   EXPECT_THROW(chooseHeightChannel({channel(0, "Adhesion")}), FileError);
   EXPECT_THROW(chooseHeightChannel({channel(0, "Current (forward)")}), FileError);
@@ -245,13 +262,15 @@ TEST(ChannelChoice, ASensorInVoltsThatCallsThemMetresIsPassedOver) {
   std::vector<FileChannel> channels = {channel(0, "HeightTrace"), channel(1, "ZSensorTrace")};
   channels[1].values.at<double>(1, 1) = 0.6;  // on a scan of a micrometre
   EXPECT_EQ(chooseHeightChannel(channels), 0u);
-  EXPECT_EQ(passedOver(channels, 0),
-            "0: HeightTrace is taken: the heights of 1: ZSensorTrace span more than the scan is wide");
+  EXPECT_EQ(
+      passedOver(channels, 0),
+      "0: HeightTrace is taken: the heights of 1: ZSensorTrace span more than the scan is wide");
   EXPECT_EQ(chooseHeightChannel(channels, "ZSensorTrace"), 1u);
   channels[1].values.at<double>(1, 1) = 1e38;  // a program's "none"
   EXPECT_EQ(chooseHeightChannel(channels), 1u);
   EXPECT_EQ(passedOver(channels, 1), "");
-  EXPECT_EQ(chooseHeightChannel({channels[1]}), 0u) << "what there is alone is taken; the scan's warning says the rest";
+  EXPECT_EQ(chooseHeightChannel({channels[1]}), 0u)
+      << "what there is alone is taken; the scan's warning says the rest";
 }
 
 TEST(ChannelChoice, ASpikeThatSwitchesToTheWayBackIsSaid) {
@@ -304,7 +323,8 @@ TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
     FAIL();
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(),
-                 "there is no channel 'Heihgt'; there are: 0: ZSensor [m], 3: Deflection [m], 5: Phase [deg]");
+                 "there is no channel 'Heihgt'; there are: 0: ZSensor [m], 3: Deflection [m], 5: "
+                 "Phase [deg]");
   }
 }
 

@@ -16,10 +16,11 @@ namespace {
 bool hasH5py() { return std::system("/usr/bin/python3 -c 'import h5py' >/dev/null 2>&1") == 0; }
 
 /// The path of a file that the lines write into `file`.
-std::string writtenBy(const ScratchFolder& folder, const std::string& name, const std::string& lines) {
+std::string writtenBy(const ScratchFolder& folder, const std::string& name,
+                      const std::string& lines) {
   const std::string path = folder.file(name);
-  const std::string script =
-      folder.write("write.py", "import sys, h5py, numpy\nfile = h5py.File(sys.argv[1], 'w')\n" + lines);
+  const std::string script = folder.write(
+      "write.py", "import sys, h5py, numpy\nfile = h5py.File(sys.argv[1], 'w')\n" + lines);
   EXPECT_EQ(std::system(("/usr/bin/python3 " + script + " " + path).c_str()), 0);
   return path;
 }
@@ -96,7 +97,8 @@ for axis, length in (("x", 6.0), ("y", 2.0)):
 
 TEST_F(Hdf5, OtherLayoutsAndDamagedFilesHaveNoChannels) {
   EXPECT_TRUE(
-      channelsByH5py(writtenBy(folder_, "other.h5", "file['force'] = numpy.ones((4, 4))\n"), 60.0).channels.empty());
+      channelsByH5py(writtenBy(folder_, "other.h5", "file['force'] = numpy.ones((4, 4))\n"), 60.0)
+          .channels.empty());
   const std::string several = writtenBy(folder_, "several.h5", R"(
 file["first"] = numpy.ones((4, 5))
 file["group/second"] = numpy.ones((3, 2), dtype="i2")
@@ -111,7 +113,8 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
     openScanFile(several, {}, options);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("its arrays are 'first' (5 x 4), 'group/second' (2 x 3); write"),
+    EXPECT_NE(std::string(error.what())
+                  .find("its arrays are 'first' (5 x 4), 'group/second' (2 x 3); write"),
               std::string::npos)
         << error.what();
   }
@@ -123,7 +126,8 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
 
 /// As Gxsm4 lays it out: counts over dz, everything in angstrom.
 std::string gxsmLines(const std::string& unit, double dx, const std::string& more = "") {
-  return "field = file.create_dataset('FloatField', data=numpy.arange(6.0, dtype='f4').reshape(1, 1, 2, 3))\n"
+  return "field = file.create_dataset('FloatField', data=numpy.arange(6.0, dtype='f4').reshape(1, "
+         "1, 2, 3))\n"
          "field.attrs['label'] = 'ZS-Topo'\nfield.attrs['var_unit'] = '" +
          unit + "'\nfield.attrs['unit'] = 'nm'\nfor name, value in (('dx', " + std::to_string(dx) +
          "), ('dy', 5.0), ('rangex', 20.0), ('rangey', 5.0)):\n    file[name] = value\n    "
@@ -143,7 +147,8 @@ TEST_F(Hdf5, ReadsNetcdf4OfGxsm) {
   doubles.replace(doubles.find("FloatField"), 10, "DoubleField");
   EXPECT_NEAR(readScanFile(writtenBy(folder_, "doubles.nc", doubles)).height(1, 2), 10e-10, 1e-22);
   for (const char* unit : {"nA", "A", "Hz"}) {
-    const Hdf5Channels read = channelsByH5py(writtenBy(folder_, "other.nc", gxsmLines(unit, 10.0)), 60.0);
+    const Hdf5Channels read =
+        channelsByH5py(writtenBy(folder_, "other.nc", gxsmLines(unit, 10.0)), 60.0);
     ASSERT_EQ(read.channels.size(), 1U);
     EXPECT_EQ(read.channels[0].unit_z, unit);
   }
@@ -151,7 +156,8 @@ TEST_F(Hdf5, ReadsNetcdf4OfGxsm) {
     readScanFile(writtenBy(folder_, "contradiction.nc", gxsmLines("Å", 11.0)));
     ADD_FAILURE();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("contradicts rangex"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("contradicts rangex"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -167,7 +173,8 @@ TEST_F(Hdf5, WhatLeadsToOtherFilesIsRefused) {
     std::string says;
   } kWays[] = {
       {"storage.topostats",
-       scaled + "file.create_dataset('image', (2, 3), 'f8', external=[('" + secret + "', 0, 48)])\n",
+       scaled + "file.create_dataset('image', (2, 3), 'f8', external=[('" + secret +
+           "', 0, 48)])\n",
        "the numbers of '/image' stand in other files"},
       {"link.topostats", scaled + "file['image'] = h5py.ExternalLink('other.h5', '/image')\n",
        "the link 'image' leads to another file"},
@@ -177,33 +184,41 @@ TEST_F(Hdf5, WhatLeadsToOtherFilesIsRefused) {
        "the link 'link' leads to another file"},
       {"virtual.topostats",
        scaled +
-           "layout = h5py.VirtualLayout((2, 3), 'f8')\nlayout[:] = h5py.VirtualSource('other.h5', 'image', (2, 3))\n" +
+           "layout = h5py.VirtualLayout((2, 3), 'f8')\nlayout[:] = h5py.VirtualSource('other.h5', "
+           "'image', (2, 3))\n" +
            "file.create_virtual_dataset('image', layout)\n",
        "the numbers of '/image' stand in other files"},
-      {"beside.topostats", scaled + image + "file['far/away'] = h5py.ExternalLink('other.h5', '/image')\n",
+      {"beside.topostats",
+       scaled + image + "file['far/away'] = h5py.ExternalLink('other.h5', '/image')\n",
        "the link 'away' leads to another file"},
-      {"unknown.h5", "file['away'] = h5py.ExternalLink('other.h5', '/image')\n", "the link 'away' leads"},
+      {"unknown.h5", "file['away'] = h5py.ExternalLink('other.h5', '/image')\n",
+       "the link 'away' leads"},
   };
   for (const auto& way : kWays) {
     try {
       readScanFile(writtenBy(folder_, way.name, way.lines));
       ADD_FAILURE() << way.name;
     } catch (const FileError& error) {
-      EXPECT_NE(std::string(error.what()).find(way.name + std::string(": ") + way.says), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find(way.name + std::string(": ") + way.says),
+                std::string::npos)
           << error.what();
     }
   }
-  EXPECT_EQ(readScanFile(writtenBy(folder_, "soft_inside.topostats",
-                                   scaled + "file['a'] = numpy.ones((2, 3))\nfile['image'] = h5py.SoftLink('/a')\n"))
-                .cols(),
-            3);
+  EXPECT_EQ(
+      readScanFile(
+          writtenBy(
+              folder_, "soft_inside.topostats",
+              scaled + "file['a'] = numpy.ones((2, 3))\nfile['image'] = h5py.SoftLink('/a')\n"))
+          .cols(),
+      3);
 }
 
 /// A block of the user's before the signature, as MATLAB's files have it, hides nothing.
 TEST_F(Hdf5, IsKnownBehindABlockOfTheUser) {
-  const std::string path = writtenBy(folder_, "user.mat",
-                                     "file.close()\nfile = h5py.File(sys.argv[1], 'w', userblock_size=512)\n"
-                                     "file['image'] = numpy.ones((2, 3))\nfile['pixel_to_nm_scaling'] = 2.0\n");
+  const std::string path =
+      writtenBy(folder_, "user.mat",
+                "file.close()\nfile = h5py.File(sys.argv[1], 'w', userblock_size=512)\n"
+                "file['image'] = numpy.ones((2, 3))\nfile['pixel_to_nm_scaling'] = 2.0\n");
   EXPECT_EQ(readScanFile(path).cols(), 3);
 }
 

@@ -35,7 +35,8 @@ TEST(PngFile, CountsOfFewBitsAreNotScaled) {
 }
 
 TEST(PngFile, TheSizeInTheHeaderIsReadBeforeMemoryIsTaken) {
-  EXPECT_NE(refusal(parsePng, png(30000, 30000, 8, "x")).find("30000 x 30000 pixels are more than the 100000000"),
+  EXPECT_NE(refusal(parsePng, png(30000, 30000, 8, "x"))
+                .find("30000 x 30000 pixels are more than the 100000000"),
             std::string::npos);
 }
 
@@ -53,13 +54,14 @@ TEST(ExrFile, ASingleChannelIsReadWhateverItsName) {
 }
 
 TEST(ExrFile, OtherChannelsAreRefusedByName) {
-  EXPECT_NE(refusal(parseExr, exr({"A", "Z"}, 5, 4)).find("2 channels per pixel (A, Z)"), std::string::npos);
+  EXPECT_NE(refusal(parseExr, exr({"A", "Z"}, 5, 4)).find("2 channels per pixel (A, Z)"),
+            std::string::npos);
 }
 
 TEST(ExrFile, TheSizeInTheHeaderIsReadBeforeMemoryIsTaken) {
-  EXPECT_NE(refusal(parseExr,
-                    exr({"Y"}, 30000, 1)
-                        .replace(exr({"Y"}, 30000, 1).find("box2i") + 6 + 4 + 12, 4, littleBytes(std::int32_t{29999})))
+  EXPECT_NE(refusal(parseExr, exr({"Y"}, 30000, 1)
+                                  .replace(exr({"Y"}, 30000, 1).find("box2i") + 6 + 4 + 12, 4,
+                                           littleBytes(std::int32_t{29999})))
                 .find("30000 x 30000 pixels"),
             std::string::npos);
 }

@@ -25,7 +25,8 @@ NanoscopeImage image(std::size_t bytes_each) {
   made.size = "3 2 ~m";
   made.data.clear();
   for (const int number : {-3, 20, 7, 100, 0, -32768}) {
-    for (std::size_t byte = 0; byte < bytes_each; ++byte) made.data += static_cast<char>(number >> 8 * byte & 0xFF);
+    for (std::size_t byte = 0; byte < bytes_each; ++byte)
+      made.data += static_cast<char>(number >> 8 * byte & 0xFF);
   }
   return made;
 }
@@ -47,8 +48,9 @@ TEST(NanoscopeFile, HeightsAreVoltsTimesTheScannersSensitivity) {
   EXPECT_DOUBLE_EQ(channel.width, 3e-6);
   EXPECT_DOUBLE_EQ(channel.height, 2e-6);
   ASSERT_EQ(channel.values.size(), cv::Size(3, 2));
-  const double step = 24.57563 * 10e-9 / 65536.0;                   // [m]
-  EXPECT_NEAR(channel.values.at<double>(0, 0), 100 * step, 1e-22);  // the last line of the file is the upper row
+  const double step = 24.57563 * 10e-9 / 65536.0;  // [m]
+  EXPECT_NEAR(channel.values.at<double>(0, 0), 100 * step,
+              1e-22);  // the last line of the file is the upper row
   EXPECT_NEAR(channel.values.at<double>(0, 2), -32768 * step, 1e-20);
   EXPECT_NEAR(channel.values.at<double>(1, 0), -3 * step, 1e-22);
 }
@@ -75,7 +77,8 @@ TEST(NanoscopeFile, MillivoltsAreVolts) {
   ASSERT_EQ(channels.size(), 1u);
   EXPECT_EQ(channels[0].unit_z, "V");
   EXPECT_NEAR(channels[0].values.at<double>(1, 1), 20 * 24.5756e-3 / 65536.0, 1e-18);
-  const std::vector<FileChannel> heights = parseNanoscope(with(nanoscope({image(2)}), "24.57563 V", "24.5756 mV"));
+  const std::vector<FileChannel> heights =
+      parseNanoscope(with(nanoscope({image(2)}), "24.57563 V", "24.5756 mV"));
   ASSERT_EQ(heights.size(), 1u);
   EXPECT_EQ(heights[0].unit_z, "m");
   EXPECT_NEAR(heights[0].values.at<double>(1, 1), 20 * 24.5756e-3 * 10e-9 / 65536.0, 1e-25);
@@ -84,17 +87,17 @@ TEST(NanoscopeFile, MillivoltsAreVolts) {
 TEST(NanoscopeFile, WhatIsSaidInAnotherWayIsLeftToGwyddion) {
   const std::string bytes = nanoscope({image(2), image(2)});
   EXPECT_EQ(parseNanoscope(bytes).size(), 2u);
-  for (const auto& [part, other] :
-       std::vector<std::pair<std::string, std::string>>{{"@2:Z scale: V [Sens. Zsens]", "@2:Z scale: V [Sens. Other]"},
-                                                        {"@2:Z scale: V [Sens", "@4:Z scale: V [Sens"},
-                                                        {"Ciao image list", "Ciao force list"},
-                                                        {"Bytes/pixel: 2", "Bytes/pixel: 4"},
-                                                        {"3750000 V/LSB", "3750000 V/XXX"},
-                                                        {"24.57563 V", "24.57563V "},
-                                                        {"24.57563 V", "24.57563 A"},
-                                                        {"S [Height]", "S  Height "},
-                                                        {"3 2 ~m", "3 2 ~V"},
-                                                        {"*File list", "*Fool list"}}) {
+  for (const auto& [part, other] : std::vector<std::pair<std::string, std::string>>{
+           {"@2:Z scale: V [Sens. Zsens]", "@2:Z scale: V [Sens. Other]"},
+           {"@2:Z scale: V [Sens", "@4:Z scale: V [Sens"},
+           {"Ciao image list", "Ciao force list"},
+           {"Bytes/pixel: 2", "Bytes/pixel: 4"},
+           {"3750000 V/LSB", "3750000 V/XXX"},
+           {"24.57563 V", "24.57563V "},
+           {"24.57563 V", "24.57563 A"},
+           {"S [Height]", "S  Height "},
+           {"3 2 ~m", "3 2 ~V"},
+           {"*File list", "*Fool list"}}) {
     const std::string changed = with(bytes, part, other);
     if (other == "Ciao force list") {
       EXPECT_EQ(parseNanoscope(changed).size(), 1u) << "no list of an image";
@@ -111,7 +114,9 @@ TEST(NanoscopeFile, NeedsNoGwyddion) {
   const ScanFile scan = openScanFile(folder.write("scan.spm", nanoscope({{}, {}})), {}, options);
   EXPECT_EQ(scan.channel, "0: Height");
   EXPECT_DOUBLE_EQ(scan.surface.pitchX(), 1e-6 / 8);
-  EXPECT_THROW(openScanFile(folder.write("cut.spm", nanoscope({{}, {}}).substr(0, 4300)), {}, options), FileError);
+  EXPECT_THROW(
+      openScanFile(folder.write("cut.spm", nanoscope({{}, {}}).substr(0, 4300)), {}, options),
+      FileError);
 }
 
 TEST(NanoscopeFile, IsReadUnderTheNameOfAText) {

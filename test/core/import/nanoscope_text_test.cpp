@@ -14,12 +14,14 @@ namespace {
 
 std::string exported(const std::string& points, const std::string& size = "1.5 \xB5m") {
   return "\"\\*File list\"\r\n\"\\Version: 0x09150300\"\r\n\"\\Scan Size: " + size +
-         "\"\r\n\"\\Samps/line: 3\"\r\n\"\\Lines: 2\"\r\n\"\\*Ciao image list\"\r\n\"\\Samps/line: 3\"\r\n\r\n"
+         "\"\r\n\"\\Samps/line: 3\"\r\n\"\\Lines: 2\"\r\n\"\\*Ciao image list\"\r\n\"\\Samps/line: "
+         "3\"\r\n\r\n"
          "Height_Sensor(nm)\tAdhesion(nN)\t\r\n" +
          points;
 }
 
-const std::string kPoints = "1.5\t0.1\t\r\n2.5\t0.2\t\r\n-3.5\t0.3\t\r\n4.5\t0.4\t\r\n---\t0.5\t\r\n6.5\t0.6\t\r\n";
+const std::string kPoints =
+    "1.5\t0.1\t\r\n2.5\t0.2\t\r\n-3.5\t0.3\t\r\n4.5\t0.4\t\r\n---\t0.5\t\r\n6.5\t0.6\t\r\n";
 
 std::string refusal(const std::string& text) {
   try {
@@ -45,9 +47,10 @@ TEST(NanoscopeText, SaysWhenAndWithWhatItWasMeasured) {
   const std::string text = exported(kPoints);
   const std::size_t lists = text.find("\"\\Scan Size");
   const ScanIdentity identity =
-      parseNanoscopeText(text.substr(0, lists) +
-                         "\"\\Date: 01:33:51 PM Mon Dec 15 2014\"\r\n\"\\Microscope: Dimension V\"\r\n" +
-                         text.substr(lists))[1]
+      parseNanoscopeText(
+          text.substr(0, lists) +
+          "\"\\Date: 01:33:51 PM Mon Dec 15 2014\"\r\n\"\\Microscope: Dimension V\"\r\n" +
+          text.substr(lists))[1]
           .identity;
   EXPECT_EQ(identity.acquisition_time, "2014-12-15T13:33:51");
   EXPECT_EQ(identity.instrument, "Dimension V");
@@ -59,7 +62,8 @@ TEST(NanoscopeText, IsReadAsAScan) {
   EXPECT_DOUBLE_EQ(surface.pitchX(), 0.5e-6);
   EXPECT_DOUBLE_EQ(surface.pitchY(), 0.5e-6);
   EXPECT_DOUBLE_EQ(surface.height(1, 0), 4.5e-9);
-  EXPECT_DOUBLE_EQ(readScanFile(folder.write("long.txt", exported(kPoints, "300 100 nm"))).pitchY(), 50e-9);
+  EXPECT_DOUBLE_EQ(readScanFile(folder.write("long.txt", exported(kPoints, "300 100 nm"))).pitchY(),
+                   50e-9);
 }
 
 TEST(NanoscopeText, TheMatrixOfOneChannelIsRead) {
@@ -79,10 +83,12 @@ TEST(NanoscopeText, TheMatrixOfOneChannelIsRead) {
 TEST(NanoscopeText, WhatIsCutOffOrOfAnotherKindIsRefused) {
   EXPECT_NE(refusal(exported(kPoints.substr(0, 40))).find("cut off"), std::string::npos);
   EXPECT_NE(refusal(exported(kPoints + "7.5\t0.7\t\r\n")).find("more points"), std::string::npos);
-  EXPECT_NE(refusal(exported("1.5\t0.1\t9\r\n")).find("3 numbers under 2 names"), std::string::npos);
+  EXPECT_NE(refusal(exported("1.5\t0.1\t9\r\n")).find("3 numbers under 2 names"),
+            std::string::npos);
   EXPECT_NE(refusal(exported("1.5\tx\r\n")).find("column 2"), std::string::npos);
   EXPECT_NE(refusal(exported(kPoints, "3 bars")).find("no length"), std::string::npos);
-  EXPECT_NE(refusal("\\*File list\n\\Lines: 2\n1.5 2.5\n").find("does not name the columns"), std::string::npos);
+  EXPECT_NE(refusal("\\*File list\n\\Lines: 2\n1.5 2.5\n").find("does not name the columns"),
+            std::string::npos);
   EXPECT_NE(refusal("\\*File list\nHeight(nm)\n1.5\n").find("no Samps/line"), std::string::npos);
   std::string many = exported(kPoints);
   many.replace(many.find("Lines: 2"), 8, "Lines: 9" + std::string(80, '0'));

@@ -1,5 +1,6 @@
-/// Files that neither this project nor Gwyddion reads: by SurfaceTopography, or AFMReader. A package of the same calls stands in for
-/// each, so that the tests do not hang on what is installed.
+/// Files that neither this project nor Gwyddion reads: by SurfaceTopography, or AFMReader. A
+/// package of the same calls stands in for each, so that the tests do not hang on what is
+/// installed.
 
 #include <gtest/gtest.h>
 
@@ -76,7 +77,8 @@ class Packages : public ::testing::Test {
 };
 
 TEST_F(Packages, SurfaceTopographyReadsWhatNobodyElseDoesAndIsNamed) {
-  const ScanFile scan = openScanFile(folder_.write("scan.new", "a format of its own"), {}, options_);
+  const ScanFile scan =
+      openScanFile(folder_.write("scan.new", "a format of its own"), {}, options_);
   EXPECT_EQ(scan.channel, "1: Height");  // lines are no channels
   ASSERT_FALSE(scan.notes.empty());
   EXPECT_EQ(scan.notes[0], "read by SurfaceTopography");  // the stand-in states no version
@@ -102,18 +104,23 @@ TEST_F(Packages, AfmReaderReadsTheFirstFrameOfAsd) {
 
 TEST_F(Packages, WhatTheyDoNotReadIsRefusedInTheWordsOfBefore) {
   for (const char* content : {"damaged", "anything is of this format"}) {
-    EXPECT_NE(refusalOf("scan.new", content).find("needs Gwyddion's readers to be read"), std::string::npos) << content;
+    EXPECT_NE(refusalOf("scan.new", content).find("needs Gwyddion's readers to be read"),
+              std::string::npos)
+        << content;
   }
   folder_.write("SurfaceTopography.py", "raise ImportError\n");
-  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("needs Gwyddion's readers"), std::string::npos);
+  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("needs Gwyddion's readers"),
+            std::string::npos);
 }
 
 TEST_F(Packages, AFormatThatOnlyOneOfThemReadsSaysWhich) {
   folder_.write("SurfaceTopography.py", "raise ImportError\n");
   folder_.write("AFMReader/asd.py", "raise ImportError\n");
-  EXPECT_NE(refusalOf("scan.mnt", "a format of its own").find("by the Python package SurfaceTopography"),
+  EXPECT_NE(
+      refusalOf("scan.mnt", "a format of its own").find("by the Python package SurfaceTopography"),
+      std::string::npos);
+  EXPECT_NE(refusalOf("scan.asd", "frames").find("by the Python package AFMReader"),
             std::string::npos);
-  EXPECT_NE(refusalOf("scan.asd", "frames").find("by the Python package AFMReader"), std::string::npos);
   EXPECT_EQ(refusalOf("scan.new", "a format of its own").find("Python package"), std::string::npos);
 }
 
@@ -121,7 +128,8 @@ TEST_F(Packages, DamagedFilesOfKnownFormatsAreNotGivenToThem) {
   EXPECT_NE(refusalOf("scan.x3p", "PK\3\4 cut off").find("zip archive"), std::string::npos);
   // Knows the format, or calls itself so, and has failed.
   options_.import.gwyddion_reader = "false";
-  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("gwyddion cannot read it"), std::string::npos);
+  EXPECT_NE(refusalOf("scan.new", "a format of its own").find("gwyddion cannot read it"),
+            std::string::npos);
 }
 
 }  // namespace

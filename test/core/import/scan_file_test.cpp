@@ -61,12 +61,15 @@ std::string refusal(const std::string& path, const ScanOptions& options = withPi
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(ScanFile, ReadsTiffOfEveryPixelType) {
   const ScratchFolder folder;
   for (const int type : {CV_32FC1, CV_64FC1, CV_32SC1, CV_16UC1, CV_8UC1}) {
-    if (type == CV_32SC1 && CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 6) continue;  // OpenCV cannot write it
+    if (type == CV_32SC1 && CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 6)
+      continue;  // OpenCV cannot write it
     const std::string path = folder.file("scan" + std::to_string(type) + ".tiff");
     ASSERT_TRUE(cv::imwrite(path, example(type)));
     const HeightMap surface = readScanFile(path, withPitch());
@@ -98,7 +101,8 @@ TEST(ScanFile, ReadsTextWithEverySeparator) {
   for (const std::string separator : {" ", ",", ";", "\t", ", ", "   "}) {
     std::string text = "# a comment\n\n";
     for (int row = 0; row < 5; ++row) {
-      for (int col = 0; col < 7; ++col) text += (col == 0 ? "" : separator) + std::to_string(10 * row + col);
+      for (int col = 0; col < 7; ++col)
+        text += (col == 0 ? "" : separator) + std::to_string(10 * row + col);
       text += row == 2 ? " # remark\r\n" : "\n";
     }
     for (const char* name : {"scan.txt", "scan.ASC", "scan.csv"}) {
@@ -120,11 +124,13 @@ TEST(TextGrid, CellsThatAreNotMeasuredAreNaN) {
 
 TEST(TextGrid, WhatIsNotAGridIsRefusedWithTheLine) {
   const ScratchFolder folder;
-  EXPECT_TRUE(mentions(refusal(folder.write("a.txt", "1 2\n3 x4\n")), "line 2: 'x4' is not a number"));
+  EXPECT_TRUE(
+      mentions(refusal(folder.write("a.txt", "1 2\n3 x4\n")), "line 2: 'x4' is not a number"));
   EXPECT_TRUE(mentions(refusal(folder.write("b.txt", "1 2 3\n4 5 6\n7 8\n")), "line 3: 2 cells"));
   EXPECT_TRUE(mentions(refusal(folder.write("c.txt", "# nothing\n")), "at least 2 x 2"));
   EXPECT_TRUE(mentions(refusal(folder.write("d.txt", "1 2 3\n")), "at least 2 x 2"));
-  EXPECT_TRUE(mentions(refusal(folder.write("e.txt", std::string("1 2\n3 \0 4\n", 10))), "line 2: binary"));
+  EXPECT_TRUE(
+      mentions(refusal(folder.write("e.txt", std::string("1 2\n3 \0 4\n", 10))), "line 2: binary"));
   EXPECT_TRUE(mentions(refusal(folder.write("f.csv", "1,2\n3,4e\n")), "'4e' is not a number"));
 }
 
@@ -169,7 +175,8 @@ TEST(ScanFile, SidecarErrorsNameTheSidecar) {
     FAIL();
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 2u);
-    for (const std::string& line : error.violations()) EXPECT_EQ(line.find(sidecar + ": scan/"), 0u) << line;
+    for (const std::string& line : error.violations())
+      EXPECT_EQ(line.find(sidecar + ": scan/"), 0u) << line;
   }
   folder.write("scan.txt.yaml", "a: [1, 2");
   EXPECT_THROW(readScanFile(path), FileError);
@@ -179,7 +186,8 @@ TEST(ScanFile, SidecarErrorsNameTheSidecar) {
 std::string notesOn(const std::string& path, const ScanOptions& options = {},
                     const ScanFileOptions& file_options = {}) {
   std::string text;
-  for (const std::string& note : openScanFile(path, options, file_options).notes) text += note + "\n";
+  for (const std::string& note : openScanFile(path, options, file_options).notes)
+    text += note + "\n";
   return text;
 }
 
@@ -191,10 +199,14 @@ TEST(ScanFile, WhatAMakersFileGoesBeforeIsSaid) {
   EXPECT_TRUE(mentions(notesOn(path, withPitch()),
                        "the file states a pitch of 1e-06 x 2e-06 m, which is taken, 2e-09 x "
                        "3e-09 m of the configuration is not"));
-  const std::string sidecar = folder.write("scan.gwy.yaml", "pitch_x: 5e-9\npitch_y: 6e-9\nheight_scale: 1e-9\n");
+  const std::string sidecar =
+      folder.write("scan.gwy.yaml", "pitch_x: 5e-9\npitch_y: 6e-9\nheight_scale: 1e-9\n");
   const std::string notes = notesOn(path);
-  EXPECT_TRUE(mentions(notes, "5e-09 x 6e-09 m of " + sidecar + " is not; --pitch goes before both")) << notes;
-  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of " + sidecar + " is not applied")) << notes;
+  EXPECT_TRUE(
+      mentions(notes, "5e-09 x 6e-09 m of " + sidecar + " is not; --pitch goes before both"))
+      << notes;
+  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of " + sidecar + " is not applied"))
+      << notes;
   ScanFileOptions by_option;
   by_option.pitch_x = by_option.pitch_y = 7e-9;
   EXPECT_FALSE(mentions(notesOn(path, {}, by_option), "5e-09"));
@@ -210,14 +222,15 @@ TEST(ScanFile, WhatAMakersFileGoesBeforeIsSaid) {
 
 TEST(ScanFile, WhatAHeadingGoesBeforeIsSaidToo) {
   const ScratchFolder folder;
-  const std::string path =
-      folder.write("scan.txt", "# Width: 2 um\n# Height: 2 um\n# Value units: m\n1e-9 2e-9\n3e-9 4e-9\n");
+  const std::string path = folder.write(
+      "scan.txt", "# Width: 2 um\n# Height: 2 um\n# Value units: m\n1e-9 2e-9\n3e-9 4e-9\n");
   EXPECT_EQ(notesOn(path), "");
   ScanOptions options = withPitch();
   options.height_scale = 1e-9;
   const std::string notes = notesOn(path, options);
   EXPECT_TRUE(mentions(notes, "2e-09 x 3e-09 m of the configuration is not")) << notes;
-  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of the configuration is not applied")) << notes;
+  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of the configuration is not applied"))
+      << notes;
 }
 
 TEST(ScanFile, ASidecarThatIsNoFileIsNamed) {
@@ -240,20 +253,24 @@ TEST(ScanFile, ASidecarThatStatesNothingIsSaid) {
   const std::string sidecar = folder.write("scan.txt.yaml", "# pitch_x: 5e-9\n");
   EXPECT_EQ(notesOn(path, withPitch()), sidecar + ": states nothing, the defaults hold\n");
   folder.write("scan.txt.yaml", "scan:\npart_id: A\n");
-  EXPECT_EQ(notesOn(path, withPitch()), sidecar + ": scan: has nothing below it, the defaults hold\n");
+  EXPECT_EQ(notesOn(path, withPitch()),
+            sidecar + ": scan: has nothing below it, the defaults hold\n");
 }
 
 TEST(ScanFile, AFileOfTheScansStemIsItsSidecarIfItLooksLikeOne) {
   const ScratchFolder folder;
   const std::string path = folder.write("one.txt", "1 2\n3 4\n");
-  for (const char* text : {"pitch_x: 5e-9\npitch_y: 5e-9\n", "scan: {pitch_x: 5e-9, pitch_y: 5e-9}\n",
-                           "scan/pitch_x: 5e-9\npitch_y: 5e-9\nwafer_id: W3\n"}) {
+  for (const char* text :
+       {"pitch_x: 5e-9\npitch_y: 5e-9\n", "scan: {pitch_x: 5e-9, pitch_y: 5e-9}\n",
+        "scan/pitch_x: 5e-9\npitch_y: 5e-9\nwafer_id: W3\n"}) {
     EXPECT_EQ(sidecarOf(path), folder.write("one.yaml", text)) << text;
     EXPECT_EQ(readScanFile(path).pitchX(), 5e-9) << text;
     EXPECT_EQ(notesOn(path), "") << text;
   }
-  for (const char* text : {"interface: {work_of_adhesion: 0.1}\nscan: {pitch_x: 5e-9, pitch_y: 5e-9}\n", "- 1\n- 2\n",
-                           "load/voltage: 5\nscan/pitch_x: 5e-9\n", "title: notes of the day\n", "a: [1", "\x01\x02"}) {
+  for (const char* text :
+       {"interface: {work_of_adhesion: 0.1}\nscan: {pitch_x: 5e-9, pitch_y: 5e-9}\n", "- 1\n- 2\n",
+        "load/voltage: 5\nscan/pitch_x: 5e-9\n", "title: notes of the day\n", "a: [1",
+        "\x01\x02"}) {
     const std::string other = folder.write("one.yaml", text);
     EXPECT_EQ(sidecarOf(path), "") << text;
     EXPECT_EQ(readScanFile(path, withPitch()).pitchX(), 2e-9) << text;
@@ -269,8 +286,10 @@ TEST(ScanFile, WhatIsScannedIsStatedByTheSidecarAndTheFilesBytes) {
   const std::string path = folder.write("place 3.txt", "1 2\n3 4\n");
   EXPECT_EQ(openScanFile(path, withPitch()).identity.scan_name, "place 3");
   folder.write("place 3.txt.yaml",
-               "pitch_x: 5e-9\npitch_y: 5e-9\nserial_id: 0012\nscan/lot_id: L7\nscan: {wafer_id: W3, site_x: -5e-3}\n"
-               "site_y: 0.0\noperator_name: ann\ninstrument: AFM 2\nacquisition_time: 2026-03-01T14:05:00+01:00\n");
+               "pitch_x: 5e-9\npitch_y: 5e-9\nserial_id: 0012\nscan/lot_id: L7\nscan: {wafer_id: "
+               "W3, site_x: -5e-3}\n"
+               "site_y: 0.0\noperator_name: ann\ninstrument: AFM 2\nacquisition_time: "
+               "2026-03-01T14:05:00+01:00\n");
   const ScanIdentity identity = openScanFile(path).identity;
   EXPECT_EQ(identity.scan_name, "place 3");
   EXPECT_EQ(identity.part_id, "");
@@ -282,7 +301,8 @@ TEST(ScanFile, WhatIsScannedIsStatedByTheSidecarAndTheFilesBytes) {
   EXPECT_EQ(identity.operator_name, "ann");
   EXPECT_EQ(identity.instrument, "AFM 2");
   EXPECT_EQ(identity.acquisition_time, "2026-03-01T14:05:00+01:00");
-  EXPECT_EQ(identity.checksum, "sha256:871d6e7f463a42c5573203c50db6e52da506d5395af73e09237410dec5eff856");
+  EXPECT_EQ(identity.checksum,
+            "sha256:871d6e7f463a42c5573203c50db6e52da506d5395af73e09237410dec5eff856");
 }
 
 TEST(ScanFile, ASidecarWithHalfASiteOrATextThatNobodyReadsIsRefused) {
@@ -294,13 +314,15 @@ TEST(ScanFile, ASidecarWithHalfASiteOrATextThatNobodyReadsIsRefused) {
            {"site_x: .inf\nsite_y: 0\n", "scan/site_x: inf is not allowed"},
            {"checksum: sha256:0\n", "scan/checksum: "},
            {"operator: ann\n", "scan/operator_name"},
-           {"wafer_id: " + std::string(1001, 'w') + "\n", "scan/wafer_id: a name of 1001 bytes is not allowed"}}) {
+           {"wafer_id: " + std::string(1001, 'w') + "\n",
+            "scan/wafer_id: a name of 1001 bytes is not allowed"}}) {
     const std::string sidecar = folder.write("scan.txt.yaml", pitch + lines);
     try {
       openScanFile(path);
       ADD_FAILURE() << lines;
     } catch (const OptionsError& error) {
-      EXPECT_TRUE(mentions(error.what(), sidecar + ": scan/") && mentions(error.what(), complaint)) << error.what();
+      EXPECT_TRUE(mentions(error.what(), sidecar + ": scan/") && mentions(error.what(), complaint))
+          << error.what();
     }
   }
 }
@@ -327,7 +349,8 @@ TEST(ScanFile, EveryTruncatedTiffIsRefused) {
     ASSERT_TRUE(cv::imwrite(folder.file("whole.tiff"), heights));
     const std::string whole = ScratchFolder::read(folder.file("whole.tiff"));
     for (std::size_t size = 0; size < whole.size(); size += 13) {
-      EXPECT_NE(refusal(folder.write("cut.tiff", whole.substr(0, size))), "") << size << " of " << whole.size();
+      EXPECT_NE(refusal(folder.write("cut.tiff", whole.substr(0, size))), "")
+          << size << " of " << whole.size();
     }
   }
 }
@@ -360,7 +383,8 @@ TEST(ScanFile, HeightTiffReadsBack) {
 
 TEST(ScanFile, HeightTiffKeepsNanometresOnAStageOffset) {
   const ScratchFolder folder;
-  const cv::Mat heights = example(CV_64FC1) * 1e-9 + 0.076;  // float32 numbers are 7.45 nm apart there
+  const cv::Mat heights =
+      example(CV_64FC1) * 1e-9 + 0.076;  // float32 numbers are 7.45 nm apart there
   writeHeightTiff(folder.file("out.tiff"), heights);
   const HeightMap back = readScanFile(folder.file("out.tiff"), withPitch());
   EXPECT_EQ(back.height(4, 6), heights.at<double>(4, 6));
@@ -372,10 +396,11 @@ TEST(ScanFile, HeightTiffThatCannotBeWrittenIsNamed) {
 
 /// A directory of these entries; texts that they point to follow it.
 std::string tiffDirectory(const std::vector<std::pair<std::uint16_t, std::uint32_t>>& entries) {
-  std::string bytes =
-      std::string("MM\0*", 4) + bigBytes(std::uint32_t{8}) + bigBytes(static_cast<std::uint16_t>(entries.size()));
+  std::string bytes = std::string("MM\0*", 4) + bigBytes(std::uint32_t{8}) +
+                      bigBytes(static_cast<std::uint16_t>(entries.size()));
   for (const auto& [tag, value] : entries) {
-    bytes += bigBytes(tag) + bigBytes(std::uint16_t{4}) + bigBytes(std::uint32_t{1}) + bigBytes(value);
+    bytes +=
+        bigBytes(tag) + bigBytes(std::uint16_t{4}) + bigBytes(std::uint32_t{1}) + bigBytes(value);
   }
   return bytes + bigBytes(std::uint32_t{0});
 }
@@ -387,7 +412,8 @@ TEST(TiffTags, PagesOfInstrumentsAreToldByTheirTags) {
   EXPECT_FALSE(hasInstrumentTags(tiffDirectory({{256, 4}, {32768, 2}})));
   const std::string directory = tiffDirectory({{270, 26}});
   ASSERT_EQ(directory.size(), 26u);
-  EXPECT_TRUE(hasInstrumentTags(directory + "<?xml version=\"1.0\"?><TiffTagDescData Version=\"1.0\">"));
+  EXPECT_TRUE(
+      hasInstrumentTags(directory + "<?xml version=\"1.0\"?><TiffTagDescData Version=\"1.0\">"));
   EXPECT_FALSE(hasInstrumentTags(directory + "<?xml version=\"1.0\"?><OME>"));
 }
 
@@ -422,34 +448,43 @@ std::string importRefusal(const std::string& program, double timeout = 120.0) {
 }
 
 TEST(GwyddionImport, MissingReadersNameTheDebianPackage) {
-  EXPECT_TRUE(mentions(importRefusal("no_such_program"), "not installed (Debian package: gwyddion)"));
-  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 127\n"), "not installed (Debian package: gwyddion)"));
+  EXPECT_TRUE(
+      mentions(importRefusal("no_such_program"), "not installed (Debian package: gwyddion)"));
+  EXPECT_TRUE(
+      mentions(importRefusal("#!/bin/sh\nexit 127\n"), "not installed (Debian package: gwyddion)"));
 }
 
 TEST(GwyddionImport, CrashIsNamed) {
-  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nkill -SEGV $$\n"), "crashed on this file (Segmentation fault)"));
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nkill -SEGV $$\n"),
+                       "crashed on this file (Segmentation fault)"));
 }
 
 TEST(GwyddionImport, FailureQuotesTheLastLineOfTheProgram) {
-  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\necho >&2 \"a library's remark\"\necho \"File is cut off.\"\nexit 1\n"),
-                       "gwyddion cannot read it: File is cut off."));
+  EXPECT_TRUE(mentions(
+      importRefusal(
+          "#!/bin/sh\necho >&2 \"a library's remark\"\necho \"File is cut off.\"\nexit 1\n"),
+      "gwyddion cannot read it: File is cut off."));
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 3\n"), "exit status 3"));
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
 }
 
 TEST(GwyddionImport, WhatGwyddionSaysOfADamagedFileIsTheError) {
   if (!MEMS_STICTION_HAS_GWYDDION) GTEST_SKIP() << "built without Gwyddion's libraries";
-  EXPECT_TRUE(mentions(importRefusal(""), "gwyddion cannot read it: No module can load this file type."));
+  EXPECT_TRUE(
+      mentions(importRefusal(""), "gwyddion cannot read it: No module can load this file type."));
 }
 
 TEST(GwyddionImport, AMatrixFileWithoutItsParametersNamesThem) {
   const ScratchFolder folder;
-  const std::string path = folder.write("default_scan--1_1.Z_mtrx", "ONTMATRX0101 and what follows");
+  const std::string path =
+      folder.write("default_scan--1_1.Z_mtrx", "ONTMATRX0101 and what follows");
   try {
     openScanFile(path);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_TRUE(mentions(error.what(), folder.file("default_scan_0001.mtrx") + ", which is not there")) << error.what();
+    EXPECT_TRUE(
+        mentions(error.what(), folder.file("default_scan_0001.mtrx") + ", which is not there"))
+        << error.what();
   }
   const auto said = [&folder](const std::string& name, const std::string& bytes) -> std::string {
     try {
@@ -460,7 +495,8 @@ TEST(GwyddionImport, AMatrixFileWithoutItsParametersNamesThem) {
     }
   };
   EXPECT_TRUE(mentions(said("renamed.Z_mtrx", "ONTMATRX0101TLKB"), "under another name"));
-  EXPECT_TRUE(mentions(said("default_scan_0001.mtrx", "ONTMATRX0101ATEM"), "the parameters of MATRIX scans"));
+  EXPECT_TRUE(mentions(said("default_scan_0001.mtrx", "ONTMATRX0101ATEM"),
+                       "the parameters of MATRIX scans"));
 }
 
 TEST(ScanFile, WithoutOneMeasuredPixelIsRefused) {
@@ -486,25 +522,30 @@ TEST(GwyddionImport, AnHdf5FileThatItDoesNotKnowIsRefusedWithWhatToDo) {
     openScanFile(folder.write("scan.h5", "\x89HDF\r\n\x1a\n"), {}, options);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and give --pitch")) << error.what();
+    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and give --pitch"))
+        << error.what();
   }
 }
 
 TEST(GwyddionImport, HangingProgramAndItsChildrenAreStopped) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nsleep 300 &\nsleep 300\n", 0.2), "did not finish within 0.2 s"));
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nsleep 300 &\nsleep 300\n", 0.2),
+                       "did not finish within 0.2 s"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(100));
 }
 
 TEST(GwyddionImport, GarbageFromTheProgramIsRefused) {
-  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\necho garbage > \"$2\"\n"), "cannot be read: not a"));
+  EXPECT_TRUE(
+      mentions(importRefusal("#!/bin/sh\necho garbage > \"$2\"\n"), "cannot be read: not a"));
 }
 
 TEST(ScanFile, SidecarsOfGivenScansAreNoScans) {
   using Paths = std::vector<std::string>;
-  EXPECT_EQ(withoutSidecars({"a.txt", "a.txt.yaml", "b.tiff", "b.yaml"}), (Paths{"a.txt", "b.tiff"}));
+  EXPECT_EQ(withoutSidecars({"a.txt", "a.txt.yaml", "b.tiff", "b.yaml"}),
+            (Paths{"a.txt", "b.tiff"}));
   // a file of settings that belongs to none of them stays, so that it is refused by its name
-  EXPECT_EQ(withoutSidecars({"part.yaml", "a.txt", "x/a.txt.yaml"}), (Paths{"part.yaml", "a.txt", "x/a.txt.yaml"}));
+  EXPECT_EQ(withoutSidecars({"part.yaml", "a.txt", "x/a.txt.yaml"}),
+            (Paths{"part.yaml", "a.txt", "x/a.txt.yaml"}));
 }
 
 TEST(GwyddionImport, TheHomeFolderIsPrivateAndGoesAway) {
@@ -520,8 +561,8 @@ TEST(GwyddionImport, TheHomeFolderIsPrivateAndGoesAway) {
 
 TEST(ChildProcess, ArgumentsReachTheProgramAsTheyAre) {
   const ScratchFolder folder;
-  const ChildResult result =
-      runChild({"printf", "%s|", "a b", "$HOME", "*", "'"}, environmentWithout({}, {}), folder.file("log"), 10.0);
+  const ChildResult result = runChild({"printf", "%s|", "a b", "$HOME", "*", "'"},
+                                      environmentWithout({}, {}), folder.file("log"), 10.0);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(ScratchFolder::read(folder.file("log")), "a b|$HOME|*|'|");
 }

@@ -25,7 +25,9 @@ std::string complaint(Check&& check, const std::string& bytes) {
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -61,7 +63,8 @@ const std::map<std::string, std::string>& makers() {
 }
 
 TEST(StatedLength, ASoundFileIsTaken) {
-  for (const auto& [maker, bytes] : makers()) EXPECT_EQ(complaint(checkStatedLength, bytes), "") << maker;
+  for (const auto& [maker, bytes] : makers())
+    EXPECT_EQ(complaint(checkStatedLength, bytes), "") << maker;
   EXPECT_EQ(complaint(checkStatedLength, surfstand()), "");
   EXPECT_EQ(complaint(checkStatedLength, "anything else"), "");
 }
@@ -70,7 +73,8 @@ TEST(StatedLength, BytesTooFewAreRefused) {
   for (const auto& [maker, bytes] : makers()) {
     for (const std::size_t missing : {1, 2, 7}) {
       const std::string cut = bytes.substr(0, bytes.size() - missing);
-      EXPECT_TRUE(mentions(complaint(checkStatedLength, cut), "cut off")) << maker << " " << missing;
+      EXPECT_TRUE(mentions(complaint(checkStatedLength, cut), "cut off"))
+          << maker << " " << missing;
     }
   }
 }
@@ -78,7 +82,8 @@ TEST(StatedLength, BytesTooFewAreRefused) {
 TEST(StatedLength, BytesTooManyAreRefused) {
   for (const auto& [maker, bytes] : makers()) {
     if (maker == "Createc, compressed") continue;  // the stream says where it ends
-    EXPECT_TRUE(mentions(complaint(checkStatedLength, bytes + "surplus"), "its header states")) << maker;
+    EXPECT_TRUE(mentions(complaint(checkStatedLength, bytes + "surplus"), "its header states"))
+        << maker;
   }
 }
 
@@ -87,7 +92,8 @@ TEST(StatedLength, FillerBehindCreatecDataIsNoSurplus) {
   EXPECT_EQ(complaint(checkStatedLength, bytes + std::string(8188, '\0')), "");
   EXPECT_NE(complaint(checkStatedLength, bytes + std::string(20000, '\0')), "");
   const std::string halved = replaced(createc("[Paramco32]"), "Num.Y=4", "Num.Y=2");
-  EXPECT_TRUE(mentions(complaint(checkStatedLength, halved), "its header states")) << "half of the data is no filler";
+  EXPECT_TRUE(mentions(complaint(checkStatedLength, halved), "its header states"))
+      << "half of the data is no filler";
 }
 
 TEST(StatedLength, ACreatecHeaderThatEndsWithItsTextIsFilledUp) {
@@ -109,11 +115,13 @@ TEST(StatedLength, ACreatecHeaderThatEndsWithItsTextIsFilledUp) {
 
 TEST(StatedLength, SurfstandTextHasTheHeightsThatItStates) {
   const std::string bytes = surfstand();
-  EXPECT_TRUE(mentions(complaint(checkStatedLength, bytes.substr(0, bytes.size() - 3)), "last number"));
   EXPECT_TRUE(
-      mentions(complaint(checkStatedLength, bytes.substr(0, bytes.size() - 8)), "5 heights, its header states 6"));
-  EXPECT_TRUE(mentions(complaint(checkStatedLength, replaced(bytes, "NumProfiles = 2", "NumProfiles = 1")),
-                       "its header states 3"));
+      mentions(complaint(checkStatedLength, bytes.substr(0, bytes.size() - 3)), "last number"));
+  EXPECT_TRUE(mentions(complaint(checkStatedLength, bytes.substr(0, bytes.size() - 8)),
+                       "5 heights, its header states 6"));
+  EXPECT_TRUE(
+      mentions(complaint(checkStatedLength, replaced(bytes, "NumProfiles = 2", "NumProfiles = 1")),
+               "its header states 3"));
 }
 
 // ---- NanoScope
@@ -125,7 +133,8 @@ TEST(Nanoscope, ASoundFileIsTaken) {
 
 TEST(Nanoscope, AFileOfAnotherLengthIsRefused) {
   const std::string bytes = nanoscope({{}, {}});
-  EXPECT_TRUE(mentions(complaint(checkedNanoscope, bytes + "x"), "has 4353 bytes, its header states 4352"));
+  EXPECT_TRUE(
+      mentions(complaint(checkedNanoscope, bytes + "x"), "has 4353 bytes, its header states 4352"));
   EXPECT_TRUE(mentions(complaint(checkedNanoscope, bytes.substr(0, 4300)), "cut off"));
   EXPECT_NE(complaint(checkedNanoscope, everywhere(bytes, "\n", "\r\n")), "");
   EXPECT_NE(complaint(checkedNanoscope, everywhere(bytes, "\r\n", "\n")), "");
@@ -138,7 +147,8 @@ TEST(Nanoscope, EachImageIsAsLongAsItsSamplesAndLines) {
   }
   NanoscopeImage wide;
   wide.data += "ab";
-  EXPECT_TRUE(mentions(complaint(checkedNanoscope, nanoscope({{}, wide})), "are not the 130 bytes"));
+  EXPECT_TRUE(
+      mentions(complaint(checkedNanoscope, nanoscope({{}, wide})), "are not the 130 bytes"));
 }
 
 TEST(Nanoscope, PixelsAreSquareWhereTheHeaderSaysSo) {
@@ -178,13 +188,16 @@ TEST(Transfer, BinaryDataWithLineEndsOfTextAreRefused) {
 
 TEST(Transfer, BytesReplacedAsNoUtf8AreRefused) {
   std::string bytes("header\n\0", 8);
-  for (const char c : noise(4000)) bytes += (c & 0x80) != 0 ? std::string("\xEF\xBF\xBD") : std::string(1, c);
+  for (const char c : noise(4000))
+    bytes += (c & 0x80) != 0 ? std::string("\xEF\xBF\xBD") : std::string(1, c);
   EXPECT_TRUE(mentions(complaint(checkTransfer, bytes), "U+FFFD"));
 }
 
 TEST(Transfer, WhatStandsInForAFileIsNamed) {
-  EXPECT_TRUE(mentions(complaint(checkTransfer, "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"),
-                       "Git LFS"));
+  EXPECT_TRUE(
+      mentions(complaint(checkTransfer,
+                         "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"),
+               "Git LFS"));
   EXPECT_TRUE(mentions(complaint(checkTransfer, "<!DOCTYPE html>\n<html></html>"), "web page"));
 }
 
@@ -198,14 +211,18 @@ TEST(StatedTwice, ASizeOrGainThatDiffersIsRefused) {
   EXPECT_EQ(complaint(checkStatedTwice, sxm + ":SCAN_PIXELS:\n256 256\n" + end), "") << "the same";
   EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":SCAN_PIXELS:\n128 256\n" + end),
                        "'scan_pixels' twice, as '256 256' and '128 256'"));
-  EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":scan_range:\n2.0E-8 1.0E-8\n" + end), "'scan_range' twice"));
-  EXPECT_TRUE(
-      mentions(complaint(checkStatedTwice, sxm + ":DATA_INFO:\na\n:DATA_INFO:\nb\n" + end), "'data_info' twice"));
+  EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":scan_range:\n2.0E-8 1.0E-8\n" + end),
+                       "'scan_range' twice"));
+  EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":DATA_INFO:\na\n:DATA_INFO:\nb\n" + end),
+                       "'data_info' twice"));
   for (const char* kind : {"[Parameter]", "[Paramet32]", "[Paramco32]"}) {
-    const std::string header = std::string(kind) + "\r\nNum.X / Num.X=3\r\nGainZ / GainZ=10\r\nTitle=a\r\nTitle=b\r\n";
+    const std::string header =
+        std::string(kind) + "\r\nNum.X / Num.X=3\r\nGainZ / GainZ=10\r\nTitle=a\r\nTitle=b\r\n";
     EXPECT_EQ(complaint(checkStatedTwice, header + "GainZ=10\r\n"), "");
-    EXPECT_TRUE(mentions(complaint(checkStatedTwice, header + "GainZ=1\r\n"), "'gainz' twice, as '10' and '1'"));
-    EXPECT_TRUE(mentions(complaint(checkStatedTwice, header + "Num.X / Num.X=4\r\n"), "'num.x' twice"));
+    EXPECT_TRUE(mentions(complaint(checkStatedTwice, header + "GainZ=1\r\n"),
+                         "'gainz' twice, as '10' and '1'"));
+    EXPECT_TRUE(
+        mentions(complaint(checkStatedTwice, header + "Num.X / Num.X=4\r\n"), "'num.x' twice"));
   }
 }
 

@@ -18,8 +18,8 @@ const std::vector<std::vector<std::string>> kNumbers = {{"0.437", "1.041", "-0.2
                                                         {"2.718", "0.500", "0.333", "1.250"},
                                                         {"0.999", "-0.100", "1.800", "0.050"}};
 
-std::string written(const std::string& separator, char decimal = '.', const std::string& line_end = "\n",
-                    const std::string& quote = "") {
+std::string written(const std::string& separator, char decimal = '.',
+                    const std::string& line_end = "\n", const std::string& quote = "") {
   std::string text;
   for (const auto& line : kNumbers) {
     for (std::size_t col = 0; col < line.size(); ++col) {
@@ -36,7 +36,8 @@ void expectNumbers(const FileChannel& channel, double unit = 1.0) {
   ASSERT_EQ(channel.values.size(), cv::Size(4, 5));
   for (int row = 0; row < 5; ++row) {
     for (int col = 0; col < 4; ++col) {
-      const double expected = std::stod(kNumbers[static_cast<std::size_t>(row)][static_cast<std::size_t>(col)]);
+      const double expected =
+          std::stod(kNumbers[static_cast<std::size_t>(row)][static_cast<std::size_t>(col)]);
       EXPECT_DOUBLE_EQ(channel.values.at<double>(row, col), expected * unit) << row << ", " << col;
     }
   }
@@ -52,7 +53,9 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(TextGrid, ReadsHeadingsOfWsxmWykoAndKeyence) {
   FileChannel channel = parseTextGrid(
@@ -83,7 +86,8 @@ TEST(TextGrid, ReadsHeadingsOfWsxmWykoAndKeyence) {
 
   const std::string keyence =
       "\"Measured date\",\"2024-02-03 10:11:12\"\n\"Model\",\"VK-X3000 Series\"\n"
-      "\"XY Calibration\",\"7.413\",\"um\"\n\"Output image data\",\"Height\"\n\"Horizontal\",\"4\"\n"
+      "\"XY Calibration\",\"7.413\",\"um\"\n\"Output image "
+      "data\",\"Height\"\n\"Horizontal\",\"4\"\n"
       "\"Vertical\",\"5\"\n\"Unit\",\"um\"\n\"Reference data name\",\"\"\n\n\"Height\"\n";
   channel = parseTextGrid(keyence + written(",", '.', "\n", "\""));
   expectNumbers(channel, 1e-6);
@@ -95,11 +99,15 @@ TEST(TextGrid, ReadsHeadingsOfWsxmWykoAndKeyence) {
 TEST(TextGrid, HoldsTheSizesOfTheseHeadingsAgainstTheNumbers) {
   expectNumbers(parseTextGrid("h=5 w=4\n" + written(" ")));
   expectNumbers(parseTextGrid("# w=4 h=5\n" + written(" ")));
-  EXPECT_TRUE(mentions(refusal("h=5 w=5\n" + written(" ")), "states 5 x 5 numbers, the file has 4 x 5"));
-  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t1\t1\nX Size\t4\n" + written("\t")), "states 0 x 4"));
-  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t0\t1\nX Size\t5\n" + written("\t")), "no wavelength"));
   EXPECT_TRUE(
-      mentions(refusal("\"XY Calibration\",\"7\",\"um\"\n\"Horizontal\",\"9\"\n" + written(",")), "states 9 x 0"));
+      mentions(refusal("h=5 w=5\n" + written(" ")), "states 5 x 5 numbers, the file has 4 x 5"));
+  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t1\t1\nX Size\t4\n" + written("\t")),
+                       "states 0 x 4"));
+  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t0\t1\nX Size\t5\n" + written("\t")),
+                       "no wavelength"));
+  EXPECT_TRUE(
+      mentions(refusal("\"XY Calibration\",\"7\",\"um\"\n\"Horizontal\",\"9\"\n" + written(",")),
+               "states 9 x 0"));
 }
 
 TEST(TextGrid, ConvertsNumbersByTheFactorThatTheHeadingStates) {
@@ -111,16 +119,22 @@ TEST(TextGrid, ConvertsNumbersByTheFactorThatTheHeadingStates) {
   EXPECT_DOUBLE_EQ(channel.width, 4 * 2.5e-7);
   EXPECT_DOUBLE_EQ(channel.height, 5 * 2.5e-7);
   EXPECT_TRUE(channel.notes.empty());
-  expectNumbers(parseTextGrid(size + "data unit=rad\nheight conversion factor (-> um)=0.5\n" + written(" ")), 0.5e-6);
+  expectNumbers(
+      parseTextGrid(size + "data unit=rad\nheight conversion factor (-> um)=0.5\n" + written(" ")),
+      0.5e-6);
   expectNumbers(parseTextGrid(size + "data unit=nm\n" + written(" ")), 1e-9);
   EXPECT_EQ(parseTextGrid(size + "data unit=rad\n" + written(" ")).unit_z,
             "rad");  // the choice of a channel refuses it
   for (const std::string wrong : {"0", "-1.5", "six", "2x", "nan"}) {
-    const std::string text = size + "height conversion factor (-> m)=" + wrong + "\n" + written(" ");
-    EXPECT_TRUE(mentions(refusal(text), "line 3: the height conversion factor '" + wrong + "' is not a number > 0"));
+    const std::string text =
+        size + "height conversion factor (-> m)=" + wrong + "\n" + written(" ");
+    EXPECT_TRUE(mentions(
+        refusal(text), "line 3: the height conversion factor '" + wrong + "' is not a number > 0"));
   }
-  EXPECT_TRUE(mentions(refusal("height conversion factor (-> V)=2.5\n" + written(" ")), "'v' is not a unit of length"));
-  EXPECT_TRUE(mentions(refusal(factor + "height conversion factor (-> m)=2.5\n" + written(" ")), "factor twice"));
+  EXPECT_TRUE(mentions(refusal("height conversion factor (-> V)=2.5\n" + written(" ")),
+                       "'v' is not a unit of length"));
+  EXPECT_TRUE(mentions(refusal(factor + "height conversion factor (-> m)=2.5\n" + written(" ")),
+                       "factor twice"));
 }
 
 TEST(TextGrid, SaysOfProfilesThatTheyAreNone) {
@@ -134,17 +148,21 @@ TEST(TextGrid, SaysOfProfilesThatTheyAreNone) {
     two += x + "," + z + "\n";
     indexed += std::to_string(i) + "," + x + "," + z + "\n";
     stylus += x + "," + z + ",,\n";
-    three += z + "," + std::to_string(std::cos(3.0 * i)) + "," + std::to_string(std::cos(5.0 * i)) + "\n";
+    three += z + "," + std::to_string(std::cos(3.0 * i)) + "," + std::to_string(std::cos(5.0 * i)) +
+             "\n";
   }
-  const std::string advice = " columns of 12 lines are a profile, not a surface: export a scan of an area";
+  const std::string advice =
+      " columns of 12 lines are a profile, not a surface: export a scan of an area";
   EXPECT_TRUE(mentions(refusal(two), "2" + advice));
   EXPECT_TRUE(mentions(refusal(indexed), "3" + advice));
   EXPECT_TRUE(mentions(refusal(stylus), "3" + advice));
-  EXPECT_TRUE(mentions(refusal(three), "line 1: 'a' is not a number, column 1, and begins no known heading"));
+  EXPECT_TRUE(mentions(refusal(three),
+                       "line 1: 'a' is not a number, column 1, and begins no known heading"));
 }
 
 TEST(TextGrid, EveryWordForNoNumberIsOne) {
-  for (const std::string word : {"NA", "N/A", "null", "---", "BAD", "No Data", "#N/A", "nan", "-inf"}) {
+  for (const std::string word :
+       {"NA", "N/A", "null", "---", "BAD", "No Data", "#N/A", "nan", "-inf"}) {
     for (const std::string separator : {",", ";", "\t"}) {
       std::string text = written(separator);
       text.replace(text.find("0.125"), 5, word);
@@ -157,8 +175,8 @@ TEST(TextGrid, EveryWordForNoNumberIsOne) {
 }
 
 TEST(SurferGrid, RowsComeFromTheLowestYOn) {
-  const FileChannel channel =
-      parseSurferGrid("DSAA\r\n3 2\r\n10 14\r\n-1 1\r\n0 6\r\n1 2\r\n3\r\n\r\n4 1.70141e+038 6\r\n");
+  const FileChannel channel = parseSurferGrid(
+      "DSAA\r\n3 2\r\n10 14\r\n-1 1\r\n0 6\r\n1 2\r\n3\r\n\r\n4 1.70141e+038 6\r\n");
   ASSERT_EQ(channel.values.size(), cv::Size(3, 2));
   EXPECT_EQ(channel.values.at<double>(1, 0), 1.0);
   EXPECT_EQ(channel.values.at<double>(1, 2), 3.0);
@@ -170,9 +188,10 @@ TEST(SurferGrid, RowsComeFromTheLowestYOn) {
 }
 
 TEST(SurferGrid, WhatIsDamagedIsRefused) {
-  for (const char* text : {"DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5", "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5 6 7\n",
-                           "DSAA\n3 1\n0 1\n0 1\n0 1\n1 2 3\n", "DSAA\n3 2\n1 1\n0 1\n0 1\n1 2 3\n4 5 6\n",
-                           "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 x\n4 5 6\n", "DSAA\n", "DSAA\n900000 900000\n0 1\n"}) {
+  for (const char* text :
+       {"DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5", "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5 6 7\n",
+        "DSAA\n3 1\n0 1\n0 1\n0 1\n1 2 3\n", "DSAA\n3 2\n1 1\n0 1\n0 1\n1 2 3\n4 5 6\n",
+        "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 x\n4 5 6\n", "DSAA\n", "DSAA\n900000 900000\n0 1\n"}) {
     EXPECT_THROW(parseSurferGrid(text), FileError) << text;
   }
 }
@@ -188,7 +207,8 @@ TEST(TextGrid, DecimalCommasAreReadWhereOtherSignsSeparate) {
 TEST(TextGrid, DecimalCommasBetweenCommasAreRefused) {
   EXPECT_TRUE(mentions(refusal(written(",", ',')), "decimal commas"));
   EXPECT_TRUE(mentions(refusal(written(", ", ',')), "decimal commas"));
-  EXPECT_TRUE(mentions(refusal("437,25,1041,75\n12,50,333,25\n"), "decimal commas")) << "no zero leads there";
+  EXPECT_TRUE(mentions(refusal("437,25,1041,75\n12,50,333,25\n"), "decimal commas"))
+      << "no zero leads there";
   EXPECT_TRUE(mentions(refusal("1,234.5;2.0\n3.0;4.0\n"), "points and decimal commas"));
 }
 
@@ -206,9 +226,12 @@ TEST(TextGrid, ASeparatorAtTheEndOfEveryLineBeginsNoCell) {
 }
 
 TEST(TextGrid, EmptyCellsNeverShiftTheOthers) {
-  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t\t6.5\n"), "line 2: an empty cell between tabs, column 2"));
-  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n\t5.5\t6.5\n"), "line 2: an empty cell between tabs, column 1"));
-  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t5.5\t\n"), "line 2: an empty cell between tabs, column 3"));
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t\t6.5\n"),
+                       "line 2: an empty cell between tabs, column 2"));
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n\t5.5\t6.5\n"),
+                       "line 2: an empty cell between tabs, column 1"));
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t5.5\t\n"),
+                       "line 2: an empty cell between tabs, column 3"));
   const cv::Mat grid = parseTextGrid("1.5;2.5;3.5\n4.5;;6.5\n7.5;8.5;\n").values;
   EXPECT_TRUE(std::isnan(grid.at<double>(1, 1)));
   EXPECT_EQ(grid.at<double>(1, 2), 6.5);
@@ -217,7 +240,8 @@ TEST(TextGrid, EmptyCellsNeverShiftTheOthers) {
 
 TEST(TextGrid, WordsThatAreNoNumbersAreRefusedWithLineAndColumn) {
   EXPECT_TRUE(mentions(refusal("1.5 2.5\n3.5 1.#\n"), "line 2: '1.#' is not a number, column 2"));
-  EXPECT_TRUE(mentions(refusal("1.5 -1.4_\n3.5 4.5\n"), "line 1: '-1.4_' is not a number, column 2"));
+  EXPECT_TRUE(
+      mentions(refusal("1.5 -1.4_\n3.5 4.5\n"), "line 1: '-1.4_' is not a number, column 2"));
   EXPECT_TRUE(mentions(refusal("1.5,2.5\n3.5,1e999\n"), "line 2: '1e999' is too large"));
   EXPECT_TRUE(mentions(refusal("1.5;2.5\n3,5;4 5\n"), "points and decimal commas"));
 }
@@ -231,8 +255,10 @@ TEST(TextGrid, InfinitiesAreMissing) {
 }
 
 TEST(TextGrid, ASecondGridIsRefusedWithItsLine) {
-  EXPECT_TRUE(mentions(refusal(written(" ") + "\n" + written(" ")), "line 7: a second grid begins here"));
-  EXPECT_TRUE(mentions(refusal(written(" ") + "# Channel: Phase\n" + written(" ")), "line 7: a second grid"));
+  EXPECT_TRUE(
+      mentions(refusal(written(" ") + "\n" + written(" ")), "line 7: a second grid begins here"));
+  EXPECT_TRUE(mentions(refusal(written(" ") + "# Channel: Phase\n" + written(" ")),
+                       "line 7: a second grid"));
   expectNumbers(parseTextGrid("\n\n" + written(" ") + "\n\n# the end\n"));
   expectNumbers(parseTextGrid(written(" ", '.', "\n\n")));
 }
@@ -247,7 +273,8 @@ TEST(TextGrid, IndexRowsAndColumnsAreRefused) {
   }
   EXPECT_TRUE(mentions(refusal(with_column), "column 1 holds numbers in equal steps"));
   EXPECT_TRUE(mentions(refusal(with_both), "line 1: numbers in equal steps"));
-  EXPECT_TRUE(mentions(refusal("0.0 0.039 0.078 0.117 0.156 0.195\n" + with_column.substr(with_column.find('\n') + 1)),
+  EXPECT_TRUE(mentions(refusal("0.0 0.039 0.078 0.117 0.156 0.195\n" +
+                               with_column.substr(with_column.find('\n') + 1)),
                        "line 1: numbers in equal steps"));
 }
 
@@ -262,7 +289,8 @@ TEST(TextGrid, ATiltedPlaneHasNoIndices) {
 
 TEST(TextGrid, ANumberThatWasCutOffIsRefused) {
   const std::string whole = written(" ");
-  EXPECT_TRUE(mentions(refusal(whole.substr(0, whole.size() - 2)), "line 5: the last number, column 4, is shorter"));
+  EXPECT_TRUE(mentions(refusal(whole.substr(0, whole.size() - 2)),
+                       "line 5: the last number, column 4, is shorter"));
   EXPECT_TRUE(mentions(refusal(whole.substr(0, whole.size() - 3)), "is shorter"));
   // Without its line end alone the file is whole, but nobody can know.
   const FileChannel channel = parseTextGrid(whole.substr(0, whole.size() - 1));
@@ -283,7 +311,8 @@ TEST(TextGrid, EveryEncodingOfTheSameTextIsRead) {
     big += {'\0', letter};
     latin += letter;
   }
-  for (const std::string& bytes : {text, "\xEF\xBB\xBF" + text, latin, little, big, little.substr(2)}) {
+  for (const std::string& bytes :
+       {text, "\xEF\xBB\xBF" + text, latin, little, big, little.substr(2)}) {
     const FileChannel channel = parseTextGrid(bytes);
     expectNumbers(channel);
     EXPECT_DOUBLE_EQ(channel.width, 4e-6);
@@ -299,7 +328,9 @@ TEST(TextGrid, PercentSignsBeginComments) {
 
 TEST(TextGrid, HeadingsOfOtherProgramsStateSizeAndUnit) {
   const FileChannel gwyddion = parseTextGrid(
-      "# Channel: Topography\n# Width: 4.00 \xC2\xB5m\n# Height: 10.00 \xC2\xB5m\n# Value units: m\n" + written("\t"));
+      "# Channel: Topography\n# Width: 4.00 \xC2\xB5m\n# Height: 10.00 \xC2\xB5m\n# Value units: "
+      "m\n" +
+      written("\t"));
   expectNumbers(gwyddion);
   EXPECT_EQ(gwyddion.title, "Topography");
   EXPECT_DOUBLE_EQ(gwyddion.width, 4e-6);
@@ -307,7 +338,8 @@ TEST(TextGrid, HeadingsOfOtherProgramsStateSizeAndUnit) {
   EXPECT_EQ(gwyddion.unit_z, "m");
   expectNumbers(parseTextGrid("# Value units: nm\n" + written(" ")), 1e-9);
   expectNumbers(parseTextGrid("x-pixels = 4\ny-pixels = 5\nz-unit = um\n" + written(" ")), 1e-6);
-  EXPECT_TRUE(mentions(refusal("x-pixels = 5\n" + written(" ")), "the heading states 5 x 0 numbers"));
+  EXPECT_TRUE(
+      mentions(refusal("x-pixels = 5\n" + written(" ")), "the heading states 5 x 0 numbers"));
 }
 
 TEST(TextGrid, AUnitThatIsNoLengthIsRefused) {
@@ -340,7 +372,9 @@ TEST(TextGrid, TheStatedWidthGoesBeforeTheConfiguration) {
 TEST(TextGrid, TheListSaysWhereTheUnitIsNotStated) {
   const ScratchFolder folder;
   EXPECT_TRUE(listScanChannels(folder.write("a.txt", written(" "))).at(0).is_unit_assumed);
-  EXPECT_FALSE(listScanChannels(folder.write("b.txt", "# Value units: m\n" + written(" "))).at(0).is_unit_assumed);
+  EXPECT_FALSE(listScanChannels(folder.write("b.txt", "# Value units: m\n" + written(" ")))
+                   .at(0)
+                   .is_unit_assumed);
 }
 
 TEST(TextGrid, AUnitThatARemarkMentionsIsAskedFor) {
@@ -422,7 +456,8 @@ TEST(XyzList, WhatIsOnNoGridIsRefused) {
   std::string scattered;
   std::string profile;
   for (int i = 0; i < 40; ++i) {
-    scattered += std::to_string(i * 7 % 11 + 0.37 * i) + " " + std::to_string(i * 5 % 13 - 0.11 * i * i) + " 1.5\n";
+    scattered += std::to_string(i * 7 % 11 + 0.37 * i) + " " +
+                 std::to_string(i * 5 % 13 - 0.11 * i * i) + " 1.5\n";
     profile += std::to_string(i) + " " + std::to_string(i * i % 7) + "\n";
   }
   EXPECT_NE(refusal(scattered), "");

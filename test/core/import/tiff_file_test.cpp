@@ -61,7 +61,8 @@ class TiffFile : public ::testing::Test {
       TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, page.bits);
       TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, page.samples);
       TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, page.format);
-      TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, page.samples == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+      TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
+                   page.samples == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
       TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 2);
       page.tags(tiff);
       for (int row = 0; row < page.rows; ++row) {
@@ -83,7 +84,8 @@ class TiffFile : public ::testing::Test {
     ASSERT_EQ(wide.size(), cv::Size(kCols, kRows));
     for (int row = 0; row < kRows; ++row) {
       for (int col = 0; col < kCols; ++col) {
-        EXPECT_DOUBLE_EQ(wide.at<double>(row, col), (10 * row + col) * scale + offset) << row << ", " << col;
+        EXPECT_DOUBLE_EQ(wide.at<double>(row, col), (10 * row + col) * scale + offset)
+            << row << ", " << col;
       }
     }
   }
@@ -109,16 +111,16 @@ TEST_F(TiffFile, IntegersAndFloatsOfEverySizeAreReadAsTheyStand) {
     }
     return bytes;
   };
-  for (const Kind& kind :
-       std::vector<Kind>{{8, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint8_t>(row); }},
-                         {8, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int8_t>(row); }},
-                         {16, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint16_t>(row); }},
-                         {16, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int16_t>(row); }},
-                         {32, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint32_t>(row); }},
-                         {32, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int32_t>(row); }},
-                         {16, SAMPLEFORMAT_IEEEFP, half},
-                         {32, SAMPLEFORMAT_IEEEFP, [](int row) { return numbers<float>(row); }},
-                         {64, SAMPLEFORMAT_IEEEFP, [](int row) { return numbers<double>(row); }}}) {
+  for (const Kind& kind : std::vector<Kind>{
+           {8, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint8_t>(row); }},
+           {8, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int8_t>(row); }},
+           {16, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint16_t>(row); }},
+           {16, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int16_t>(row); }},
+           {32, SAMPLEFORMAT_UINT, [](int row) { return numbers<std::uint32_t>(row); }},
+           {32, SAMPLEFORMAT_INT, [](int row) { return numbers<std::int32_t>(row); }},
+           {16, SAMPLEFORMAT_IEEEFP, half},
+           {32, SAMPLEFORMAT_IEEEFP, [](int row) { return numbers<float>(row); }},
+           {64, SAMPLEFORMAT_IEEEFP, [](int row) { return numbers<double>(row); }}}) {
     SCOPED_TRACE(std::to_string(kind.bits) + " bits of format " + std::to_string(kind.format));
     Page page;
     page.bits = kind.bits;
@@ -154,7 +156,8 @@ TEST_F(TiffFile, CountsOfTwelveBitsAndOfOneAreNotScaled) {
       const int value = 10 * row + col;
       for (int bit = 0; bit < 12; ++bit) {
         if ((value >> (11 - bit) & 1) != 0)
-          bytes[static_cast<std::size_t>((12 * col + bit) / 8)] |= static_cast<char>(0x80 >> (12 * col + bit) % 8);
+          bytes[static_cast<std::size_t>((12 * col + bit) / 8)] |=
+              static_cast<char>(0x80 >> (12 * col + bit) % 8);
       }
     }
     return bytes;
@@ -174,8 +177,11 @@ TEST_F(TiffFile, ThumbnailsAreLeftOutWhereverTheyStand) {
   Page thumbnail = floatPage();
   thumbnail.cols = thumbnail.rows = 2;
   thumbnail.line = [](int row) { return numbers<float>(row, 2); };
-  thumbnail.tags = [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE); };
-  for (const auto& pages : {std::vector<Page>{thumbnail, floatPage()}, std::vector<Page>{floatPage(), thumbnail}}) {
+  thumbnail.tags = [](TIFF* tiff) {
+    TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE);
+  };
+  for (const auto& pages :
+       {std::vector<Page>{thumbnail, floatPage()}, std::vector<Page>{floatPage(), thumbnail}}) {
     const auto channels = parseTiff(write(pages));
     ASSERT_EQ(channels.size(), 1u);
     expectNumbers(channels[0].values);
@@ -204,7 +210,8 @@ TEST_F(TiffFile, SeveralPagesAreNamedAndNoneIsTakenUnasked) {
     chooseHeightChannel(channels);
     FAIL() << "one of two pages was taken";
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("0: (no title) [5 x 4], 1: error signal [5 x 4], 2:"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("0: (no title) [5 x 4], 1: error signal [5 x 4], 2:"),
+              std::string::npos)
         << error.what();
   }
   EXPECT_EQ(chooseHeightChannel(channels, "2"), 2u);
@@ -271,16 +278,19 @@ TEST_F(TiffFile, YOfImageJMayHaveAnotherUnit) {
 
 TEST_F(TiffFile, AStackThatImageJHidesBehindThePageIsRefused) {
   Page page = floatPage();
-  page.tags = [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, "ImageJ=1.53t\nimages=7\nslices=7\n"); };
+  page.tags = [](TIFF* tiff) {
+    TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, "ImageJ=1.53t\nimages=7\nslices=7\n");
+  };
   EXPECT_THROW(parsed(page), FileError);
 }
 
 TEST_F(TiffFile, TheScaleOfOmeIsThePitch) {
   Page page = floatPage();
   page.tags = [](TIFF* tiff) {
-    TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION,
-                 "<?xml version=\"1.0\"?><OME><Image><Pixels PhysicalSizeX=\"20\" PhysicalSizeXUnit=\"nm\" "
-                 "PhysicalSizeY=\"0.04\" SizeX=\"5\"/></Image></OME>");
+    TIFFSetField(
+        tiff, TIFFTAG_IMAGEDESCRIPTION,
+        "<?xml version=\"1.0\"?><OME><Image><Pixels PhysicalSizeX=\"20\" PhysicalSizeXUnit=\"nm\" "
+        "PhysicalSizeY=\"0.04\" SizeX=\"5\"/></Image></OME>");
   };
   write({page});
   EXPECT_DOUBLE_EQ(readScanFile(path()).pitchX(), 20e-9);
@@ -303,8 +313,9 @@ TEST_F(TiffFile, AResolutionIsThePitchUnlessItIsAPrinters) {
   ScanOptions configured;
   configured.pitch_x = configured.pitch_y = 5e-9;
   EXPECT_EQ(readScanFile(path(), configured).pitchX(), 5e-9) << "programs fill this field unasked";
-  for (const Page& page : {with(72.0, 72.0, RESUNIT_INCH), with(300.0, 300.0, RESUNIT_INCH),
-                           with(1.0, 1.0, RESUNIT_NONE), with(118.11, 118.11, RESUNIT_CENTIMETER)}) {
+  for (const Page& page :
+       {with(72.0, 72.0, RESUNIT_INCH), with(300.0, 300.0, RESUNIT_INCH),
+        with(1.0, 1.0, RESUNIT_NONE), with(118.11, 118.11, RESUNIT_CENTIMETER)}) {
     write({page});
     EXPECT_THROW(readScanFile(path()), FileError);
   }
@@ -327,7 +338,8 @@ TEST_F(TiffFile, CompressedPagesAreRead) {
 
 /// Where the directory of the first page begins.
 std::size_t directoryAt(const std::string& bytes) {
-  return static_cast<std::size_t>(static_cast<unsigned char>(bytes[4]) | static_cast<unsigned char>(bytes[5]) << 8 |
+  return static_cast<std::size_t>(static_cast<unsigned char>(bytes[4]) |
+                                  static_cast<unsigned char>(bytes[5]) << 8 |
                                   static_cast<unsigned char>(bytes[6]) << 16);
 }
 
@@ -360,7 +372,9 @@ TEST_F(TiffFile, TooManyPixelsAreRefusedBeforeMemoryIsTaken) {
     parseTiff(bytes);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("30000 x 30000 pixels are more than"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("30000 x 30000 pixels are more than"),
+              std::string::npos)
+        << error.what();
   }
 }
 

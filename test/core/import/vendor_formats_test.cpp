@@ -28,13 +28,16 @@ std::string refusal(Function&& read) {
   return "";
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 // ---- WSxM
 
 TEST(WsxmFile, TheMicroSignOfLatin1IsRead) {
   for (const std::string micro : {"\xB5", "\xC2\xB5", "u"}) {
-    const FileChannel channel = parseWsxm(wsxm("double", "2 " + micro + "m", "5 nm", wsxmDoubles()));
+    const FileChannel channel =
+        parseWsxm(wsxm("double", "2 " + micro + "m", "5 nm", wsxmDoubles()));
     EXPECT_DOUBLE_EQ(channel.width, 2e-6);
     EXPECT_EQ(channel.unit_z, "m");
     // Upside down and mirrored: the first number is the last pixel.
@@ -45,9 +48,11 @@ TEST(WsxmFile, TheMicroSignOfLatin1IsRead) {
 
 TEST(WsxmFile, IntegersSpanTheAmplitude) {
   std::string data;
-  for (const int value : {100, 200, 150, 300, 100, 100}) data += littleBytes(static_cast<std::int16_t>(value));
+  for (const int value : {100, 200, 150, 300, 100, 100})
+    data += littleBytes(static_cast<std::int16_t>(value));
   const FileChannel channel = parseWsxm(wsxm("short", "2 nm", "1 nm", data));
-  const double range = channel.values.at<double>(0, 2) - channel.values.at<double>(1, 2);  // 300 - 100
+  const double range =
+      channel.values.at<double>(0, 2) - channel.values.at<double>(1, 2);  // 300 - 100
   EXPECT_NEAR(range, 1e-9, 1e-22);
 }
 
@@ -67,7 +72,8 @@ TEST(WsxmFile, ASizeThatDoesNotMatchTheFileIsRefused) {
 
 TEST(WsxmFile, DataThatBeginBeforeTheFileAreRefused) {
   std::string bytes = wsxm("double", "2 nm", "5 nm", wsxmDoubles());
-  bytes.replace(bytes.find("Number of rows: 2"), 17, "Number of rows: 99");  // 2376 bytes of numbers
+  bytes.replace(bytes.find("Number of rows: 2"), 17,
+                "Number of rows: 99");  // 2376 bytes of numbers
   const std::string key = "header size: ";
   const std::size_t size = bytes.find(key) + key.size();
   bytes.replace(size, bytes.find('\r', size) - size, "-0000");
@@ -77,13 +83,15 @@ TEST(WsxmFile, DataThatBeginBeforeTheFileAreRefused) {
 
 TEST(WsxmFile, OneByteTooManyIsRefused) {
   EXPECT_TRUE(
-      mentions(refusal([] { parseWsxm(wsxm("double", "2 nm", "5 nm", wsxmDoubles() + "x")); }), "its header states"));
+      mentions(refusal([] { parseWsxm(wsxm("double", "2 nm", "5 nm", wsxmDoubles() + "x")); }),
+               "its header states"));
 }
 
 TEST(WsxmFile, OtherExtremesThanTheHeaderStatesAreRefused) {
   const auto read = [](const std::string& largest) {
     return refusal([&] {
-      parseWsxm(wsxm("double", "2 nm", "5 nm\r\n[Miscellaneous]\r\n    Maximum: " + largest, wsxmDoubles()));
+      parseWsxm(wsxm("double", "2 nm", "5 nm\r\n[Miscellaneous]\r\n    Maximum: " + largest,
+                     wsxmDoubles()));
     });
   };
   EXPECT_EQ(read("5"), "");
@@ -175,8 +183,10 @@ TEST(SurFile, AnotherUnitOrACutIsRefused) {
 
 TEST(SurFile, ThePublicFileHasTheRoughnessOfOtherReaders) {
   const char* folder = std::getenv("MEMS_STICTION_SCANS");
-  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
-  const HeightStatistics statistics = heightStatistics(readScanFile(std::string(folder) + "/misread/sur-2.sur"));
+  if (folder == nullptr)
+    GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  const HeightStatistics statistics =
+      heightStatistics(readScanFile(std::string(folder) + "/misread/sur-2.sur"));
   EXPECT_EQ(statistics.valid_count, 563 * 484 - 117);
   EXPECT_NEAR(statistics.rms_height, 17.5e-9, 0.05e-9);  // three digits are listed
 }
@@ -209,7 +219,8 @@ TEST(NetcdfFile, ASizeThatDoesNotMatchItsNumbersIsRefused) {
 TEST(NetcdfFile, EveryCutIsRefused) {
   const std::string whole = heights("nm");
   for (std::size_t size = 4; size < whole.size(); ++size) {
-    EXPECT_THROW(parseNetcdfHeights(whole.substr(0, size)), FileError) << size << " of " << whole.size();
+    EXPECT_THROW(parseNetcdfHeights(whole.substr(0, size)), FileError)
+        << size << " of " << whole.size();
   }
 }
 
@@ -217,7 +228,10 @@ TEST(NetcdfFile, EveryCutIsRefused) {
 std::string gxsm(const std::string& unit, double step_x = 0.0) {
   const std::vector<std::string> range = {ncText("unit", "nm"), ncText("var_unit", "Ang")};
   std::vector<NcVariable> variables = {
-      {"FloatField", {0, 1, 2, 3}, {ncText("long_name", "FloatField")}, bigDoubles({0, 1, 2, 10, 11, 12})},
+      {"FloatField",
+       {0, 1, 2, 3},
+       {ncText("long_name", "FloatField")},
+       bigDoubles({0, 1, 2, 10, 11, 12})},
       {"rangex", {}, range, bigDoubles({300})},
       {"rangey", {}, range, bigDoubles({200})},
       {"rangez", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({1})},
@@ -247,7 +261,8 @@ TEST(NetcdfFile, GxsmFilesGoThroughGwyddionWithTheirOwnUnit) {
   EXPECT_NEAR(surface.pitchX(), 150e-10, 1e-18);
   EXPECT_NEAR(surface.pitchY(), 200e-10, 1e-18);
   EXPECT_NEAR(surface.height(1, 2) - surface.height(0, 0), 12 * 0.5e-10, 1e-18);
-  EXPECT_TRUE(mentions(refusal([&] { readScanFile(folder.write("current.nc", gxsm("nA"))); }), "[nA]"));
+  EXPECT_TRUE(
+      mentions(refusal([&] { readScanFile(folder.write("current.nc", gxsm("nA"))); }), "[nA]"));
 }
 
 // ---- NumPy
@@ -263,39 +278,51 @@ TEST(NpyFile, EveryNumberTypeAndOrderIsRead) {
   for (const int half : {0x3C00, 0x4000, 0x4200, 0x4400, 0x4500, 0x4600})
     halves += littleBytes(static_cast<std::uint16_t>(half));
   for (const double value : {1.0, 4.0, 2.0, 5.0, 3.0, 6.0}) transposed += littleBytes(value);
-  for (const std::string& bytes : {npy("<f8", doubles), npy(">f8", bigs), npy("<f4", floats), npy("<f2", halves),
-                                   npy("<i2", shorts), npy("<f8", transposed, "(2, 3)", true)}) {
+  for (const std::string& bytes :
+       {npy("<f8", doubles), npy(">f8", bigs), npy("<f4", floats), npy("<f2", halves),
+        npy("<i2", shorts), npy("<f8", transposed, "(2, 3)", true)}) {
     const cv::Mat values = parseNpy(bytes).values;
     ASSERT_EQ(values.size(), cv::Size(3, 2));
-    for (int i = 0; i < 6; ++i) EXPECT_EQ(values.at<double>(i / 3, i % 3), i + 1.0) << bytes.substr(10, 60);
+    for (int i = 0; i < 6; ++i)
+      EXPECT_EQ(values.at<double>(i / 3, i % 3), i + 1.0) << bytes.substr(10, 60);
   }
 }
 
 TEST(NpyFile, WhatIsNoMatrixOfNumbersIsRefused) {
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(6,)")); }), "two dimensions"));
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(1, 2, 3)")); }), "two dimensions"));
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<c16", std::string(96, '\0'))); }), "integers or floating-point"));
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("|O", std::string(48, '\0'))); }), "integers or floating-point"));
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(47, '\0'))); }), "47 bytes of numbers"));
-  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", "", "(30000, 30000)")); }), "30000 x 30000 pixels are more"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(6,)")); }),
+                       "two dimensions"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(1, 2, 3)")); }),
+                       "two dimensions"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<c16", std::string(96, '\0'))); }),
+                       "integers or floating-point"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("|O", std::string(48, '\0'))); }),
+                       "integers or floating-point"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(47, '\0'))); }),
+                       "47 bytes of numbers"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", "", "(30000, 30000)")); }),
+                       "30000 x 30000 pixels are more"));
   const std::string many(40, '9');
-  EXPECT_TRUE(mentions(refusal([&] { parseNpy(npy("<f8", "", "(2, " + many + ")")); }), "is no scan"));
+  EXPECT_TRUE(
+      mentions(refusal([&] { parseNpy(npy("<f8", "", "(2, " + many + ")")); }), "is no scan"));
 }
 
 // ---- Createc
 
-/// Compressed, one channel of heights; @p is_filled: with the header up to byte 16384, as older programs write it.
+/// Compressed, one channel of heights; @p is_filled: with the header up to byte 16384, as older
+/// programs write it.
 std::string createcHeights(bool is_filled) {
   const std::string header =
-      "[Paramco32]\r\nDAC-Type=20bit\r\nNum.X / Num.X=4\r\nNum.Y / Num.Y=3\r\nChannels / Channels=1\r\n"
-      "Delta X / Delta X [Dac]=8\r\nDelta Y / Delta Y [Dac]=8\r\nGainX / GainX=10\r\nGainY / GainY=10\r\n"
+      "[Paramco32]\r\nDAC-Type=20bit\r\nNum.X / Num.X=4\r\nNum.Y / Num.Y=3\r\nChannels / "
+      "Channels=1\r\n"
+      "Delta X / Delta X [Dac]=8\r\nDelta Y / Delta Y [Dac]=8\r\nGainX / GainX=10\r\nGainY / "
+      "GainY=10\r\n"
       "GainZ / GainZ=10\r\nXpiezoconst=48\r\nYPiezoconst=48\r\nZPiezoconst=19\r\n";
   std::string numbers = littleBytes(0.0F);
   for (int i = 0; i < 12; ++i) numbers += littleBytes(static_cast<float>(i * i));
   std::string packed(1000, '\0');
   uLongf size = packed.size();
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(numbers.data()),
-           numbers.size());
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+           reinterpret_cast<const Bytef*>(numbers.data()), numbers.size());
   const std::string filler(is_filled ? 16380 - header.size() : 0, '\0');
   return header + filler + "DATA" + packed.substr(0, size);
 }

@@ -1,5 +1,6 @@
-/// Files as instruments wrote them. The folder is named by the environment variable MEMS_STICTION_SCANS; sizes, pitches
-/// and rms heights are those that Gwyddion's library and numpy give for the same files after plane levelling.
+/// Files as instruments wrote them. The folder is named by the environment variable
+/// MEMS_STICTION_SCANS; sizes, pitches and rms heights are those that Gwyddion's library and numpy
+/// give for the same files after plane levelling.
 
 #include <gtest/gtest.h>
 
@@ -31,18 +32,22 @@ struct KnownScan {
 };
 
 const std::vector<KnownScan> kScans = {
-    {"di-5.di", "0: ZSensor", 512, 512, 1e-6, 1e-6, 262144, 1.250613e-9, 1.535927e-9, 0.55414, 2.94158, 0.057388},
-    {"di-6.di", "0: Height", 512, 512, 1e-5, 1e-5, 262144, 1.133628e-8, 1.431934e-8, 0.54773, 3.38856, 0.208644},
-    {"di-3.di", "0: ZSensor", 256, 256, 1e-5, 1e-5, 65536, 2.622809e-8, 3.522292e-8, -0.39979, 5.66170, 0.166662},
-    {"example_ps.tiff", "0: Z Height", 512, 512, 1e-6, 1e-6, 262144, 3.076658e-9, 3.933334e-9, 0.38688, 3.84173,
-     0.367455},
-    {"top-1.top", "0: Topography", 256, 256, 6e-7, 6e-7, 65536, 1.070102e-9, 1.613985e-9, 2.74588, 12.36915, 0.146434},
-    {"opd-1.opd", "0: Topography", 640, 480, 1.25909140e-4, 9.44318553e-5, 307084, 5.201489e-9, 6.711198e-9, -0.36673,
-     4.53839, 0.014604},
-    {"x3p-2.x3p", "0: Topography", 650, 650, 8.29767314e-5, 2.04478374e-4, 422500, 6.189306e-8, 7.719303e-8, -0.37867,
-     2.98460, 0.059571},
-    {"al3d-1.al3d", "0: Depth", 200, 296, 8.76054e-5, 1.29655992e-4, 59200, 2.301961e-7, 2.898221e-7, -0.00498, 3.07128,
-     0.087390},
+    {"di-5.di", "0: ZSensor", 512, 512, 1e-6, 1e-6, 262144, 1.250613e-9, 1.535927e-9, 0.55414,
+     2.94158, 0.057388},
+    {"di-6.di", "0: Height", 512, 512, 1e-5, 1e-5, 262144, 1.133628e-8, 1.431934e-8, 0.54773,
+     3.38856, 0.208644},
+    {"di-3.di", "0: ZSensor", 256, 256, 1e-5, 1e-5, 65536, 2.622809e-8, 3.522292e-8, -0.39979,
+     5.66170, 0.166662},
+    {"example_ps.tiff", "0: Z Height", 512, 512, 1e-6, 1e-6, 262144, 3.076658e-9, 3.933334e-9,
+     0.38688, 3.84173, 0.367455},
+    {"top-1.top", "0: Topography", 256, 256, 6e-7, 6e-7, 65536, 1.070102e-9, 1.613985e-9, 2.74588,
+     12.36915, 0.146434},
+    {"opd-1.opd", "0: Topography", 640, 480, 1.25909140e-4, 9.44318553e-5, 307084, 5.201489e-9,
+     6.711198e-9, -0.36673, 4.53839, 0.014604},
+    {"x3p-2.x3p", "0: Topography", 650, 650, 8.29767314e-5, 2.04478374e-4, 422500, 6.189306e-8,
+     7.719303e-8, -0.37867, 2.98460, 0.059571},
+    {"al3d-1.al3d", "0: Depth", 200, 296, 8.76054e-5, 1.29655992e-4, 59200, 2.301961e-7,
+     2.898221e-7, -0.00498, 3.07128, 0.087390},
 };
 
 class VendorScans : public ::testing::Test {
@@ -107,15 +112,16 @@ TEST_F(VendorScans, BadFilesAreRefusedInOneLineThatNamesThem) {
 
 TEST_F(VendorScans, BytesTooManyTooFewOrTakenForTextAreRefused) {
   const ScratchFolder scratch;
-  for (const std::string file : {"di-3.di", "di-5.di", "top-1.top", "opd-1.opd", "al3d-1.al3d", "misread/sur-2.sur"}) {
+  for (const std::string file :
+       {"di-3.di", "di-5.di", "top-1.top", "opd-1.opd", "al3d-1.al3d", "misread/sur-2.sur"}) {
     const std::string bytes = ScratchFolder::read(folder_ + "/" + file);
     const std::size_t middle = bytes.size() / 2;
     std::string as_text;
     for (const char c : bytes) as_text += c == '\n' ? std::string("\r\n") : std::string(1, c);
     const std::string name = std::filesystem::path(file).filename().string();
-    for (const std::string& damaged :
-         {bytes + "x", bytes.substr(0, bytes.size() - 1), as_text, bytes.substr(0, middle) + "x" + bytes.substr(middle),
-          bytes.substr(0, middle) + bytes.substr(middle + 1)}) {
+    for (const std::string& damaged : {bytes + "x", bytes.substr(0, bytes.size() - 1), as_text,
+                                       bytes.substr(0, middle) + "x" + bytes.substr(middle),
+                                       bytes.substr(0, middle) + bytes.substr(middle + 1)}) {
       EXPECT_THROW(readScanFile(scratch.write(name, damaged)), FileError)
           << file << " of " << damaged.size() << " bytes";
     }
@@ -137,7 +143,8 @@ TEST_F(VendorScans, SayWhenAndWithWhatTheyWereMeasured) {
            {"top-1.top", "03/11/2011, 20:23:46.484",
             "AFM, serial number 24"},  // the third of November, or the 11th of March
            {"opd-1.opd", "2015-07-07T16:19:48", ""},
-           {"x3p-2.x3p", "", "DIGITAL SURF Mountains Map Technology Software"},  // its date is that of no clock
+           {"x3p-2.x3p", "",
+            "DIGITAL SURF Mountains Map Technology Software"},  // its date is that of no clock
            {"misread/sur-2.sur", "", ""}}) {
     const ScanIdentity identity = openScanFile(folder_ + "/" + known.file).identity;
     EXPECT_EQ(identity.acquisition_time, known.time) << known.file;
@@ -152,10 +159,12 @@ TEST_F(VendorScans, SayWhenAndWithWhatTheyWereMeasured) {
 TEST_F(VendorScans, AChannelMayBeNamed) {
   ScanFileOptions options;
   options.import.channel = "Height";
-  // 264.00 nm open loop against 226.43 nm of the sensor, before levelling: figures of another reader's tests.
+  // 264.00 nm open loop against 226.43 nm of the sensor, before levelling: figures of another
+  // reader's tests.
   const HeightMap open_loop = readScanFile(folder_ + "/di-3.di", {}, options);
   EXPECT_NEAR(heightStatistics(open_loop).rms_height, 264.00285276203158e-9, 1e-15);
-  EXPECT_NEAR(heightStatistics(readScanFile(folder_ + "/di-3.di")).rms_height, 226.42539668457405e-9, 1e-15);
+  EXPECT_NEAR(heightStatistics(readScanFile(folder_ + "/di-3.di")).rms_height,
+              226.42539668457405e-9, 1e-15);
 }
 
 TEST_F(VendorScans, PitchByOptionGoesBeforeTheFiles) {

@@ -1,4 +1,5 @@
-/// The capillary term against the numbers of water at room temperature and closed forms of flat and sphere.
+/// The capillary term against the numbers of water at room temperature and closed forms of flat and
+/// sphere.
 
 #include "mems_stiction/loads/capillary.hpp"
 
@@ -50,8 +51,8 @@ TEST(WaterLaw, costsTwiceTheSurfaceTensionAtEveryHumidity) {
 }
 
 TEST(WaterLaw, pressureIsTheWorkOfBringingVaporToTheLiquid) {
-  // second route: a mole of liquid under tension p has the vapour's chemical potential, p V_m = R T ln(1/RH);
-  // 50 % at 25 degrees: 95.1 MPa
+  // second route: a mole of liquid under tension p has the vapour's chemical potential, p V_m = R T
+  // ln(1/RH); 50 % at 25 degrees: 95.1 MPa
   EXPECT_NEAR(humid(0.5).law().pressure(), 95.1e6, 0.05e6);
 }
 
@@ -61,7 +62,8 @@ TEST(WaterLaw, scalesInSI) {
   options.molar_volume = 58.4e-6;
   options.temperature = 310.0;
   const WaterLaw liquid = options.law();
-  EXPECT_NEAR(liquid.kelvinRadius(), 0.0227 * 58.4e-6 / (8.314462618 * 310.0 * std::log(1.0 / 0.6)), 1e-9 * kNm);
+  EXPECT_NEAR(liquid.kelvinRadius(), 0.0227 * 58.4e-6 / (8.314462618 * 310.0 * std::log(1.0 / 0.6)),
+              1e-9 * kNm);
   EXPECT_NEAR(liquid.pressure() * liquid.kelvinRadius(), 0.0227, kRoundOff);
 }
 
@@ -90,10 +92,11 @@ TEST(CapillarySum, fillsAFlatAroundABumpOrNothing) {
   const WaterLaw wide = humid(0.7).law();  // Kelvin gap 2.9 nm
   EXPECT_NEAR(capillaryForce(order, 0.0, 1, wide, field.cellArea()), wide.pressure() * rest_of_area,
               kRoundOff * wide.pressure() * rest_of_area);
-  const WaterLaw narrow = humid(0.5).law();  // Kelvin gap 1.5 nm: nothing but the contact, then, 1 nm lower, all
+  const WaterLaw narrow =
+      humid(0.5).law();  // Kelvin gap 1.5 nm: nothing but the contact, then, 1 nm lower, all
   EXPECT_EQ(capillaryForce(order, 0.0, 1, narrow, field.cellArea()), 0.0);
-  EXPECT_NEAR(capillaryForce(order, 1 * kNm, 1, narrow, field.cellArea()), narrow.pressure() * rest_of_area,
-              kRoundOff * narrow.pressure() * rest_of_area);
+  EXPECT_NEAR(capillaryForce(order, 1 * kNm, 1, narrow, field.cellArea()),
+              narrow.pressure() * rest_of_area, kRoundOff * narrow.pressure() * rest_of_area);
 }
 
 TEST(CapillarySum, ofASphereIsFourPiGammaRAtEveryHumidityAndApproach) {
@@ -105,8 +108,10 @@ TEST(CapillarySum, ofASphereIsFourPiGammaRAtEveryHumidityAndApproach) {
   for (const double humidity : {0.4, 0.7, 0.9}) {
     for (const double approach : {0.0, 0.5 * kNm, 1.3 * kNm}) {
       const int touching = order.sortBelow(approach);
-      const double force = capillaryForce(order, approach, touching, humid(humidity).law(), 1 * kNm * kNm);
-      // rings of equal width in gap have equal area 2 pi R d_K; counting cells in a ring some 60 pixels across: 1 %
+      const double force =
+          capillaryForce(order, approach, touching, humid(humidity).law(), 1 * kNm * kNm);
+      // rings of equal width in gap have equal area 2 pi R d_K; counting cells in a ring some 60
+      // pixels across: 1 %
       EXPECT_NEAR(force, 4.0 * kPi * 0.072 * radius, 0.01 * force) << humidity << " " << approach;
     }
   }
@@ -120,16 +125,20 @@ TEST(CapillarySum, agreesWithTheSumOverCells) {
       order.build(field, max_fraction);
       for (const double humidity : {0.3, 0.8, 0.99, 0.9999}) {
         const WaterLaw water = humid(humidity).law();
-        const double approach = 0.7 * order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
+        const double approach =
+            0.7 * order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
         const int touching = order.sortBelow(approach);
         const double expected = sumOverCells(field, approach, touching, water);
         // only the bucket in which the limit lies is not counted exactly
         const double limit = approach + water.gapLimit();
         const double bucket = std::floor(limit / order.bucketWidth());
-        const auto shares_bucket = [&](double gap) { return std::floor(gap / order.bucketWidth()) == bucket; };
+        const auto shares_bucket = [&](double gap) {
+          return std::floor(gap / order.bucketWidth()) == bucket;
+        };
         const std::vector<double> gaps = frameGaps(field);
-        const double partial =
-            bucket >= order.orderedBuckets() ? std::count_if(gaps.begin(), gaps.end(), shares_bucket) : 0.0;
+        const double partial = bucket >= order.orderedBuckets()
+                                   ? std::count_if(gaps.begin(), gaps.end(), shares_bucket)
+                                   : 0.0;
         const double slack = partial + 1e-9;
         EXPECT_NEAR(capillaryForce(order, approach, touching, water, field.cellArea()), expected,
                     slack * water.pressure() * field.cellArea() + kRoundOff * expected)

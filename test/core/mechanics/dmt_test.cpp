@@ -29,10 +29,11 @@ TEST(Dmt, passesThroughTheStatesInMaugisUnits) {
   const double k = 4.0 / 3.0 * kModulus;
   const double force_unit = kPi * kWorkOfAdhesion * kRadius;
   const double length_unit = std::cbrt(kPi * kWorkOfAdhesion * kRadius * kRadius / k);
-  const double approach_unit = std::cbrt(kPi * kPi * kWorkOfAdhesion * kWorkOfAdhesion * kRadius / (k * k));
+  const double approach_unit =
+      std::cbrt(kPi * kPi * kWorkOfAdhesion * kWorkOfAdhesion * kRadius / (k * k));
   for (const double a : {0.0, 0.5, 1.26, 2.0, 5.0}) {
-    EXPECT_NEAR(dmt::load(a * length_unit, kWorkOfAdhesion, kRadius, kModulus) / force_unit, a * a * a - 2.0,
-                kRoundOff * (2.0 + a * a * a));
+    EXPECT_NEAR(dmt::load(a * length_unit, kWorkOfAdhesion, kRadius, kModulus) / force_unit,
+                a * a * a - 2.0, kRoundOff * (2.0 + a * a * a));
     EXPECT_NEAR(dmt::approach(a * length_unit, kRadius) / approach_unit, a * a, kRoundOff * a * a);
   }
 }
@@ -41,7 +42,8 @@ TEST(Dmt, loadInvertsTheEquilibriumContactRadius) {
   for (const double factor : {-0.9, 0.1, 3.0, 1e3}) {
     const double load = factor * dmt::pullOffForce(kWorkOfAdhesion, kRadius);
     const double a = dmt::equilibriumContactRadius(load, kWorkOfAdhesion, kRadius, kModulus);
-    expectRelative(dmt::load(a, kWorkOfAdhesion, kRadius, kModulus), load, 20.0 * kRoundOff);  // small differences
+    expectRelative(dmt::load(a, kWorkOfAdhesion, kRadius, kModulus), load,
+                   20.0 * kRoundOff);  // small differences
   }
 }
 
@@ -60,18 +62,20 @@ TEST(Dmt, stiffnessIsThatOfHertz) {
   const double slope = (dmt::load(a + step, kWorkOfAdhesion, kRadius, kModulus) -
                         dmt::load(a - step, kWorkOfAdhesion, kRadius, kModulus)) /
                        (dmt::approach(a + step, kRadius) - dmt::approach(a - step, kRadius));
-  expectRelative(slope, 2.0 * kModulus * a, 1e-8);  // dP/dd = 2 E a; central difference, truncation 1e-10
+  expectRelative(slope, 2.0 * kModulus * a,
+                 1e-8);  // dP/dd = 2 E a; central difference, truncation 1e-10
 }
 
 TEST(Dmt, sticksMoreThanJkrByFourThirds) {
-  expectRelative(dmt::pullOffForce(kWorkOfAdhesion, kRadius), 4.0 / 3.0 * jkr::pullOffForce(kWorkOfAdhesion, kRadius),
-                 kRoundOff);
+  expectRelative(dmt::pullOffForce(kWorkOfAdhesion, kRadius),
+                 4.0 / 3.0 * jkr::pullOffForce(kWorkOfAdhesion, kRadius), kRoundOff);
 }
 
 TEST(Dmt, hasNoEquilibriumBelowThePullOffForce) {
   const double pull_off = dmt::pullOffForce(kWorkOfAdhesion, kRadius);
   EXPECT_EQ(dmt::equilibriumContactRadius(-pull_off, kWorkOfAdhesion, kRadius, kModulus), 0.0);
-  EXPECT_TRUE(std::isnan(dmt::equilibriumContactRadius(-1.000001 * pull_off, kWorkOfAdhesion, kRadius, kModulus)));
+  EXPECT_TRUE(std::isnan(
+      dmt::equilibriumContactRadius(-1.000001 * pull_off, kWorkOfAdhesion, kRadius, kModulus)));
 }
 
 }  // namespace

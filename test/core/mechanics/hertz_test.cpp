@@ -32,16 +32,20 @@ TEST(Hertz, scalesFromTheReferenceToSi) {
   const double length = 1e-6 / 4.0;
   const double force = 3e-6 / 7.0;
   const double modulus = 5.0 * force / (length * length);
-  expectRelative(hertz::contactRadius(7.0 * force, 4.0 * length, modulus), 1.6134286460245437 * length, kRoundOff);
-  expectRelative(hertz::approach(7.0 * force, 4.0 * length, modulus), 0.6507879989531481 * length, kRoundOff);
+  expectRelative(hertz::contactRadius(7.0 * force, 4.0 * length, modulus),
+                 1.6134286460245437 * length, kRoundOff);
+  expectRelative(hertz::approach(7.0 * force, 4.0 * length, modulus), 0.6507879989531481 * length,
+                 kRoundOff);
   expectRelative(hertz::maximumPressure(7.0 * force, 4.0 * length, modulus),
                  1.2839257217043503 * force / (length * length), kRoundOff);
 }
 
 TEST(Hertz, loadInvertsApproachAndContactRadius) {
-  expectRelative(hertz::load(hertz::approach(kLoad, kRadius, kModulus), kRadius, kModulus), kLoad, kRoundOff);
-  expectRelative(hertz::loadOfContact(hertz::contactRadius(kLoad, kRadius, kModulus), kRadius, kModulus), kLoad,
+  expectRelative(hertz::load(hertz::approach(kLoad, kRadius, kModulus), kRadius, kModulus), kLoad,
                  kRoundOff);
+  expectRelative(
+      hertz::loadOfContact(hertz::contactRadius(kLoad, kRadius, kModulus), kRadius, kModulus),
+      kLoad, kRoundOff);
 }
 
 TEST(Hertz, maximumPressureIsThreeHalvesOfTheMean) {
@@ -56,7 +60,8 @@ TEST(Hertz, pressureIntegratesToTheLoad) {
   double load = 0.0;
   for (int ring = 0; ring < rings; ++ring) {
     const double distance = (ring + 0.5) / rings * contact_radius;
-    load += hertz::pressure(distance, kLoad, kRadius, kModulus) * 2.0 * kPi * distance * contact_radius / rings;
+    load += hertz::pressure(distance, kLoad, kRadius, kModulus) * 2.0 * kPi * distance *
+            contact_radius / rings;
   }
   // midpoint rule with a root at the edge: order 3/2 in the ring's width, 20000^-1.5 = 4e-7
   expectRelative(load, kLoad, 1e-6);
@@ -66,18 +71,21 @@ TEST(Hertz, pressureIntegratesToTheLoad) {
 TEST(Hertz, loadIsTheDerivativeOfTheEnergy) {
   const double approach = hertz::approach(kLoad, kRadius, kModulus);
   const double step = 1e-5 * approach;
-  const double difference =
-      (hertz::energy(approach + step, kRadius, kModulus) - hertz::energy(approach - step, kRadius, kModulus)) /
-      (2.0 * step);
+  const double difference = (hertz::energy(approach + step, kRadius, kModulus) -
+                             hertz::energy(approach - step, kRadius, kModulus)) /
+                            (2.0 * step);
   // central difference: truncation 1e-10, round-off 1e-16/1e-5
   expectRelative(difference, kLoad, 1e-9);
 }
 
 TEST(Hertz, contactGrowsWithTheCubeRootOfLoadAndRadius) {
   const double contact_radius = hertz::contactRadius(kLoad, kRadius, kModulus);
-  expectRelative(hertz::contactRadius(8.0 * kLoad, kRadius, kModulus), 2.0 * contact_radius, kRoundOff);
-  expectRelative(hertz::contactRadius(kLoad, 8.0 * kRadius, kModulus), 2.0 * contact_radius, kRoundOff);
-  expectRelative(hertz::contactRadius(kLoad, kRadius, 8.0 * kModulus), 0.5 * contact_radius, kRoundOff);
+  expectRelative(hertz::contactRadius(8.0 * kLoad, kRadius, kModulus), 2.0 * contact_radius,
+                 kRoundOff);
+  expectRelative(hertz::contactRadius(kLoad, 8.0 * kRadius, kModulus), 2.0 * contact_radius,
+                 kRoundOff);
+  expectRelative(hertz::contactRadius(kLoad, kRadius, 8.0 * kModulus), 0.5 * contact_radius,
+                 kRoundOff);
 }
 
 TEST(Hertz, hasNoContactWithoutLoad) {

@@ -30,8 +30,12 @@ struct Sphere {
   double approachUnit() const { return lengthUnit() * lengthUnit() / radius; }
 
   double load(double a) const { return jkr::load(a, work_of_adhesion, radius, contact_modulus); }
-  double approach(double a) const { return jkr::approach(a, work_of_adhesion, radius, contact_modulus); }
-  double energy(double a) const { return jkr::energy(a, work_of_adhesion, radius, contact_modulus); }
+  double approach(double a) const {
+    return jkr::approach(a, work_of_adhesion, radius, contact_modulus);
+  }
+  double energy(double a) const {
+    return jkr::energy(a, work_of_adhesion, radius, contact_modulus);
+  }
   double contactRadius(double force) const {
     return jkr::equilibriumContactRadius(force, work_of_adhesion, radius, contact_modulus);
   }
@@ -39,21 +43,24 @@ struct Sphere {
 
 class JkrSphere : public testing::TestWithParam<Sphere> {};
 
-// From a hard nanometre asperity to a soft millimetre lens; radius, work of adhesion and modulus are nowhere near one.
+// From a hard nanometre asperity to a soft millimetre lens; radius, work of adhesion and modulus
+// are nowhere near one.
 INSTANTIATE_TEST_SUITE_P(Scales, JkrSphere,
                          testing::Values(Sphere{1e-6, 50e-3, kPolysiliconModulus},
-                                         Sphere{100e-9, 10e-3, kPolysiliconModulus}, Sphere{8e-9, 0.3, 400e9},
-                                         Sphere{5e-3, 27e-3, 0.7e6}));
+                                         Sphere{100e-9, 10e-3, kPolysiliconModulus},
+                                         Sphere{8e-9, 0.3, 400e9}, Sphere{5e-3, 27e-3, 0.7e6}));
 
 TEST_P(JkrSphere, passesThroughTheStatesInMaugisUnits) {
   const Sphere& sphere = GetParam();
   struct State {
     double a, force, approach;
   };
-  for (const State& state : {State{1.144714, -1.5, -0.436790}, State{0.550321, -0.833333, -0.908560},
-                             State{2.0, 1.071797, 1.690599}, State{5.0, 97.613872, 21.348516}}) {
+  for (const State& state :
+       {State{1.144714, -1.5, -0.436790}, State{0.550321, -0.833333, -0.908560},
+        State{2.0, 1.071797, 1.690599}, State{5.0, 97.613872, 21.348516}}) {
     const double a = state.a * sphere.lengthUnit();
-    // published to six decimals: 5e-7 in each figure, grown by the slopes dF/da <= 3 a^2 and d delta/da <= 2 a
+    // published to six decimals: 5e-7 in each figure, grown by the slopes dF/da <= 3 a^2 and d
+    // delta/da <= 2 a
     const double digits = 5e-7 * (1.0 + (state.a == std::floor(state.a) ? 0.0 : 4.0));
     EXPECT_NEAR(sphere.load(a) / sphere.forceUnit(), state.force, digits);
     EXPECT_NEAR(sphere.approach(a) / sphere.approachUnit(), state.approach, digits);
@@ -66,21 +73,24 @@ TEST_P(JkrSphere, passesThroughTheStatesInMaugisUnits) {
 
 TEST_P(JkrSphere, comesOffAtTheTwoKnownStates) {
   const Sphere& sphere = GetParam();
-  const double fixed_load = jkr::pullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
-  expectRelative(-sphere.load(fixed_load), jkr::pullOffForce(sphere.work_of_adhesion, sphere.radius), kRoundOff);
+  const double fixed_load =
+      jkr::pullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
+  expectRelative(-sphere.load(fixed_load),
+                 jkr::pullOffForce(sphere.work_of_adhesion, sphere.radius), kRoundOff);
   expectRelative(fixed_load / sphere.lengthUnit(), std::cbrt(1.5), kRoundOff);
-  const double fixed_grips =
-      jkr::fixedGripsPullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
-  expectRelative(-sphere.load(fixed_grips), jkr::fixedGripsPullOffForce(sphere.work_of_adhesion, sphere.radius),
-                 kRoundOff);
+  const double fixed_grips = jkr::fixedGripsPullOffContactRadius(
+      sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
+  expectRelative(-sphere.load(fixed_grips),
+                 jkr::fixedGripsPullOffForce(sphere.work_of_adhesion, sphere.radius), kRoundOff);
   expectRelative(fixed_grips / sphere.lengthUnit(), std::cbrt(1.0 / 6.0), kRoundOff);
 }
 
 TEST_P(JkrSphere, pullOffIsTheLeastLoadAndTheLeastApproach) {
   const Sphere& sphere = GetParam();
-  const double fixed_load = jkr::pullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
-  const double fixed_grips =
-      jkr::fixedGripsPullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
+  const double fixed_load =
+      jkr::pullOffContactRadius(sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
+  const double fixed_grips = jkr::fixedGripsPullOffContactRadius(
+      sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
   for (const double factor : {0.9, 0.99, 1.01, 1.1}) {
     EXPECT_GT(sphere.load(factor * fixed_load), sphere.load(fixed_load));
     EXPECT_GT(sphere.approach(factor * fixed_grips), sphere.approach(fixed_grips));
@@ -102,8 +112,10 @@ TEST_P(JkrSphere, apparentLoadSolvesTheQuadraticOfJkr) {
   for (const double force : {-1.2, 0.0, 2.0, 50.0}) {
     const double load = force * sphere.forceUnit();
     const double apparent = jkr::apparentLoad(load, sphere.work_of_adhesion, sphere.radius);
-    expectRelative((apparent - load) * (apparent - load), 6.0 * sphere.forceUnit() * apparent, kRoundOff);
-    expectRelative(jkr::apparentLoadOfContact(sphere.contactRadius(load), sphere.radius, sphere.contact_modulus),
+    expectRelative((apparent - load) * (apparent - load), 6.0 * sphere.forceUnit() * apparent,
+                   kRoundOff);
+    expectRelative(jkr::apparentLoadOfContact(sphere.contactRadius(load), sphere.radius,
+                                              sphere.contact_modulus),
                    apparent, kRoundOff);
   }
 }
@@ -113,9 +125,10 @@ TEST_P(JkrSphere, loadIsTheDerivativeOfTheEnergyByTheApproach) {
   for (const double a_in_units : {0.9, 1.3, 2.0, 5.0}) {
     const double a = a_in_units * sphere.lengthUnit();
     const double step = 1e-4 * a;
-    const double slope =
-        (sphere.energy(a + step) - sphere.energy(a - step)) / (sphere.approach(a + step) - sphere.approach(a - step));
-    // central difference: truncation of order (step/a)^2 = 1e-8, times the curvature's factor of about 10
+    const double slope = (sphere.energy(a + step) - sphere.energy(a - step)) /
+                         (sphere.approach(a + step) - sphere.approach(a - step));
+    // central difference: truncation of order (step/a)^2 = 1e-8, times the curvature's factor of
+    // about 10
     EXPECT_NEAR(slope / sphere.forceUnit(), sphere.load(a) / sphere.forceUnit(),
                 1e-7 * (1.0 + std::fabs(sphere.load(a)) / sphere.forceUnit()));
   }
@@ -125,13 +138,15 @@ TEST_P(JkrSphere, approachesHertzAsTheWorkOfAdhesionVanishes) {
   const Sphere& sphere = GetParam();
   const double load = 20.0 * sphere.forceUnit();
   const double hertz_radius = hertz::contactRadius(load, sphere.radius, sphere.contact_modulus);
-  EXPECT_DOUBLE_EQ(jkr::equilibriumContactRadius(load, 0.0, sphere.radius, sphere.contact_modulus), hertz_radius);
+  EXPECT_DOUBLE_EQ(jkr::equilibriumContactRadius(load, 0.0, sphere.radius, sphere.contact_modulus),
+                   hertz_radius);
   EXPECT_DOUBLE_EQ(jkr::apparentLoad(load, 0.0, sphere.radius), load);
   EXPECT_DOUBLE_EQ(jkr::approach(hertz_radius, 0.0, sphere.radius, sphere.contact_modulus),
                    hertz::approach(load, sphere.radius, sphere.contact_modulus));
-  // w down by 10^6: P1 - P = sqrt(6 pi w R P) falls by 10^3, to sqrt(6/20) 10^-3 of P, a third of it in the radius
-  const double nearly =
-      jkr::equilibriumContactRadius(load, 1e-6 * sphere.work_of_adhesion, sphere.radius, sphere.contact_modulus);
+  // w down by 10^6: P1 - P = sqrt(6 pi w R P) falls by 10^3, to sqrt(6/20) 10^-3 of P, a third of
+  // it in the radius
+  const double nearly = jkr::equilibriumContactRadius(load, 1e-6 * sphere.work_of_adhesion,
+                                                      sphere.radius, sphere.contact_modulus);
   EXPECT_GT(nearly, hertz_radius);
   EXPECT_NEAR(nearly / hertz_radius - 1.0, std::sqrt(0.3) * 1e-3 / 3.0, 2e-6);
 }
@@ -157,9 +172,11 @@ TEST_P(JkrSphere, contactScalesWithRadiusTwoThirdsAndModulusMinusOneThird) {
 TEST(Jkr, reproducesPolysiliconAsperitiesInSi) {
   // published to five or six digits
   expectRelative(jkr::pullOffForce(50e-3, 1e-6), 235.619e-9, 5e-6);
-  expectRelative(jkr::equilibriumContactRadius(0.0, 50e-3, 1e-6, kPolysiliconModulus), 19.96687e-9, 5e-7);
+  expectRelative(jkr::equilibriumContactRadius(0.0, 50e-3, 1e-6, kPolysiliconModulus), 19.96687e-9,
+                 5e-7);
   expectRelative(jkr::pullOffForce(10e-3, 100e-9), 4.7124e-9, 2e-5);
-  expectRelative(jkr::equilibriumContactRadius(0.0, 10e-3, 100e-9, kPolysiliconModulus), 2.51567e-9, 5e-6);
+  expectRelative(jkr::equilibriumContactRadius(0.0, 10e-3, 100e-9, kPolysiliconModulus), 2.51567e-9,
+                 5e-6);
 }
 
 TEST(Jkr, approachIsThatOfTheLoadInHertzPlusAFlatPunch) {
@@ -169,9 +186,10 @@ TEST(Jkr, approachIsThatOfTheLoadInHertzPlusAFlatPunch) {
   const double load = 80e-9;
   const double apparent = jkr::apparentLoad(load, work_of_adhesion, radius);
   const double a = jkr::contactRadius(apparent, radius, kPolysiliconModulus);
-  const double expected =
-      hertz::approach(apparent, radius, kPolysiliconModulus) - (apparent - load) / (2.0 * kPolysiliconModulus * a);
-  expectRelative(jkr::approach(a, work_of_adhesion, radius, kPolysiliconModulus), expected, kRoundOff);
+  const double expected = hertz::approach(apparent, radius, kPolysiliconModulus) -
+                          (apparent - load) / (2.0 * kPolysiliconModulus * a);
+  expectRelative(jkr::approach(a, work_of_adhesion, radius, kPolysiliconModulus), expected,
+                 kRoundOff);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// The law of adhesion and that of the field against their own integrals and derivatives, limits and scaling, in SI.
+/// The law of adhesion and that of the field against their own integrals and derivatives, limits
+/// and scaling, in SI.
 
 #include <cmath>
 
@@ -29,8 +30,10 @@ TEST(AdhesionLaw, VanishesAtItsRangeWhereItHasTheWorkOfAdhesion) {
 TEST(AdhesionLaw, FallsOffAsHamakersPlates) {
   const AdhesionLaw law = silica();
   const double gap = 300.0 * law.range();  // (z0/g)^6 is below round-off
-  EXPECT_NEAR(law.traction(law.range() / gap) / surface_forces::vanDerWaalsPressure(gap, kHamaker), 1.0, 1e-12);
-  EXPECT_NEAR(law.energy(law.range() / gap) / surface_forces::vanDerWaalsEnergy(gap, kHamaker), 1.0, 1e-12);
+  EXPECT_NEAR(law.traction(law.range() / gap) / surface_forces::vanDerWaalsPressure(gap, kHamaker),
+              1.0, 1e-12);
+  EXPECT_NEAR(law.energy(law.range() / gap) / surface_forces::vanDerWaalsEnergy(gap, kHamaker), 1.0,
+              1e-12);
 }
 
 TEST(AdhesionLaw, IsStrongestAtTheSixthRootOfThree) {
@@ -49,9 +52,13 @@ TEST(AdhesionLaw, SlopeCurvatureAndEnergyBelongToTheTraction) {
     const double below = z0 / (gap * z0 - h);
     const double above = z0 / (gap * z0 + h);
     const double here = 1.0 / gap;
-    EXPECT_NEAR((law.energy(below) - law.energy(above)) / (2.0 * h) / law.traction(here), 1.0, 1e-5) << gap;
-    EXPECT_NEAR((law.traction(above) - law.traction(below)) / (2.0 * h) / law.slope(here), 1.0, 1e-5) << gap;
-    EXPECT_NEAR((law.slope(above) - law.slope(below)) / (2.0 * h) / law.curvature(here), 1.0, 1e-5) << gap;
+    EXPECT_NEAR((law.energy(below) - law.energy(above)) / (2.0 * h) / law.traction(here), 1.0, 1e-5)
+        << gap;
+    EXPECT_NEAR((law.traction(above) - law.traction(below)) / (2.0 * h) / law.slope(here), 1.0,
+                1e-5)
+        << gap;
+    EXPECT_NEAR((law.slope(above) - law.slope(below)) / (2.0 * h) / law.curvature(here), 1.0, 1e-5)
+        << gap;
   }
 }
 
@@ -83,18 +90,25 @@ TEST(FieldLaw, IsThePressureOfPlatesOverAnInsulator) {
   const FieldLaw field(10.0, 100e-9, 3.9);
   EXPECT_TRUE(field.isOn());
   const double gap = 40e-9;
-  EXPECT_NEAR(field.pressure(gap) / surface_forces::electrostaticPressure(gap, 10.0, 100e-9, 3.9), 1.0, kRoundOff);
-  EXPECT_NEAR(field.pressure(gap) / (0.5 * kVacuumPermittivity * std::pow(10.0 / (gap + 100e-9 / 3.9), 2)), 1.0,
+  EXPECT_NEAR(field.pressure(gap) / surface_forces::electrostaticPressure(gap, 10.0, 100e-9, 3.9),
+              1.0, kRoundOff);
+  EXPECT_NEAR(
+      field.pressure(gap) / (0.5 * kVacuumPermittivity * std::pow(10.0 / (gap + 100e-9 / 3.9), 2)),
+      1.0, kRoundOff);
+  EXPECT_NEAR(field.factor(2.0) / field.squaredDistance(gap) / (2.0 * field.pressure(gap)), 1.0,
               kRoundOff);
-  EXPECT_NEAR(field.factor(2.0) / field.squaredDistance(gap) / (2.0 * field.pressure(gap)), 1.0, kRoundOff);
 }
 
 TEST(FieldLaw, SlopeAndEnergyBelongToThePressure) {
   const FieldLaw field(10.0, 100e-9, 3.9);
   for (const double gap : {0.0, 5e-9, 200e-9}) {
     const double h = 1e-12;  // of distances of 26 nm and more: truncation 1e-9
-    EXPECT_NEAR((field.energy(gap - h) - field.energy(gap + h)) / (2.0 * h) / field.pressure(gap), 1.0, 1e-6) << gap;
-    EXPECT_NEAR((field.pressure(gap + h) - field.pressure(gap - h)) / (2.0 * h) / field.slope(gap), 1.0, 1e-6) << gap;
+    EXPECT_NEAR((field.energy(gap - h) - field.energy(gap + h)) / (2.0 * h) / field.pressure(gap),
+                1.0, 1e-6)
+        << gap;
+    EXPECT_NEAR((field.pressure(gap + h) - field.pressure(gap - h)) / (2.0 * h) / field.slope(gap),
+                1.0, 1e-6)
+        << gap;
   }
 }
 

@@ -13,7 +13,8 @@ constexpr double kHardness = 12e9;
 
 TEST(PlasticityIndex, isTheRootedFormInSi) {
   // (88.7978/12) sqrt(3 nm/300 nm) = 0.739982; the print without its root gives 0.073998
-  EXPECT_NEAR(plasticityIndex(kModulus, kHardness, 3e-9, 300e-9), 0.73998166666666667, 1e-14);  // round-off
+  EXPECT_NEAR(plasticityIndex(kModulus, kHardness, 3e-9, 300e-9), 0.73998166666666667,
+              1e-14);  // round-off
 }
 
 TEST(PlasticityIndex, scalesWithItsArguments) {
@@ -43,7 +44,8 @@ TEST(RegimeFactor, fallsInAStraightLineBetween) {
   const double step = 1e-6;
   for (const double index : {0.65, 0.8, 1.05}) {
     // a straight line: only round-off, 1e-16/1e-6
-    EXPECT_NEAR((regimeFactor(index + step) - regimeFactor(index - step)) / (2.0 * step), -2.0, 1e-9);
+    EXPECT_NEAR((regimeFactor(index + step) - regimeFactor(index - step)) / (2.0 * step), -2.0,
+                1e-9);
   }
 }
 

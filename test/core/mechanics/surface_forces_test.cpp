@@ -15,8 +15,9 @@ using namespace surface_forces;
 constexpr double kHamaker = 65e-21;
 constexpr double kGap = 10e-9;
 constexpr double kRadius = 0.8e-6;
-constexpr double kRoundOff = 1e-13;          // closed forms against closed forms
-constexpr double kCentralDifference = 1e-8;  // step 1e-5 of the gap: truncation a few 1e-10, round-off 1e-11
+constexpr double kRoundOff = 1e-13;  // closed forms against closed forms
+constexpr double kCentralDifference =
+    1e-8;  // step 1e-5 of the gap: truncation a few 1e-10, round-off 1e-11
 
 void expectRelative(double value, double expected, double tolerance) {
   EXPECT_NEAR(value, expected, tolerance * std::fabs(expected));
@@ -34,14 +35,16 @@ TEST(VanDerWaals, reproducesThePlatesOfTheReference) {
 }
 
 TEST(VanDerWaals, reproducesTheSphereOfTheReference) {
-  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kHamaker * kRadius / (6.0 * kGap * kGap), kRoundOff);
+  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
+                 kHamaker * kRadius / (6.0 * kGap * kGap), kRoundOff);
 }
 
 TEST(VanDerWaals, forcesAreMinusTheDerivativeOfTheEnergies) {
   expectRelative(minusSlope([](double gap) { return vanDerWaalsEnergy(gap, kHamaker); }, kGap),
                  vanDerWaalsPressure(kGap, kHamaker), kCentralDifference);
-  expectRelative(minusSlope([](double gap) { return vanDerWaalsSphereEnergy(gap, kHamaker, kRadius); }, kGap),
-                 vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kCentralDifference);
+  expectRelative(
+      minusSlope([](double gap) { return vanDerWaalsSphereEnergy(gap, kHamaker, kRadius); }, kGap),
+      vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kCentralDifference);
 }
 
 TEST(VanDerWaals, sphereForceIsDerjaguinsOfThePlates) {
@@ -58,30 +61,39 @@ TEST(VanDerWaals, sphereForceIsThePressureSummedOverTheParaboloid) {
     const double u = (ring + 0.5) / rings;
     force += vanDerWaalsPressure(kGap / u, kHamaker) * 2.0 * kPi * kRadius * kGap / (u * u) / rings;
   }
-  expectRelative(force, vanDerWaalsSphereForce(kGap, kHamaker, kRadius), 1e-7);  // midpoint rule of a line: round-off
+  expectRelative(force, vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
+                 1e-7);  // midpoint rule of a line: round-off
 }
 
 TEST(VanDerWaals, fallsWithTheStatedPowersOfTheGap) {
-  expectRelative(vanDerWaalsPressure(2.0 * kGap, kHamaker), vanDerWaalsPressure(kGap, kHamaker) / 8.0, kRoundOff);
-  expectRelative(vanDerWaalsEnergy(2.0 * kGap, kHamaker), vanDerWaalsEnergy(kGap, kHamaker) / 4.0, kRoundOff);
+  expectRelative(vanDerWaalsPressure(2.0 * kGap, kHamaker),
+                 vanDerWaalsPressure(kGap, kHamaker) / 8.0, kRoundOff);
+  expectRelative(vanDerWaalsEnergy(2.0 * kGap, kHamaker), vanDerWaalsEnergy(kGap, kHamaker) / 4.0,
+                 kRoundOff);
   expectRelative(vanDerWaalsSphereForce(2.0 * kGap, kHamaker, kRadius),
                  vanDerWaalsSphereForce(kGap, kHamaker, kRadius) / 4.0, kRoundOff);
 }
 
 TEST(Electrostatic, reproducesTheElectrodesOfTheReference) {
-  expectRelative(electrostaticPressure(100e-9, 10.0, 0.0, 1.0), 44.271e3, 2e-5);  // published to five digits
+  expectRelative(electrostaticPressure(100e-9, 10.0, 0.0, 1.0), 44.271e3,
+                 2e-5);  // published to five digits
   expectRelative(electrostaticPressure(0.0, 10.0, 100e-9, 3.9), 673.36e3, 2e-5);
 }
 
 TEST(Electrostatic, insulatorCountsAsAGapThinnerByItsPermittivity) {
-  expectRelative(electrostaticPressure(40e-9, 7.0, 78e-9, 3.9), electrostaticPressure(60e-9, 7.0, 0.0, 1.0), kRoundOff);
-  EXPECT_EQ(electrostaticPressure(-5e-9, 7.0, 78e-9, 3.9), electrostaticPressure(0.0, 7.0, 78e-9, 3.9));
+  expectRelative(electrostaticPressure(40e-9, 7.0, 78e-9, 3.9),
+                 electrostaticPressure(60e-9, 7.0, 0.0, 1.0), kRoundOff);
+  EXPECT_EQ(electrostaticPressure(-5e-9, 7.0, 78e-9, 3.9),
+            electrostaticPressure(0.0, 7.0, 78e-9, 3.9));
 }
 
 TEST(Electrostatic, isMinusTheDerivativeOfTheFieldEnergyAtFixedVoltage) {
   // co-energy eps0 U^2/(2 (d + t/eps_r)) per area
-  const auto coEnergy = [](double gap) { return 0.5 * kVacuumPermittivity * 49.0 / (gap + 78e-9 / 3.9); };
-  expectRelative(minusSlope(coEnergy, 40e-9), electrostaticPressure(40e-9, 7.0, 78e-9, 3.9), kCentralDifference);
+  const auto coEnergy = [](double gap) {
+    return 0.5 * kVacuumPermittivity * 49.0 / (gap + 78e-9 / 3.9);
+  };
+  expectRelative(minusSlope(coEnergy, 40e-9), electrostaticPressure(40e-9, 7.0, 78e-9, 3.9),
+                 kCentralDifference);
 }
 
 TEST(Electrostatic, growsWithTheSquareOfTheVoltageEitherSign) {
@@ -91,7 +103,9 @@ TEST(Electrostatic, growsWithTheSquareOfTheVoltageEitherSign) {
   EXPECT_EQ(electrostaticPressure(0.0, 0.0, 0.0, 1.0), 0.0);
 }
 
-TEST(Electrostatic, bareContactIsAShortCircuit) { EXPECT_TRUE(std::isinf(electrostaticPressure(0.0, 5.0, 0.0, 1.0))); }
+TEST(Electrostatic, bareContactIsAShortCircuit) {
+  EXPECT_TRUE(std::isinf(electrostaticPressure(0.0, 5.0, 0.0, 1.0)));
+}
 
 TEST(PullIn, reproducesTheReference) {
   expectRelative(pullInVoltage(1.0, 2e-6, 1e-8), 5.1741, 1e-5);  // published to five digits
@@ -107,7 +121,8 @@ TEST(PullIn, isTheLargestVoltageThatTheSpringHolds) {
   double largest = 0.0;
   for (int step = 1; step < 20000; ++step) {
     const double travel = rest_gap * step / 20000.0;
-    const double pressure_of_one_volt = electrostaticPressure(rest_gap - travel, 1.0, thickness, permittivity);
+    const double pressure_of_one_volt =
+        electrostaticPressure(rest_gap - travel, 1.0, thickness, permittivity);
     largest = std::fmax(largest, std::sqrt(k * travel / (area * pressure_of_one_volt)));
   }
   // a scan in steps of 5e-5 misses a maximum by its square

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kRoundOff = 1e-13;
 
-Material film(double thickness, Backing backing, double youngs_modulus = 160e9, double poisson_ratio = 0.22) {
+Material film(double thickness, Backing backing, double youngs_modulus = 160e9,
+              double poisson_ratio = 0.22) {
   Material material;
   material.youngs_modulus = youngs_modulus;
   material.poisson_ratio = poisson_ratio;
@@ -32,13 +33,16 @@ double planeModulus(const Material& material) {
   return material.youngs_modulus / (1.0 - material.poisson_ratio * material.poisson_ratio);
 }
 
-double stiffnessOf(const Material& material, double q) { return WaveStiffness(material, rigid()).at(q); }
+double stiffnessOf(const Material& material, double q) {
+  return WaveStiffness(material, rigid()).at(q);
+}
 
 void expectRelative(double value, double expected, double tolerance) {
   EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
 }
 
-/// Elasticity of one wave as four equations of first order in depth: u_x, u_z, s_xz, s_zz in plane strain.
+/// Elasticity of one wave as four equations of first order in depth: u_x, u_z, s_xz, s_zz in plane
+/// strain.
 class Layers {
  public:
   explicit Layers(double q) : q_(q) {}
@@ -60,7 +64,8 @@ class Layers {
   /// Pressure over displacement where nothing rubs.
   double stiffness() const {
     const auto& [one, other] = solutions_;
-    return -(other[2] * one[3] - one[2] * other[3]) / (other[2] * one[1] - one[2] * other[1]) * kUnit * q_;
+    return -(other[2] * one[3] - one[2] * other[3]) / (other[2] * one[1] - one[2] * other[1]) *
+           kUnit * q_;
   }
 
  private:
@@ -69,7 +74,8 @@ class Layers {
 
   State slope(const State& y, double lambda, double mu) const {
     const double dilation = (y[3] - lambda * y[0]) / (lambda + 2.0 * mu);
-    return {q_ * (y[2] / mu + y[1]), q_ * dilation, q_ * ((lambda + 2.0 * mu) * y[0] + lambda * dilation), -q_ * y[2]};
+    return {q_ * (y[2] / mu + y[1]), q_ * dilation,
+            q_ * ((lambda + 2.0 * mu) * y[0] + lambda * dilation), -q_ * y[2]};
   }
   static State along(const State& y, double step, const State& slope) {
     State next = y;
@@ -82,7 +88,8 @@ class Layers {
     const State k3 = slope(along(y, 0.5 * step, k2), lambda, mu);
     const State k4 = slope(along(y, step, k3), lambda, mu);
     State next = y;
-    for (std::size_t i = 0; i < 4; ++i) next[i] += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+    for (std::size_t i = 0; i < 4; ++i)
+      next[i] += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
     return next;
   }
   /// Any two solutions do; these do not become one by rounding.
@@ -126,7 +133,8 @@ TEST(WaveStiffness, isFilonsForAFreePlate) {
   for (const double s : {0.1, 0.3, 0.999, 1.001, 2.0, 5.0, 12.0}) {
     const double q = s / plate.thickness;
     const double sinh = std::sinh(s);
-    const double filon = 0.5 * planeModulus(plate) * q * (sinh * sinh - s * s) / (sinh * std::cosh(s) + s);
+    const double filon =
+        0.5 * planeModulus(plate) * q * (sinh * sinh - s * s) / (sinh * std::cosh(s) + s);
     expectRelative(stiffnessOf(plate, q), filon, 1e-11);
   }
 }
@@ -157,7 +165,8 @@ TEST(WaveStiffness, squeezesAFilmThatKeepsItsVolumeAside) {
   const Material material = film(50e-9, Backing::kBonded, 3e9, 0.5);
   for (const double s : {1e-6, 1e-4, 1e-2}) {
     const double q = s / material.thickness;
-    expectRelative(stiffnessOf(material, q), 3e9 / (q * q * std::pow(material.thickness, 3)), 2.0 * s * s + kRoundOff);
+    expectRelative(stiffnessOf(material, q), 3e9 / (q * q * std::pow(material.thickness, 3)),
+                   2.0 * s * s + kRoundOff);
   }
 }
 
@@ -168,7 +177,8 @@ TEST(WaveStiffness, isCarboneAndMangialardisOnARigidSubstrate) {
     const double q = s / material.thickness;
     const double g = 3.0 - 4.0 * nu;
     const double ratio =
-        (g * std::cosh(2.0 * s) + 2.0 * s * s + 4.0 * nu * (2.0 * nu - 3.0) + 5.0) / (g * std::sinh(2.0 * s) - 2.0 * s);
+        (g * std::cosh(2.0 * s) + 2.0 * s * s + 4.0 * nu * (2.0 * nu - 3.0) + 5.0) /
+        (g * std::sinh(2.0 * s) - 2.0 * s);
     expectRelative(stiffnessOf(material, q), 0.5 * planeModulus(material) * q * ratio, 1e-11);
   }
 }
@@ -222,14 +232,16 @@ TEST(WaveStiffness, solvesTheEquationsOfElasticity) {
 
 TEST(WaveStiffness, isSmoothFromTheThinnestToTheThickest) {
   Material material = film(1e-6, Backing::kFree);
-  for (const auto& [backing, substrate] : {std::pair(Backing::kFree, 0.0), std::pair(Backing::kBonded, 0.0),
-                                           std::pair(Backing::kBonded, 1e9), std::pair(Backing::kBonded, 900e9)}) {
+  for (const auto& [backing, substrate] :
+       {std::pair(Backing::kFree, 0.0), std::pair(Backing::kBonded, 0.0),
+        std::pair(Backing::kBonded, 1e9), std::pair(Backing::kBonded, 900e9)}) {
     material.backing = backing;
     material.substrate.youngs_modulus = substrate;
     const LayerCompliance layer(material);
     double last_slope = 0.0;
     for (double s = 1e-6; s < 1e6; s *= 1.01) {
-      const double slope = std::log(layer.ratio(1.01 * s / 1e-6) / layer.ratio(s / 1e-6)) / std::log(1.01);
+      const double slope =
+          std::log(layer.ratio(1.01 * s / 1e-6) / layer.ratio(s / 1e-6)) / std::log(1.01);
       EXPECT_NEAR(slope, s > 1e-6 ? last_slope : slope, 0.03) << s;
       last_slope = slope;
     }
@@ -242,7 +254,8 @@ TEST(WaveStiffness, addsTheCompliancesOfBothBodies) {
   const WaveStiffness both(plate, coating);
   EXPECT_FALSE(both.isThick());
   for (const double q : {1e4, 1e6, 1e8}) {
-    expectRelative(1.0 / both.at(q), 1.0 / stiffnessOf(plate, q) + 1.0 / stiffnessOf(coating, q), kRoundOff);
+    expectRelative(1.0 / both.at(q), 1.0 / stiffnessOf(plate, q) + 1.0 / stiffnessOf(coating, q),
+                   kRoundOff);
   }
 }
 

@@ -18,7 +18,8 @@ void expectSame(const std::vector<double>& values) {
     if (!std::isnan(value)) valid.push_back(value);
   }
   MedianFinder finder;
-  EXPECT_EQ(finder.median(values.data(), values.size()), medianOf(valid)) << values.size() << " values";
+  EXPECT_EQ(finder.median(values.data(), values.size()), medianOf(valid))
+      << values.size() << " values";
 }
 
 std::vector<double> normal(std::size_t size, unsigned seed) {
@@ -30,7 +31,8 @@ std::vector<double> normal(std::size_t size, unsigned seed) {
 }
 
 TEST(MedianFinder, agreesWithSortingForEverySmallSize) {
-  for (std::size_t size = 0; size < 700; ++size) expectSame(normal(size, static_cast<unsigned>(size)));
+  for (std::size_t size = 0; size < 700; ++size)
+    expectSame(normal(size, static_cast<unsigned>(size)));
 }
 
 TEST(MedianFinder, agreesOnManyValues) {
@@ -71,7 +73,8 @@ TEST(MedianFinder, findsItAmongValuesOfEveryMagnitude) {
   // Buckets of equal width part such values only a few at a time.
   std::vector<double> values;
   for (int exponent = -300; exponent <= 300; ++exponent) {
-    for (int count = 0; count < 3; ++count) values.push_back(std::pow(10.0, exponent) * (1.0 + 0.1 * count));
+    for (int count = 0; count < 3; ++count)
+      values.push_back(std::pow(10.0, exponent) * (1.0 + 0.1 * count));
   }
   expectSame(values);
   values = normal(2000, 5);
@@ -83,7 +86,8 @@ TEST(MedianFinder, findsItAmongValuesOfEveryMagnitude) {
 
 TEST(MedianFinder, findsItAmongTheSmallestNumbersThereAre) {
   std::vector<double> values;
-  for (int count = 0; count < 1001; ++count) values.push_back(count * std::numeric_limits<double>::denorm_min());
+  for (int count = 0; count < 1001; ++count)
+    values.push_back(count * std::numeric_limits<double>::denorm_min());
   expectSame(values);
 }
 

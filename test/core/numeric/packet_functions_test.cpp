@@ -14,7 +14,8 @@ TEST(LanePower, isThatOfTheLibrary) {
       const Packet result = power(four, exponent);
       for (std::size_t element = 0; element < Packet::kCount; ++element) {
         const double expected = std::pow(four[element], exponent);
-        ASSERT_NEAR(result[element] / expected, 1.0, 1e-8) << four[element] << " to " << exponent;  // what its comment states
+        ASSERT_NEAR(result[element] / expected, 1.0, 1e-8)
+            << four[element] << " to " << exponent;  // what its comment states
       }
     }
   }
@@ -22,7 +23,8 @@ TEST(LanePower, isThatOfTheLibrary) {
 
 TEST(LanePower, ofOneIsOne) {
   const Packet result = power(Packet(1.0), 0.3);
-  for (std::size_t element = 0; element < Packet::kCount; ++element) EXPECT_EQ(result[element], 1.0);
+  for (std::size_t element = 0; element < Packet::kCount; ++element)
+    EXPECT_EQ(result[element], 1.0);
 }
 
 TEST(LaneFunctions, areThoseOfTheirNumbers) {

@@ -17,8 +17,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Of every size and sign, with all that arithmetic treats on its own.
-const std::vector<double> kNumbers = {0.0,   -0.0,    1.0,    -1.0 / 3.0, 2e-9,       -7e-10, 1.0 + 1e-16,
-                                      3e200, -4e-310, 5e-324, kInfinity,  -kInfinity, kNan};
+const std::vector<double> kNumbers = {0.0,       -0.0,        1.0,   -1.0 / 3.0, 2e-9,
+                                      -7e-10,    1.0 + 1e-16, 3e200, -4e-310,    5e-324,
+                                      kInfinity, -kInfinity,  kNan};
 
 std::uint64_t bitsOf(double number) {
   std::uint64_t bits = 0;
@@ -72,9 +73,12 @@ TEST(Packet, compareAndSelectAsOneNumberDoes) {
     int greater = 0;
     int equal = 0;
     for (std::size_t element = 0; element < Packet::kCount; ++element) {
-      expectSame(select(packet_a < packet_b, packet_a, packet_b)[element], select(a[element] < b[element], a[element], b[element]));
-      expectSame(select(packet_a > packet_b, packet_a, packet_b)[element], select(a[element] > b[element], a[element], b[element]));
-      expectSame(select(packet_a == packet_b, packet_a, packet_b)[element], select(a[element] == b[element], a[element], b[element]));
+      expectSame(select(packet_a < packet_b, packet_a, packet_b)[element],
+                 select(a[element] < b[element], a[element], b[element]));
+      expectSame(select(packet_a > packet_b, packet_a, packet_b)[element],
+                 select(a[element] > b[element], a[element], b[element]));
+      expectSame(select(packet_a == packet_b, packet_a, packet_b)[element],
+                 select(a[element] == b[element], a[element], b[element]));
       less += a[element] < b[element] ? 1 : 0;
       greater += a[element] > b[element] ? 1 : 0;
       equal += a[element] == b[element] ? 1 : 0;
@@ -96,8 +100,10 @@ TEST(Packet, comeFromOneNumberFromFourAndFromMemory) {
     EXPECT_EQ(Packet::load(doubles)[element], doubles[element]);
     EXPECT_EQ(Packet::load(floats)[element], static_cast<double>(floats[element]));
     for (std::size_t count = 0; count <= Packet::kCount; ++count) {
-      EXPECT_EQ(Packet::loadFirst(doubles, count, 9.0)[element], element < count ? doubles[element] : 9.0);
-      EXPECT_EQ(Packet::loadFirst(floats, count, 9.0)[element], element < count ? static_cast<double>(floats[element]) : 9.0);
+      EXPECT_EQ(Packet::loadFirst(doubles, count, 9.0)[element],
+                element < count ? doubles[element] : 9.0);
+      EXPECT_EQ(Packet::loadFirst(floats, count, 9.0)[element],
+                element < count ? static_cast<double>(floats[element]) : 9.0);
     }
   }
 }

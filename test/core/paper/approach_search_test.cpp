@@ -43,11 +43,14 @@ struct Search {
 };
 
 GapField roughField(int seed = 1) {
-  return samples::Frame{"", samples::gaussian(90, 101, 10 * kNm, 10 * kNm, 3 * kNm, 60 * kNm, seed), {}}.gapField();
+  return samples::Frame{
+      "", samples::gaussian(90, 101, 10 * kNm, 10 * kNm, 3 * kNm, 60 * kNm, seed), {}}
+      .gapField();
 }
 
 /// Caps and responses are those of the patches in which the search ended.
-void expectPatchesDescribed(ApproachSearch& search, const GapField& field, const SearchSetting& setting) {
+void expectPatchesDescribed(ApproachSearch& search, const GapField& field,
+                            const SearchSetting& setting) {
   PatchSweep& sweep = search.sweep();
   ASSERT_EQ(search.caps().size(), sweep.livePatches().size());
   ASSERT_EQ(search.responses().size(), sweep.livePatches().size());
@@ -112,7 +115,9 @@ TEST(ApproachSearch, findsTheSameStateWhateverTheStep) {
     const EquilibriumState& state = search.run();
     EXPECT_EQ(state.contact_count, expected.contact_count) << share;
     EXPECT_EQ(state.approach, expected.approach) << share;
-    EXPECT_EQ(state.steps, static_cast<int>(std::floor(expected.approach / search.setting.step)) + 1) << share;
+    EXPECT_EQ(state.steps,
+              static_cast<int>(std::floor(expected.approach / search.setting.step)) + 1)
+        << share;
   }
 }
 
@@ -154,7 +159,8 @@ TEST(ApproachSearch, goesOnWhereStoredEnergyIsTakenAway) {
   ASSERT_EQ(elastic.status, Status::kEquilibrium);
   search.setting.law.deformation = Deformation::kThreeRegimes;
   double previous = elastic.approach;
-  // chi falls with the hardness: each rests later than the harder one, until nothing is left to rest on
+  // chi falls with the hardness: each rests later than the harder one, until nothing is left to
+  // rest on
   for (const double hardness : {8e9, 6e9}) {
     search.setting.law.hardness = hardness;
     const EquilibriumState& state = search.run();

@@ -27,8 +27,10 @@ AsperityLaw lawOf(double work_of_adhesion, double plasticity_index, double radiu
   law.hardness = 12e9;
   law.work_of_adhesion = work_of_adhesion;
   law.formulation = formulation;
-  const double ratio = plasticity_index * law.hardness / law.contact_modulus;  // (9) solved for sigma
-  law.composite_rms_height = radius * (formulation == Formulation::kPrinted ? ratio : ratio * ratio);
+  const double ratio =
+      plasticity_index * law.hardness / law.contact_modulus;  // (9) solved for sigma
+  law.composite_rms_height =
+      radius * (formulation == Formulation::kPrinted ? ratio : ratio * ratio);
   return law;
 }
 
@@ -47,7 +49,8 @@ TEST(AsperityLaw, takesItsConstantsFromBothBodies) {
   soft.youngs_modulus = 78e9;
   soft.poisson_ratio = 0.44;
   soft.hardness = 1e9;
-  const AsperityLaw law(ContactPair(Material(), soft), 0.2, 3e-9, Formulation::kPaper, Deformation::kThreeRegimes);
+  const AsperityLaw law(ContactPair(Material(), soft), 0.2, 3e-9, Formulation::kPaper,
+                        Deformation::kThreeRegimes);
   const double modulus = 1.0 / ((1 - 0.22 * 0.22) / 169e9 + (1 - 0.44 * 0.44) / 78e9);
   EXPECT_NEAR(law.contact_modulus, modulus, kRoundOff * modulus);
   EXPECT_NEAR(law.stiffness, 4.0 / 3.0 * modulus, kRoundOff * modulus);
@@ -64,7 +67,8 @@ TEST(AsperityLaw, losesTheRootInPrint) {
 }
 
 TEST(AsperityLaw, knowsNoPlasticityWhenAllIsElastic) {
-  const AsperityLaw law(ContactPair(Material(), Material()), 0.05, 1e-6, Formulation::kPaper, Deformation::kElastic);
+  const AsperityLaw law(ContactPair(Material(), Material()), 0.05, 1e-6, Formulation::kPaper,
+                        Deformation::kElastic);
   EXPECT_EQ(law.plasticityIndexOf(1e-9), 0.0);
 }
 
@@ -81,7 +85,8 @@ TEST(AsperityResponse, weighsItsShareOfTheLoadByTheCapsVolume) {
   CapCouple caps = capsOf(40e-9, 1e-6);
   caps.height = 5e-9;
   const double volume = (3 * 40e-9 * 40e-9 + 25e-18) * 5e-9;
-  EXPECT_NEAR(AsperityResponse(caps, lawOf(0.05, 0.3, 1e-6)).load_weight, volume, kRoundOff * volume);
+  EXPECT_NEAR(AsperityResponse(caps, lawOf(0.05, 0.3, 1e-6)).load_weight, volume,
+              kRoundOff * volume);
   const AsperityResponse printed(caps, lawOf(0.05, 0.3, 1e-6, Formulation::kPrinted));
   EXPECT_NEAR(printed.load_weight, volume * 5e-9, kRoundOff * volume * 5e-9);  // (6) to the letter
 }
@@ -91,7 +96,8 @@ TEST(AsperityResponse, isInEquilibriumWhereTheApparentLoadIsJkrs) {
     const AsperityLaw law = lawOf(sphere.work_of_adhesion, 0.3, sphere.radius);
     const double unit = kPi * sphere.work_of_adhesion * sphere.radius;
     for (const double load : {0.0, 0.1 * unit, unit, 30 * unit}) {
-      const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
+      const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius,
+                                                     law.contact_modulus);
       const auto forceAt = [&](double cap_radius) {
         return AsperityResponse(capsOf(cap_radius, sphere.radius), law).generalizedForce(load, law);
       };
@@ -136,7 +142,8 @@ TEST(AsperityResponse, takesStoredEnergyAwayByChiToTheLetter) {
       const double p1 = response.imposed_load;
       for (const double p0 : {0.0, 0.3 * p1, p1, 1.5 * p1}) {
         const double chi = response.elastic_share;
-        const double expected = (2 * p0 - 2 * p0 * p0 / p1 - chi * (p1 - p0 * p0 / p1) + 6 * kPi * 0.05 * radius) / 3;
+        const double expected =
+            (2 * p0 - 2 * p0 * p0 / p1 - chi * (p1 - p0 * p0 / p1) + 6 * kPi * 0.05 * radius) / 3;
         EXPECT_NEAR(response.generalizedForce(p0, law), expected, kRoundOff * p1);
       }
     }
@@ -144,7 +151,8 @@ TEST(AsperityResponse, takesStoredEnergyAwayByChiToTheLetter) {
 }
 
 TEST(AsperityResponse, restsWithLessResistanceOnALargerContact) {
-  // r = 0 is chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi Gamma R; the force falls at its larger root
+  // r = 0 is chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi Gamma R; the force falls at
+  // its larger root
   for (const Sphere& sphere : kSpheres) {
     const double unit = kPi * sphere.work_of_adhesion * sphere.radius;
     for (const double chi : {0.9, 0.5, 0.1}) {
@@ -154,12 +162,14 @@ TEST(AsperityResponse, restsWithLessResistanceOnALargerContact) {
         const double apparent = (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;
         const double rc = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);
         const auto forceAt = [&](double cap_radius) {
-          return AsperityResponse(capsOf(cap_radius, sphere.radius), law).generalizedForce(load, law);
+          return AsperityResponse(capsOf(cap_radius, sphere.radius), law)
+              .generalizedForce(load, law);
         };
         EXPECT_NEAR(forceAt(rc), 0.0, 1e-9 * apparent) << chi;
         EXPECT_GT(forceAt(0.99 * rc), 0.0) << chi;
         EXPECT_LT(forceAt(1.01 * rc), 0.0) << chi;
-        EXPECT_GT(rc, jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius, law.contact_modulus));
+        EXPECT_GT(rc, jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius,
+                                                    law.contact_modulus));
         EXPECT_GE(AsperityResponse(capsOf(rc, sphere.radius), law).carriedLoad(), load);
       }
     }
@@ -171,8 +181,11 @@ TEST(AsperityResponse, restsWithoutAdhesionOnHertzsContactOfAManifoldLoad) {
   const double load = 2e-6;
   for (const double chi : {0.8, 0.5, 0.2}) {
     const AsperityLaw law = lawOf(0.0, 1.1 - 0.5 * chi, radius);
-    const double a = std::cbrt((2.0 - chi) / chi * load * radius / law.stiffness);  // P1 = (2 - chi)/chi P0
-    EXPECT_NEAR(AsperityResponse(capsOf(a, radius), law).generalizedForce(load, law), 0.0, 1e-9 * load) << chi;
+    const double a =
+        std::cbrt((2.0 - chi) / chi * load * radius / law.stiffness);  // P1 = (2 - chi)/chi P0
+    EXPECT_NEAR(AsperityResponse(capsOf(a, radius), law).generalizedForce(load, law), 0.0,
+                1e-9 * load)
+        << chi;
   }
 }
 
@@ -181,15 +194,18 @@ TEST(AsperityResponse, neverRestsWhenFullyPlastic) {
     const AsperityLaw law = lawOf(sphere.work_of_adhesion, 1.5, sphere.radius);
     const double adhesion = 2 * kPi * sphere.work_of_adhesion * sphere.radius;
     for (const double load : {0.0, adhesion, 10 * adhesion}) {
-      // from where it carries the load, P1 = P0, on: the more contact, the nearer the pull to adhesion and 2/3 of the load
+      // from where it carries the load, P1 = P0, on: the more contact, the nearer the pull to
+      // adhesion and 2/3 of the load
       const double hertz = std::cbrt(load * sphere.radius / law.stiffness);
       double previous = 0.0;
-      for (double rc = std::max(hertz, 1e-3 * sphere.radius) * (1 + 1e-9); rc < sphere.radius; rc *= 1.3) {
+      for (double rc = std::max(hertz, 1e-3 * sphere.radius) * (1 + 1e-9); rc < sphere.radius;
+           rc *= 1.3) {
         const AsperityResponse response(capsOf(rc, sphere.radius), law);
         EXPECT_EQ(response.elastic_share, 0.0);
         const double p1 = law.stiffness * rc * rc * rc / sphere.radius;
         const double force = response.generalizedForce(load, law);
-        EXPECT_NEAR(force, adhesion + 2.0 / 3.0 * load * (1.0 - load / p1), 1e-9 * (adhesion + load));
+        EXPECT_NEAR(force, adhesion + 2.0 / 3.0 * load * (1.0 - load / p1),
+                    1e-9 * (adhesion + load));
         EXPECT_GE(force, previous);
         EXPECT_GE(force, adhesion);
         EXPECT_NEAR(response.carriedLoad(), std::min(p1, 12e9 * kPi * rc * rc), kRoundOff * p1);
@@ -211,12 +227,15 @@ TEST(AsperityResponse, resistsLessThanAnElasticOneThatCarriesItsLoad) {
         ASSERT_LE(mixed.carriedLoad(), elastic.carriedLoad() * (1.0 + kRoundOff));
         for (const double share : {0.0, 0.1, 0.5, 0.99, 1.0, 2.0}) {
           const double load = share * elastic.imposed_load;
-          // by the stored energy's (P1^2 - P0^2)/(3 P1) per 1 - chi: turned round where P0 is above P1
-          const double relief = elastic.imposed_load * (1.0 - share * share) / 3.0 * (1.0 - mixed.elastic_share);
-          ASSERT_NEAR(mixed.generalizedForce(load, law), elastic.generalizedForce(load, elastic_law) + relief,
-                      10 * round_off);
+          // by the stored energy's (P1^2 - P0^2)/(3 P1) per 1 - chi: turned round where P0 is above
+          // P1
+          const double relief =
+              elastic.imposed_load * (1.0 - share * share) / 3.0 * (1.0 - mixed.elastic_share);
+          ASSERT_NEAR(mixed.generalizedForce(load, law),
+                      elastic.generalizedForce(load, elastic_law) + relief, 10 * round_off);
           if (share < 1.0) {
-            ASSERT_GT(mixed.generalizedForce(load, law), elastic.generalizedForce(load, elastic_law));
+            ASSERT_GT(mixed.generalizedForce(load, law),
+                      elastic.generalizedForce(load, elastic_law));
           }
         }
       }

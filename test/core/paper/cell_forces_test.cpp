@@ -12,7 +12,8 @@
 namespace mems_stiction {
 namespace {
 
-// Promised: 1e-3. The Taylor series of a bucket an eighth of its gap wide leaves out terms of (1/8)^4: about 1e-4.
+// Promised: 1e-3. The Taylor series of a bucket an eighth of its gap wide leaves out terms of
+// (1/8)^4: about 1e-4.
 constexpr double kSumTolerance = 2e-4;
 constexpr double kClosedForm = 1e-12;  // a few operations of round-off
 constexpr double kNm = 1e-9;
@@ -38,11 +39,15 @@ std::vector<samples::Frame> loadedFrames() {
   const HeightMap rougher = samples::gaussian(300, 200, 10 * kNm, 10 * kNm, 60 * kNm, 60 * kNm, 2);
   frames.push_back({"large", rough, {}});
   frames.push_back({"very_rough", rougher, {}});
-  frames.push_back({"very_smooth", samples::gaussian(256, 256, 10 * kNm, 10 * kNm, 0.1 * kNm, 60 * kNm, 3), {}});
+  frames.push_back(
+      {"very_smooth", samples::gaussian(256, 256, 10 * kNm, 10 * kNm, 0.1 * kNm, 60 * kNm, 3), {}});
   frames.push_back({"tall_spike", withPixel(rough, 5e-6), {}});
   frames.push_back({"spike_above_gaps", withPixel(rough, 30 * kNm), {}});
   frames.push_back({"deep_pit", withPixel(rough, -5e-6), {}});
-  frames.push_back({"tilted", analytic::sum(rough, analytic::tiltedPlane(256, 255, 10 * kNm, 10 * kNm, 0.1, 0.2)), {}});
+  frames.push_back(
+      {"tilted",
+       analytic::sum(rough, analytic::tiltedPlane(256, 255, 10 * kNm, 10 * kNm, 0.1, 0.2)),
+       {}});
   frames.push_back({"two_by_two", samples::whiteNoise(2, 2, 10 * kNm, 10 * kNm, 3 * kNm, 4), {}});
   frames.push_back({"sphere", analytic::paraboloid(301, 300, 5 * kNm, 5 * kNm, 2e-6), {}});
   return frames;
@@ -70,8 +75,10 @@ class LoadedFrame : public testing::TestWithParam<samples::Frame> {
 
  private:
   static void expectSum(const NormalLoad& load, const NormalLoad& expected, double approach) {
-    EXPECT_NEAR(load.van_der_waals, expected.van_der_waals, kSumTolerance * expected.van_der_waals) << approach;
-    EXPECT_NEAR(load.electrostatic, expected.electrostatic, kSumTolerance * expected.electrostatic) << approach;
+    EXPECT_NEAR(load.van_der_waals, expected.van_der_waals, kSumTolerance * expected.van_der_waals)
+        << approach;
+    EXPECT_NEAR(load.electrostatic, expected.electrostatic, kSumTolerance * expected.electrostatic)
+        << approach;
     EXPECT_EQ(load.mechanical, expected.mechanical);
     EXPECT_EQ(load.total(), load.van_der_waals + load.electrostatic + load.mechanical);
   }
@@ -85,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Frames, LoadedFrame, testing::ValuesIn(loadedFrames()),
 
 TEST_P(LoadedFrame, hasTheSumOverItsCellsAtEveryApproach) {
   for (const double fraction : {0.02, 0.5, 1.0}) {
-    expectSumsOverCells(CellForces(insulated(), kCutoffDistance, 40.0, field_.cellArea()), fraction);
+    expectSumsOverCells(CellForces(insulated(), kCutoffDistance, 40.0, field_.cellArea()),
+                        fraction);
   }
 }
 
@@ -105,7 +113,8 @@ TEST_P(LoadedFrame, hasTheFieldOfAThinInsulatorToo) {
 }
 
 TEST(CellForces, ofSeveralCellsAtOnceAreThoseOfOneAfterTheOther) {
-  // factors of one, so that it does not matter to the bit whether they are multiplied before or after the sum
+  // factors of one, so that it does not matter to the bit whether they are multiplied before or
+  // after the sum
   InterfaceOptions interface = insulated();
   interface.hamaker_constant = 6.0 * kPi;
   const CellForces van_der_waals(interface, 0.3, 0.0, 1.0);
@@ -169,12 +178,14 @@ struct Bump {
 class FlatWithBump : public testing::TestWithParam<Bump> {};
 
 INSTANTIATE_TEST_SUITE_P(Frames, FlatWithBump,
-                         testing::Values(Bump{64, 64, 10e-9, 10e-9, 5e-9}, Bump{61, 61, 10e-9, 10e-9, 2e-9},
+                         testing::Values(Bump{64, 64, 10e-9, 10e-9, 5e-9},
+                                         Bump{61, 61, 10e-9, 10e-9, 2e-9},
                                          Bump{40, 91, 5e-9, 12e-9, 50e-9}));
 
 TEST_P(FlatWithBump, isHeldApartByItAndPulledByTheRest) {
   const Bump& bump = GetParam();
-  const HeightMap surface = analytic::flatWithBump(bump.rows, bump.cols, bump.pitch_x, bump.pitch_y, bump.height);
+  const HeightMap surface =
+      analytic::flatWithBump(bump.rows, bump.cols, bump.pitch_x, bump.pitch_y, bump.height);
   GapField field;
   field.compute(surface);
   GapOrder order;

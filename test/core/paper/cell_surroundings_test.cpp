@@ -34,13 +34,15 @@ class SurroundedFrame : public testing::TestWithParam<samples::Frame> {
       const int row = cell.row + row_steps[side];
       const int col = cell.col + col_steps[side];
       const bool is_in_frame = row >= 0 && row < field_.rows() && col >= 0 && col < field_.cols();
-      const double gap = is_in_frame ? field_.gap(row * field_.cols() + col) : GapField::kInvalidGap;
+      const double gap =
+          is_in_frame ? field_.gap(row * field_.cols() + col) : GapField::kInvalidGap;
       ASSERT_EQ(around.gaps[side], gap) << "cell " << cell.index << " side " << side;
       if (around.isBorder() || !is_in_frame) continue;
       // inside a dale: neighbours that are in contact before belong to it
       const GridCell neighbour = field_.cellAt(row, col);
       if (comesBefore(gap, neighbour.index, ordered.gap, cell.index)) {
-        ASSERT_EQ(dales_.find(neighbour), around.dale()) << "cell " << cell.index << " side " << side;
+        ASSERT_EQ(dales_.find(neighbour), around.dale())
+            << "cell " << cell.index << " side " << side;
       }
     }
   }
@@ -70,7 +72,8 @@ TEST_P(SurroundedFrame, areTheSameInOneWindowAfterTheOther) {
     const int begin = table_.endPlace();
     table_.collectFrom(begin);
     ASSERT_GT(table_.endPlace(), begin);
-    for (int place = begin; place < table_.endPlace() && !HasFailure(); ++place) expectSurroundings(place);
+    for (int place = begin; place < table_.endPlace() && !HasFailure(); ++place)
+      expectSurroundings(place);
   }
 }
 
@@ -81,7 +84,8 @@ TEST_P(SurroundedFrame, areThoseOfTheCellThatSortingHasPutThere) {
 }
 
 TEST_P(SurroundedFrame, leaveNoTraceOfAnotherFrame) {
-  const GapField other = samples::Frame{"", samples::whiteNoise(70, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
+  const GapField other =
+      samples::Frame{"", samples::whiteNoise(70, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
   GapOrder other_order;
   other_order.build(other, 1.0, 1e-10);
   dales_.start(other);
@@ -95,7 +99,8 @@ TEST_P(SurroundedFrame, leaveNoTraceOfAnotherFrame) {
 }
 
 TEST(CellSurroundings, mostCellsOfASmoothFrameLieInsideADale) {
-  const GapField field = samples::Frame{"", samples::gaussian(200, 200, 1e-9, 1e-9, 3e-9, 20e-9, 1), {}}.gapField();
+  const GapField field =
+      samples::Frame{"", samples::gaussian(200, 200, 1e-9, 1e-9, 3e-9, 20e-9, 1), {}}.gapField();
   GapOrder order;
   order.build(field, 0.2, field.largestGap() / 100);
   DaleMap dales;
@@ -104,8 +109,10 @@ TEST(CellSurroundings, mostCellsOfASmoothFrameLieInsideADale) {
   table.start(field, order, dales);
   table.collectFrom(0);
   int border_count = 0;
-  for (int place = 0; place < table.endPlace(); ++place) border_count += table.at(place).isBorder() ? 1 : 0;
-  // dales some 20 pixels across have a fifth of their cells at the border with another; half of it is asked about
+  for (int place = 0; place < table.endPlace(); ++place)
+    border_count += table.at(place).isBorder() ? 1 : 0;
+  // dales some 20 pixels across have a fifth of their cells at the border with another; half of it
+  // is asked about
   EXPECT_LT(border_count, 0.2 * table.endPlace());
 }
 

@@ -19,7 +19,8 @@ struct Sphere {
 };
 
 // From a hard nanometre asperity to a micrometre ball: nothing is near one.
-const std::vector<Sphere> kSpheres = {{2e-6, 50e-3, 30e-9}, {100e-9, 10e-3, 3e-9}, {30e-9, 0.3, 8e-9}};
+const std::vector<Sphere> kSpheres = {
+    {2e-6, 50e-3, 30e-9}, {100e-9, 10e-3, 3e-9}, {30e-9, 0.3, 8e-9}};
 
 AsperityLaw lawOf(const Sphere& sphere, Formulation formulation) {
   AsperityLaw law;
@@ -31,7 +32,8 @@ AsperityLaw lawOf(const Sphere& sphere, Formulation formulation) {
   return law;
 }
 
-AsperityResponse responseOf(const Sphere& sphere, double cap_radius, double elastic_share, const AsperityLaw& law) {
+AsperityResponse responseOf(const Sphere& sphere, double cap_radius, double elastic_share,
+                            const AsperityLaw& law) {
   CapCouple caps;
   caps.cap_radius = cap_radius;
   caps.composite_radius = sphere.radius;
@@ -42,16 +44,19 @@ AsperityResponse responseOf(const Sphere& sphere, double cap_radius, double elas
 }
 
 /// dE_t/dD at a fixed load along rc drc/dD = R, by central differences.
-double slopeOfTotal(const Sphere& sphere, double elastic_share, double load, const AsperityLaw& law) {
+double slopeOfTotal(const Sphere& sphere, double elastic_share, double load,
+                    const AsperityLaw& law) {
   const double step = 1e-4 * sphere.cap_radius * sphere.cap_radius / sphere.radius;
   const auto totalAt = [&](double advance) {
-    const double rc = std::sqrt(sphere.cap_radius * sphere.cap_radius + 2.0 * sphere.radius * advance);
+    const double rc =
+        std::sqrt(sphere.cap_radius * sphere.cap_radius + 2.0 * sphere.radius * advance);
     return asperityEnergies(responseOf(sphere, rc, elastic_share, law), load, law).total();
   };
   return (totalAt(step) - totalAt(-step)) / (2.0 * step);
 }
 
-// Step 1e-4 of the depth: the difference leaves out terms of its square, and keeps twelve digits of the energies.
+// Step 1e-4 of the depth: the difference leaves out terms of its square, and keeps twelve digits of
+// the energies.
 constexpr double kDifference = 1e-6;
 
 TEST(Energies, haveTheGeneralizedForceAsSlopeInEveryRegime) {
@@ -62,8 +67,10 @@ TEST(Energies, haveTheGeneralizedForceAsSlopeInEveryRegime) {
         const AsperityResponse response = responseOf(sphere, sphere.cap_radius, chi, law);
         for (const double share : {0.0, 0.2, 0.9, 1.0, 1.7}) {
           const double load = share * response.imposed_load;
-          const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
-          EXPECT_NEAR(slopeOfTotal(sphere, chi, load, law), response.generalizedForce(load, law), kDifference * scale);
+          const double scale =
+              response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
+          EXPECT_NEAR(slopeOfTotal(sphere, chi, load, law), response.generalizedForce(load, law),
+                      kDifference * scale);
         }
       }
     }
@@ -77,12 +84,14 @@ TEST(Energies, areLargestWhereAMixedAsperityRests) {
     for (const double chi : {1.0, 0.6, 0.3}) {
       const double load = 2 * unit;
       const double b = load + 3 * unit;
-      const double apparent = (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;  // r = 0
+      const double apparent =
+          (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;  // r = 0
       const double rest = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);
       const auto totalAt = [&](double rc) {
         return asperityEnergies(responseOf(sphere, rc, chi, law), load, law).total();
       };
-      for (const double aside : {0.9, 0.99, 1.01, 1.1}) EXPECT_GT(totalAt(rest), totalAt(aside * rest)) << chi;
+      for (const double aside : {0.9, 0.99, 1.01, 1.1})
+        EXPECT_GT(totalAt(rest), totalAt(aside * rest)) << chi;
     }
   }
 }
@@ -91,11 +100,13 @@ TEST(Energies, areJkrsAtEquilibrium) {
   for (const Sphere& sphere : kSpheres) {
     const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
     const double load = kPi * sphere.work_of_adhesion * sphere.radius;
-    const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
+    const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius,
+                                                   law.contact_modulus);
     const Energies energies = asperityEnergies(responseOf(sphere, a, 1.0, law), load, law);
     // JKR's total is the work to get there less the work of the load: stored - pi w a^2 - P d
     const double work = jkr::energy(a, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
-    const double depth = jkr::approach(a, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
+    const double depth =
+        jkr::approach(a, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
     EXPECT_NEAR(-energies.total(), work - load * depth, 1e-9 * energies.surface);
     EXPECT_NEAR(energies.mechanical, load * depth, 1e-9 * energies.surface);
     EXPECT_NEAR(energies.surface, kPi * sphere.work_of_adhesion * a * a, 1e-12 * energies.surface);
@@ -132,11 +143,13 @@ TEST(ForceBalance, sharesTheLoadByVolumeAlongEachAxis) {
   const double first = load * two.responses[0].load_weight / volume;
   const double second = load * two.responses[1].load_weight / volume;
   EXPECT_NEAR(balance.load_share, load / volume, 1e-12 * load / volume);
-  const double force =
-      two.responses[0].generalizedForce(first, two.law) + two.responses[1].generalizedForce(0.5 * second, two.law);
+  const double force = two.responses[0].generalizedForce(first, two.law) +
+                       two.responses[1].generalizedForce(0.5 * second, two.law);
   EXPECT_NEAR(generalizedForce(two.responses, balance, two.law), force, 1e-12 * load);
-  EXPECT_NEAR(balance.carried_load, two.responses[0].carriedLoad() + two.responses[1].carriedLoad(), 1e-12 * load);
-  EXPECT_NEAR(balance.plastic_force, 0.6 * two.responses[1].yield_load, 1e-12 * two.responses[1].yield_load);
+  EXPECT_NEAR(balance.carried_load, two.responses[0].carriedLoad() + two.responses[1].carriedLoad(),
+              1e-12 * load);
+  EXPECT_NEAR(balance.plastic_force, 0.6 * two.responses[1].yield_load,
+              1e-12 * two.responses[1].yield_load);
 
   const Energies energies = totalEnergies(two.responses, balance, two.law);
   Energies expected = asperityEnergies(two.responses[0], first, two.law);
@@ -155,10 +168,12 @@ TEST(ForceBalance, needsBothToCarryTheLoadAndToResist) {
   const auto balanceAt = [&](double contact_radius, double normal_load) {
     return forceBalance({responseOf(sphere, contact_radius, 1.0, law)}, normal_load, law);
   };
-  EXPECT_FALSE(balanceAt(0.999 * equilibrium, load).is_equilibrium);  // adhesion still pulls the surfaces together
+  EXPECT_FALSE(balanceAt(0.999 * equilibrium, load)
+                   .is_equilibrium);  // adhesion still pulls the surfaces together
   EXPECT_TRUE(balanceAt(1.001 * equilibrium, load).is_equilibrium);
 
-  // a contact far too small for its load resists too, since (P1 - P0)^2 knows no sign, but it would be crushed
+  // a contact far too small for its load resists too, since (P1 - P0)^2 knows no sign, but it would
+  // be crushed
   const double crushing_load = 100.0 * apparent;
   const ForceBalance crushed = balanceAt(equilibrium, crushing_load);
   EXPECT_LT(crushed.carried_load, crushing_load);

@@ -32,7 +32,8 @@ TEST(FormulationShare, jumpsInPrintAtEqualHardness) {
   EXPECT_NEAR(shareOf(10e9 * 1.000001, 10e9, Formulation::kPrinted).lower(kPlastic), 0.25, 1e-5);
   const double at_five_percent = 0.5 + 0.25 / (1.0 + std::log(1.05) / std::log(1 / 0.9));
   EXPECT_NEAR(shareOf(10e9, 10.5e9, Formulation::kPrinted).lower(kPlastic), at_five_percent, 1e-12);
-  EXPECT_NEAR(shareOf(10.5e9, 10e9, Formulation::kPrinted).lower(kPlastic), 1.0 - at_five_percent, 1e-12);
+  EXPECT_NEAR(shareOf(10.5e9, 10e9, Formulation::kPrinted).lower(kPlastic), 1.0 - at_five_percent,
+              1e-12);
 }
 
 TEST(FormulationShare, takesNoHeedOfTheRegimeInPrintedThirteen) {

@@ -14,13 +14,14 @@
 namespace mems_stiction {
 namespace {
 
-/// Sums come in another order, and edges that were added are taken away again: round-off of every edge so far, times
-/// its lever arm in half pixels.
+/// Sums come in another order, and edges that were added are taken away again: round-off of every
+/// edge so far, times its lever arm in half pixels.
 struct RoundOff {
   explicit RoundOff(const GapField& field) {
     double largest_lower = 0.0;
     for (int cell = 0; cell < field.cellCount(); ++cell) {
-      if (isValid(field, cell)) largest_lower = std::max(largest_lower, std::abs(field.lowerHeight(cell)));
+      if (isValid(field, cell))
+        largest_lower = std::max(largest_lower, std::abs(field.lowerHeight(cell)));
     }
     height = 1e-14 * field.cellCount() * (field.largestGap() + largest_lower);
     moment = height * 2.0 * std::max(field.rows(), field.cols());
@@ -29,7 +30,8 @@ struct RoundOff {
   double moment;
 };
 
-void expectSameBoundary(const BoundarySums& sums, const BoundarySums& expected, const RoundOff& round_off) {
+void expectSameBoundary(const BoundarySums& sums, const BoundarySums& expected,
+                        const RoundOff& round_off) {
   EXPECT_EQ(sums.count, expected.count);
   EXPECT_EQ(sums.x, expected.x);
   EXPECT_EQ(sums.y, expected.y);
@@ -44,7 +46,8 @@ void expectSameBoundary(const BoundarySums& sums, const BoundarySums& expected, 
   EXPECT_NEAR(sums.y_lower, expected.y_lower, round_off.moment);
 }
 
-void expectSamePatch(const ContactPatch& patch, const ContactPatch& expected, const RoundOff& round_off) {
+void expectSamePatch(const ContactPatch& patch, const ContactPatch& expected,
+                     const RoundOff& round_off) {
   EXPECT_EQ(patch.area, expected.area);
   EXPECT_EQ(patch.min_col, expected.min_col);
   EXPECT_EQ(patch.max_col, expected.max_col);
@@ -69,7 +72,8 @@ int areaOfPatches(const PatchSweep& sweep) {
 }
 
 /// The same cells touch, in the same patches, with the same attributes.
-void expectSamePatches(PatchSweep& sweep, const plain::Labelling& labelling, const GapField& field) {
+void expectSamePatches(PatchSweep& sweep, const plain::Labelling& labelling,
+                       const GapField& field) {
   ASSERT_EQ(areaOfPatches(sweep), labelling.contact_count);
   ASSERT_EQ(sweep.livePatches().size(), labelling.patches.size());
   std::map<std::int32_t, int> label_of_id;
@@ -117,7 +121,8 @@ class SweptFrame : public testing::TestWithParam<Case> {
 
   void expectPlainPatchesAt(double approach, plain::Touch touch) {
     SCOPED_TRACE("approach " + std::to_string(approach * 1e9) + " nm");
-    expectSamePatches(sweep_, plain::labelPatches(field_, approach, touch, GetParam().connectivity), field_);
+    expectSamePatches(sweep_, plain::labelPatches(field_, approach, touch, GetParam().connectivity),
+                      field_);
   }
 
   GapField field_;
@@ -126,7 +131,8 @@ class SweptFrame : public testing::TestWithParam<Case> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Frames, SweptFrame, testing::ValuesIn(allCases()), [](const auto& tested) {
-  return tested.param.frame.name + (tested.param.connectivity == Connectivity::kFour ? "_four" : "_eight");
+  return tested.param.frame.name +
+         (tested.param.connectivity == Connectivity::kFour ? "_four" : "_eight");
 });
 
 TEST_P(SweptFrame, hasThePatchesOfARelabelledFrameAtEveryStep) {
@@ -163,7 +169,8 @@ TEST_P(SweptFrame, startsOverWhenAskedForFewerCells) {
 }
 
 TEST_P(SweptFrame, leavesNoTraceOfThePreviousFrame) {
-  const GapField other = samples::Frame{"", samples::whiteNoise(33, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
+  const GapField other =
+      samples::Frame{"", samples::whiteNoise(33, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
   GapOrder other_order;
   other_order.build(other, 1.0);
   sweep_.start(other, other_order, Connectivity::kEight);

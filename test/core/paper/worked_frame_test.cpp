@@ -1,4 +1,5 @@
-/// The frame of 4 x 4 cells on which doc/architecture.md explains the approach: its numbers are those of the code.
+/// The frame of 4 x 4 cells on which doc/architecture.md explains the approach: its numbers are
+/// those of the code.
 
 #include <cstdarg>
 #include <cstdio>
@@ -26,11 +27,15 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
 }
 
 /// A gap in nanometres, a dash where there is no neighbour.
-std::string nanometres(double gap) { return gap < GapField::kInvalidGap ? format("%3.1f", gap * 1e9) : "  -"; }
+std::string nanometres(double gap) {
+  return gap < GapField::kInvalidGap ? format("%3.1f", gap * 1e9) : "  -";
+}
 
 std::string letter(std::int32_t dale) { return {static_cast<char>('A' + dale)}; }
 
-std::string withoutTrailingSpaces(const std::string& line) { return line.substr(0, line.find_last_not_of(' ') + 1); }
+std::string withoutTrailingSpaces(const std::string& line) {
+  return line.substr(0, line.find_last_not_of(' ') + 1);
+}
 
 std::string fenced(const std::string& text) { return "```text\n" + text + "```\n"; }
 
@@ -74,23 +79,27 @@ TEST_F(WorkedFrame, HasTheGroupsAndDalesOfThePage) {
       groups += format("%d  ", order_.groupOf(field_.gap(cell.index)));
       dales += letter(dales_.find(cell)) + "  ";
     }
-    text += withoutTrailingSpaces(format("%-26s%-17s%s", gaps.c_str(), groups.c_str(), dales.c_str())) + "\n";
+    text +=
+        withoutTrailingSpaces(format("%-26s%-17s%s", gaps.c_str(), groups.c_str(), dales.c_str())) +
+        "\n";
   }
   documents::expectUpToDate(kPage, "frame", fenced(text));
 }
 
 TEST_F(WorkedFrame, HasTheOrderAndSurroundingsOfThePage) {
-  std::string text = "place  group  cell    gap   left  right  above  below  dale  touches another dale\n";
+  std::string text =
+      "place  group  cell    gap   left  right  above  below  dale  touches another dale\n";
   for (int place = 0; place < field_.validCount(); ++place) {
     const OrderedCell& cell = order_.cells()[static_cast<std::size_t>(place)];
     const CellSurroundings around = surroundings(place);
     ASSERT_EQ(around.cell, cell.cell);
-    text += withoutTrailingSpaces(
-                format("%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place, order_.groupOfPlace(place),
-                       cell.cell / field_.cols(), cell.cell % field_.cols(), nanometres(cell.gap).c_str(),
-                       nanometres(around.gaps[kLeft]).c_str(), nanometres(around.gaps[kRight]).c_str(),
-                       nanometres(around.gaps[kTop]).c_str(), nanometres(around.gaps[kBottom]).c_str(),
-                       letter(around.dale()).c_str(), around.isBorder() ? "yes" : "")) +
+    text += withoutTrailingSpaces(format(
+                "%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place,
+                order_.groupOfPlace(place), cell.cell / field_.cols(), cell.cell % field_.cols(),
+                nanometres(cell.gap).c_str(), nanometres(around.gaps[kLeft]).c_str(),
+                nanometres(around.gaps[kRight]).c_str(), nanometres(around.gaps[kTop]).c_str(),
+                nanometres(around.gaps[kBottom]).c_str(), letter(around.dale()).c_str(),
+                around.isBorder() ? "yes" : "")) +
             "\n";
   }
   documents::expectUpToDate(kPage, "surroundings", fenced(text));
@@ -117,9 +126,10 @@ TEST_F(WorkedFrame, HasThePatchesOfThePage) {
     for (const std::int32_t id : sweep.livePatches()) {
       const ContactPatch& patch = sweep.patch(id);
       const GridCell deepest = field_.cellAt(patch.deepest);
-      figures += format("%-14s  %-5s  %5d  %d..%d  %d..%d     %5.0f  (%d, %d), %s nm\n", before.c_str(),
-                        letter(id).c_str(), patch.area, patch.min_row, patch.max_row, patch.min_col, patch.max_col,
-                        patch.boundary.count, deepest.row, deepest.col, nanometres(patch.deepest_gap).c_str());
+      figures += format("%-14s  %-5s  %5d  %d..%d  %d..%d     %5.0f  (%d, %d), %s nm\n",
+                        before.c_str(), letter(id).c_str(), patch.area, patch.min_row,
+                        patch.max_row, patch.min_col, patch.max_col, patch.boundary.count,
+                        deepest.row, deepest.col, nanometres(patch.deepest_gap).c_str());
       before.clear();
     }
   }

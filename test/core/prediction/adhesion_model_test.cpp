@@ -18,15 +18,18 @@ namespace {
 constexpr double kNm = 1e-9;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-HeightMap rough(int seed = 1) { return samples::gaussian(80, 75, 10 * kNm, 10 * kNm, 2 * kNm, 60 * kNm, seed); }
+HeightMap rough(int seed = 1) {
+  return samples::gaussian(80, 75, 10 * kNm, 10 * kNm, 2 * kNm, 60 * kNm, seed);
+}
 
 void expectAllFinite(const Prediction& prediction) {
   for (const double value :
        {prediction.van_der_waals_force, prediction.electrostatic_force, prediction.normal_load,
         prediction.pull_off_force, prediction.pull_off_force_transition, prediction.contact_area,
-        prediction.contact_area_jkr, prediction.contact_fraction, prediction.approach, prediction.mean_gap,
-        prediction.total_energy, prediction.plastic_work, prediction.bonding_energy, prediction.adhesion_parameter,
-        prediction.max_tilt, prediction.median_tabor_parameter}) {
+        prediction.contact_area_jkr, prediction.contact_fraction, prediction.approach,
+        prediction.mean_gap, prediction.total_energy, prediction.plastic_work,
+        prediction.bonding_energy, prediction.adhesion_parameter, prediction.max_tilt,
+        prediction.median_tabor_parameter}) {
     EXPECT_TRUE(std::isfinite(value));
   }
   EXPECT_EQ(prediction.asperities.size(), static_cast<std::size_t>(prediction.asperity_count));
@@ -36,7 +39,8 @@ TEST(AdhesionModel, bondsAPlane) {
   for (const double load : {0.0, 1e-6}) {
     Options options = paperOptions();
     options.load.mechanical_load = load;
-    const Prediction prediction = AdhesionModel(options).predict(analytic::flat(30, 40, 10 * kNm, 8 * kNm, 3e-6));
+    const Prediction prediction =
+        AdhesionModel(options).predict(analytic::flat(30, 40, 10 * kNm, 8 * kNm, 3e-6));
     EXPECT_EQ(prediction.status, Status::kBonded);
     EXPECT_EQ(prediction.contact_fraction, 1.0);
     EXPECT_EQ(prediction.asperity_count, 1);
@@ -72,14 +76,17 @@ TEST(AdhesionModel, predictsTheSameFromSinglePrecision) {
   EXPECT_NEAR(narrow.contact_area, wide.contact_area, 0.02 * wide.contact_area);
   EXPECT_NEAR(narrow.pull_off_force, wide.pull_off_force, 0.02 * wide.pull_off_force);
   EXPECT_EQ(narrow.deformed_lower.type(), CV_64FC1);
-  const Prediction on_rough = model.predict({analytic::asSingle(surface), analytic::asSingle(rough(2))});
-  EXPECT_NEAR(on_rough.contact_area, model.predict({surface, rough(2)}).contact_area, 0.02 * on_rough.contact_area);
+  const Prediction on_rough =
+      model.predict({analytic::asSingle(surface), analytic::asSingle(rough(2))});
+  EXPECT_NEAR(on_rough.contact_area, model.predict({surface, rough(2)}).contact_area,
+              0.02 * on_rough.contact_area);
 }
 
 TEST(AdhesionModel, takesAFlatCounterSurfaceAsNone) {
   AdhesionModel model{paperOptions()};
   const Prediction none = model.predict(rough());
-  const Prediction flat = model.predict({rough(), analytic::flat(80, 75, 10 * kNm, 10 * kNm, 1 * kNm)});
+  const Prediction flat =
+      model.predict({rough(), analytic::flat(80, 75, 10 * kNm, 10 * kNm, 1 * kNm)});
   EXPECT_EQ(flat.contact_area, none.contact_area);
   EXPECT_EQ(flat.asperity_count, none.asperity_count);
   EXPECT_NEAR(flat.pull_off_force, none.pull_off_force, 1e-9 * none.pull_off_force);
@@ -88,7 +95,8 @@ TEST(AdhesionModel, takesAFlatCounterSurfaceAsNone) {
 TEST(AdhesionModel, mirrorsAndTurnsWithItsSurface) {
   for (const int seed : {1, 2, 3}) {
     for (const double load : {0.0, 1e-6, 1e-5}) {
-      const HeightMap surface = samples::gaussian(150, 161, 10 * kNm, 8 * kNm, 2 * kNm, 60 * kNm, seed);
+      const HeightMap surface =
+          samples::gaussian(150, 161, 10 * kNm, 8 * kNm, 2 * kNm, 60 * kNm, seed);
       Options options = paperOptions();
       options.load.mechanical_load = load;
       AdhesionModel model(options);
@@ -96,7 +104,8 @@ TEST(AdhesionModel, mirrorsAndTurnsWithItsSurface) {
       const auto expectSame = [&](const Prediction& prediction) {
         EXPECT_EQ(prediction.contact_area, upright.contact_area);
         EXPECT_EQ(prediction.asperity_count, upright.asperity_count);
-        EXPECT_NEAR(prediction.pull_off_force, upright.pull_off_force, 1e-9 * upright.pull_off_force);  // round-off
+        EXPECT_NEAR(prediction.pull_off_force, upright.pull_off_force,
+                    1e-9 * upright.pull_off_force);  // round-off
       };
       for (const int axis : {0, 1, -1}) {
         cv::Mat flipped;
@@ -115,8 +124,10 @@ TEST(AdhesionModel, scalesPatchesWithThePitchOfEachAxis) {
   // the same sphere, sampled twice as densely along one axis
   Options options = paperOptions();
   options.interface.hamaker_constant = 0.0;
-  const Prediction square = AdhesionModel(options).predict(analytic::paraboloid(101, 101, kNm, kNm, 2e-6));
-  const Prediction dense = AdhesionModel(options).predict(analytic::paraboloid(202, 101, kNm, 0.5 * kNm, 2e-6));
+  const Prediction square =
+      AdhesionModel(options).predict(analytic::paraboloid(101, 101, kNm, kNm, 2e-6));
+  const Prediction dense =
+      AdhesionModel(options).predict(analytic::paraboloid(202, 101, kNm, 0.5 * kNm, 2e-6));
   EXPECT_NEAR(dense.contact_area, square.contact_area, 0.03 * square.contact_area);
   EXPECT_NEAR(dense.pull_off_force, square.pull_off_force, 0.03 * square.pull_off_force);
 }
@@ -127,8 +138,10 @@ TEST(AdhesionModel, placesAsperitiesOnTheSurface) {
   heights(0, 0) = kNan;
   Options options = paperOptions();
   options.load.mechanical_load = 1e-9;
-  options.deformation = Deformation::kElastic;  // so steep a one would flow, and the surface never come to rest
-  const Prediction prediction = AdhesionModel(options).predict(HeightMap(heights, 10 * kNm, 7 * kNm));
+  options.deformation =
+      Deformation::kElastic;  // so steep a one would flow, and the surface never come to rest
+  const Prediction prediction =
+      AdhesionModel(options).predict(HeightMap(heights, 10 * kNm, 7 * kNm));
   ASSERT_EQ(prediction.asperity_count, 1);
   EXPECT_DOUBLE_EQ(prediction.asperities[0].x, 23 * 10 * kNm);
   EXPECT_DOUBLE_EQ(prediction.asperities[0].y, 4 * 7 * kNm);
@@ -162,7 +175,8 @@ TEST(AdhesionModel, keepsTheEnergyCurveOnRequest) {
   ASSERT_EQ(prediction.energy_curve.size(), static_cast<std::size_t>(prediction.steps));
   for (std::size_t k = 1; k < prediction.energy_curve.size(); ++k) {
     EXPECT_GT(prediction.energy_curve[k].approach, prediction.energy_curve[k - 1].approach);
-    EXPECT_GE(prediction.energy_curve[k].contact_fraction, prediction.energy_curve[k - 1].contact_fraction);
+    EXPECT_GE(prediction.energy_curve[k].contact_fraction,
+              prediction.energy_curve[k - 1].contact_fraction);
   }
   const EnergyPoint& last = prediction.energy_curve.back();
   EXPECT_EQ(last.approach, prediction.approach);
@@ -193,7 +207,8 @@ TEST(AdhesionModel, saysWhenTheSearchRangeEnds) {
   const Prediction prediction = AdhesionModel(options).predict(rough());
   EXPECT_EQ(prediction.status, Status::kNoEquilibrium);
   EXPECT_EQ(prediction.steps, 3);
-  EXPECT_NEAR(prediction.approach, 3 * prediction.composite_rms_height / 50, 1e-18);  // sigma/50 each
+  EXPECT_NEAR(prediction.approach, 3 * prediction.composite_rms_height / 50,
+              1e-18);  // sigma/50 each
   expectAllFinite(prediction);
 }
 
@@ -204,7 +219,8 @@ TEST(AdhesionModel, bondsAtTheContactFractionThatIsSet) {
     options.approach.max_contact_fraction = fraction;
     const Prediction prediction = AdhesionModel(options).predict(rough());
     EXPECT_EQ(prediction.status, Status::kBonded);
-    EXPECT_NEAR(prediction.contact_fraction, fraction, 1.0 / 6000 + 1e-12);  // the first of 6000 cells beyond
+    EXPECT_NEAR(prediction.contact_fraction, fraction,
+                1.0 / 6000 + 1e-12);  // the first of 6000 cells beyond
     expectAllFinite(prediction);
   }
 }
@@ -225,8 +241,10 @@ TEST(AdhesionModel, worksWithoutAdhesion) {
 TEST(AdhesionModel, refusesSurfacesThatItCannotUse) {
   AdhesionModel model{paperOptions()};
   EXPECT_THROW(model.predict(HeightMap(cv::Mat1d(4, 5, kNan), kNm, kNm)), SurfaceError);
-  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 74, 10 * kNm, 10 * kNm))), SurfaceError);
-  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 75, 10 * kNm, 11 * kNm))), SurfaceError);
+  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 74, 10 * kNm, 10 * kNm))),
+               SurfaceError);
+  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 75, 10 * kNm, 11 * kNm))),
+               SurfaceError);
   for (const double height : {2e154, -2e154, 1e300, -1e300, 1.7e308, -1.7e308}) {
     cv::Mat1d heights = rough().heights().clone();
     heights(3, 4) = height;
@@ -236,7 +254,8 @@ TEST(AdhesionModel, refusesSurfacesThatItCannotUse) {
     EXPECT_THROW(model.predict(SurfacePair(outlier, outlier)), SurfaceError) << height;
   }
   // and goes on after it
-  EXPECT_EQ(model.predict(rough()).pull_off_force, AdhesionModel(paperOptions()).predict(rough()).pull_off_force);
+  EXPECT_EQ(model.predict(rough()).pull_off_force,
+            AdhesionModel(paperOptions()).predict(rough()).pull_off_force);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// The adhesion of an area from its tiles is that of the whole frame; it does not depend on the tiles, and says when it does not know
-/// enough of them.
+/// The adhesion of an area from its tiles is that of the whole frame; it does not depend on the
+/// tiles, and says when it does not know enough of them.
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +85,8 @@ std::vector<cv::Rect> tilesOf(const HeightMap& surface, const TileSize& size, un
 AreaCells cellsOf(const HeightMap& surface, const TileSize& size, const AreaCellLimits& limits = {},
                   unsigned seed = 1) {
   AreaCells cells(surface.pitchX(), surface.pitchY(), limits);
-  for (const cv::Rect& tile : tilesOf(surface, size, seed)) cells.add(tile.y, tile.x, surface.heights()(tile));
+  for (const cv::Rect& tile : tilesOf(surface, size, seed))
+    cells.add(tile.y, tile.x, surface.heights()(tile));
   return cells;
 }
 
@@ -108,23 +109,28 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  const auto pressed = [](double load) { return changed(stiff(), [=](Options& o) { o.load.mechanical_load = load; }); };
-  return {{"gaussian_3", gaussian(3e-9), stiff()},
-          {"gaussian_10", gaussian(10e-9), stiff()},
-          {"self_affine", selfAffine(3e-9), stiff()},
-          {"pressed", gaussian(3e-9), pressed(1e-6)},
-          {"plastic", gaussian(10e-9), pressed(20e-6)},
-          {"eight", gaussian(3e-9),
-           changed(pressed(20e-6), [](Options& o) { o.approach.connectivity = Connectivity::kEight; })},
-          {"voltage", gaussian(3e-9), changed(stiff(), [](Options& o) { o.load.voltage = 10.0; })},
-          {"water", gaussian(3e-9), changed(stiff(), [](Options& o) { o.capillary.relative_humidity = 0.5; }),
-           5e-3},  // the frame counts cells that water fills in wider buckets, and rest is found to 1/512 of the load
-          {"soft", gaussian(10e-9), soft()},
-          {"soft_self_affine", selfAffine(10e-9), soft(), 2e-4},
-          {"without_adhesion", gaussian(3e-9),
-           changed(pressed(1e-6), [](Options& o) { o.interface.work_of_adhesion = 0.0; }), 1e-9},
-          {"holes", samples::withHoles(gaussian(3e-9), 0.1, 3), pressed(1e-6)},
-          {"noise", samples::whiteNoise(kSide, kSide, kPitch, kPitch, 20e-9, 4), pressed(1e-6), 3e-5}};
+  const auto pressed = [](double load) {
+    return changed(stiff(), [=](Options& o) { o.load.mechanical_load = load; });
+  };
+  return {
+      {"gaussian_3", gaussian(3e-9), stiff()},
+      {"gaussian_10", gaussian(10e-9), stiff()},
+      {"self_affine", selfAffine(3e-9), stiff()},
+      {"pressed", gaussian(3e-9), pressed(1e-6)},
+      {"plastic", gaussian(10e-9), pressed(20e-6)},
+      {"eight", gaussian(3e-9),
+       changed(pressed(20e-6), [](Options& o) { o.approach.connectivity = Connectivity::kEight; })},
+      {"voltage", gaussian(3e-9), changed(stiff(), [](Options& o) { o.load.voltage = 10.0; })},
+      {"water", gaussian(3e-9),
+       changed(stiff(), [](Options& o) { o.capillary.relative_humidity = 0.5; }),
+       5e-3},  // the frame counts cells that water fills in wider buckets, and rest is found to
+               // 1/512 of the load
+      {"soft", gaussian(10e-9), soft()},
+      {"soft_self_affine", selfAffine(10e-9), soft(), 2e-4},
+      {"without_adhesion", gaussian(3e-9),
+       changed(pressed(1e-6), [](Options& o) { o.interface.work_of_adhesion = 0.0; }), 1e-9},
+      {"holes", samples::withHoles(gaussian(3e-9), 0.1, 3), pressed(1e-6)},
+      {"noise", samples::whiteNoise(kSide, kSide, kPitch, kPitch, 20e-9, 4), pressed(1e-6), 3e-5}};
 }
 
 class AreaAdhesionOf : public testing::TestWithParam<Case> {};
@@ -143,15 +149,21 @@ TEST_P(AreaAdhesionOf, tilesIsThatOfTheFrame) {
     EXPECT_EQ(found.curve.size(), expected.curve.size());
     expectNear(found.area, expected.nominal_area, 1e-12, "area");
     expectNear(found.pull_off_force, expected.pull_off_force, one.tolerance, "pull-off force");
-    expectNear(found.apparent_work_of_adhesion, expected.apparent_work_of_adhesion, one.tolerance, "work");
+    expectNear(found.apparent_work_of_adhesion, expected.apparent_work_of_adhesion, one.tolerance,
+               "work");
     expectNear(found.approach, expected.approach, one.tolerance, "approach");
     expectNear(found.separation_at_rest, expected.mean_gap, 3e-5, "separation");
     expectNear(found.contact_area, expected.contact_area, one.tolerance, "contact area");
-    expectNear(found.contact_stiffness, expected.contact_stiffness, 100.0 * one.tolerance, "stiffness");
-    expectNear(found.median_composite_radius, expected.median_composite_radius, one.tolerance, "radius");
-    for (double Exponents::*exponent : {&Exponents::adhesion, &Exponents::modulus, &Exponents::hamaker}) {
-      expectNear(found.pull_off_exponents.*exponent, expected.pull_off_exponents.*exponent, 5e-3, "force's exponent");
-      expectNear(found.work_exponents.*exponent, expected.work_exponents.*exponent, 5e-3, "work's exponent");
+    expectNear(found.contact_stiffness, expected.contact_stiffness, 100.0 * one.tolerance,
+               "stiffness");
+    expectNear(found.median_composite_radius, expected.median_composite_radius, one.tolerance,
+               "radius");
+    for (double Exponents::*exponent :
+         {&Exponents::adhesion, &Exponents::modulus, &Exponents::hamaker}) {
+      expectNear(found.pull_off_exponents.*exponent, expected.pull_off_exponents.*exponent, 5e-3,
+                 "force's exponent");
+      expectNear(found.work_exponents.*exponent, expected.work_exponents.*exponent, 5e-3,
+                 "work's exponent");
     }
   }
 }
@@ -186,7 +198,8 @@ class AreaOfTiles : public testing::Test {
 TEST_F(AreaOfTiles, hasTheSameBitsWhateverTheTiles) {
   for (const TileSize& size : {TileSize{1, kSide}, {kSide, 1}, {64, 64}, {100, 7}}) {
     for (const unsigned seed : {1U, 2U}) {
-      EXPECT_EQ(figuresOf(areaAdhesion(cellsOf(surface_, size, {}, seed), stiff())), figuresOf(whole_));
+      EXPECT_EQ(figuresOf(areaAdhesion(cellsOf(surface_, size, {}, seed), stiff())),
+                figuresOf(whole_));
     }
   }
 }
@@ -295,8 +308,10 @@ TEST_F(AreaOfTiles, ofSeparatePiecesAtOneHeightIsThatOfPiecesSideBySide) {
 
 TEST_F(AreaOfTiles, refusesWhatItCannotAnswer) {
   const AreaCells cells = cellsOf(surface_, {64, 64});
-  EXPECT_THROW(areaAdhesion(cells, changed(stiff(), [](Options& o) { o.formulation = "paper"; })), OptionsError);
-  EXPECT_THROW(areaAdhesion(cells, changed(stiff(), [](Options& o) { o.load.pressure = 1e5; })), OptionsError);
+  EXPECT_THROW(areaAdhesion(cells, changed(stiff(), [](Options& o) { o.formulation = "paper"; })),
+               OptionsError);
+  EXPECT_THROW(areaAdhesion(cells, changed(stiff(), [](Options& o) { o.load.pressure = 1e5; })),
+               OptionsError);
   EXPECT_THROW(areaAdhesion(AreaCells(kPitch, kPitch), stiff()), SurfaceError);
 }
 

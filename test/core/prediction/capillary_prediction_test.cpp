@@ -30,7 +30,8 @@ TEST(CapillaryPrediction, ofASphereIsFourPiGammaR) {
     EXPECT_NEAR(prediction.capillary_force, expected,
                 0.02 * expected);  // rings counted in pixels
     EXPECT_EQ(prediction.normal_load, prediction.capillary_force);
-    EXPECT_EQ(prediction.pull_off_force, prediction.pull_off_force_jkr + prediction.capillary_force);
+    EXPECT_EQ(prediction.pull_off_force,
+              prediction.pull_off_force_jkr + prediction.capillary_force);
   }
 }
 

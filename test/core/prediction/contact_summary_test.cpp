@@ -23,10 +23,11 @@ constexpr double kNm = 1e-9;
 
 HeightMap sphere() { return analytic::paraboloid(101, 101, kNm, kNm, 2e-6); }
 
-/// The sphere with the work of adhesion at which its adhesion parameter is this. Its radius moves with the contact by
-/// less than 3 % (twenty pixels), the parameter by half of that.
+/// The sphere with the work of adhesion at which its adhesion parameter is this. Its radius moves
+/// with the contact by less than 3 % (twenty pixels), the parameter by half of that.
 Prediction withAdhesionParameter(double parameter) {
-  const double at_work = AdhesionModel(contactOnly(1e-6, kWork)).predict(sphere()).adhesion_parameter;
+  const double at_work =
+      AdhesionModel(contactOnly(1e-6, kWork)).predict(sphere()).adhesion_parameter;
   return AdhesionModel(contactOnly(1e-6, kWork * at_work / parameter)).predict(sphere());
 }
 
@@ -37,7 +38,8 @@ TEST(ContactSummary, namesTheBondingRegimeByGuisLimits) {
   EXPECT_EQ(withAdhesionParameter(12.5).bonding_regime, BondingRegime::kNonBonding);
 }
 
-/// The same contact with the equilibrium distance at which its Tabor parameter is this: mu goes with 1/z0.
+/// The same contact with the equilibrium distance at which its Tabor parameter is this: mu goes
+/// with 1/z0.
 Prediction withTaborParameter(double parameter) {
   Options options = contactOnly(1e-6, kWork);
   options.interface.equilibrium_distance = 0.2 * kNm;
@@ -59,10 +61,15 @@ TEST(ContactSummary, takesTheMeanOfTheMiddleTwoAsMedianOfAnEvenNumber) {
   ASSERT_EQ(found.asperity_count, 2);
   const Asperity& first = found.asperities[0];
   const Asperity& second = found.asperities[1];
-  EXPECT_DOUBLE_EQ(found.median_composite_radius, 0.5 * (first.composite_radius + second.composite_radius));
-  EXPECT_DOUBLE_EQ(found.median_tabor_parameter, 0.5 * (first.tabor_parameter + second.tabor_parameter));
-  EXPECT_NEAR(found.median_contact_pixels, 0.5 * (first.area + second.area) / (kNm * kNm), 1e-6);  // whole numbers
-  EXPECT_GT(second.composite_radius / first.composite_radius + first.composite_radius / second.composite_radius, 2.1);
+  EXPECT_DOUBLE_EQ(found.median_composite_radius,
+                   0.5 * (first.composite_radius + second.composite_radius));
+  EXPECT_DOUBLE_EQ(found.median_tabor_parameter,
+                   0.5 * (first.tabor_parameter + second.tabor_parameter));
+  EXPECT_NEAR(found.median_contact_pixels, 0.5 * (first.area + second.area) / (kNm * kNm),
+              1e-6);  // whole numbers
+  EXPECT_GT(second.composite_radius / first.composite_radius +
+                first.composite_radius / second.composite_radius,
+            2.1);
 }
 
 /// A solver that knows the state and what parts it, and nothing of single contacts.
@@ -87,9 +94,10 @@ TEST(ContactSummary, saysOfFiguresThatASolverDoesNotHaveThatTheyAreUnknown) {
   EXPECT_EQ(found.pull_off_force, 3e-7);
   EXPECT_DOUBLE_EQ(found.contact_area, 50 * kNm * kNm);
   for (const double unknown :
-       {found.pull_off_force_jkr, found.pull_off_force_transition, found.contact_area_jkr, found.adhesion_parameter,
-        found.total_energy, found.bonding_energy, found.plastic_work, found.max_tilt, found.median_tabor_parameter,
-        found.median_contact_pixels, found.median_composite_radius, found.mean_gap}) {
+       {found.pull_off_force_jkr, found.pull_off_force_transition, found.contact_area_jkr,
+        found.adhesion_parameter, found.total_energy, found.bonding_energy, found.plastic_work,
+        found.max_tilt, found.median_tabor_parameter, found.median_contact_pixels,
+        found.median_composite_radius, found.mean_gap}) {
     EXPECT_TRUE(std::isnan(unknown));
   }
   EXPECT_EQ(found.asperity_count, 0);

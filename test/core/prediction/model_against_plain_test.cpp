@@ -43,7 +43,8 @@ std::vector<Setting> settings() {
     for (const char* formulation : {"paper", "printed"}) {
       for (const Deformation deformation : {Deformation::kThreeRegimes, Deformation::kElastic}) {
         for (const double hardness : {12e9, 4e9, 0.5e9}) {
-          all.push_back({connectivity, formulation, deformation, hardness, hardness > 1e9 ? 1e-6 : 0.0});
+          all.push_back(
+              {connectivity, formulation, deformation, hardness, hardness > 1e9 ? 1e-6 : 0.0});
         }
       }
     }
@@ -60,7 +61,8 @@ std::vector<Asperity> ordered(std::vector<Asperity> asperities) {
   return asperities;
 }
 
-/// @param load_tolerance of everything that the loads enter: exact without van der Waals and voltage.
+/// @param load_tolerance of everything that the loads enter: exact without van der Waals and
+/// voltage.
 void expectSame(const Prediction& fast, const Prediction& plain, double load_tolerance) {
   const auto same = [](double value, double expected, double tolerance, const char* name) {
     if (std::isnan(expected) || std::isinf(expected)) {
@@ -83,11 +85,13 @@ void expectSame(const Prediction& fast, const Prediction& plain, double load_tol
   same(fast.invalid_fraction, plain.invalid_fraction, kSame, "invalid_fraction");
   same(fast.composite_rms_height, plain.composite_rms_height, kSame, "composite_rms_height");
   same(fast.pull_off_force_jkr, plain.pull_off_force_jkr, kSame, "pull_off_force_jkr");
-  same(fast.pull_off_force_transition, plain.pull_off_force_transition, kSame, "pull_off_force_transition");
+  same(fast.pull_off_force_transition, plain.pull_off_force_transition, kSame,
+       "pull_off_force_transition");
   same(fast.adhesion_parameter, plain.adhesion_parameter, kSame, "adhesion_parameter");
   same(fast.surface_energy, plain.surface_energy, kSame, "surface_energy");
   same(fast.plastic_work, plain.plastic_work, kSame, "plastic_work");
-  EXPECT_NEAR(fast.max_tilt, plain.max_tilt, 1e-9);  // rad; level patches have the tilt of round-off
+  EXPECT_NEAR(fast.max_tilt, plain.max_tilt,
+              1e-9);  // rad; level patches have the tilt of round-off
   same(fast.van_der_waals_force, plain.van_der_waals_force, kSameLoads, "van_der_waals_force");
   same(fast.electrostatic_force, plain.electrostatic_force, kSameLoads, "electrostatic_force");
   same(fast.normal_load, plain.normal_load, load_tolerance, "normal_load");
@@ -115,8 +119,12 @@ void expectSame(const Prediction& fast, const Prediction& plain, double load_tol
 
 class ModelAgainstPlain : public testing::TestWithParam<samples::Frame> {
  protected:
-  static Prediction predictFast(const Options& options) { return AdhesionModel(options).predict(GetParam()); }
-  static Prediction predictPlain(const Options& options) { return plain::predict(options, GetParam()); }
+  static Prediction predictFast(const Options& options) {
+    return AdhesionModel(options).predict(GetParam());
+  }
+  static Prediction predictPlain(const Options& options) {
+    return plain::predict(options, GetParam());
+  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Frames, ModelAgainstPlain, testing::ValuesIn(samples::allFrames()),
@@ -150,8 +158,9 @@ TEST_P(ModelAgainstPlain, isTheSameWhereTheSearchEndsEarly) {
   expectSame(predictFast(options), predictPlain(options), kSame);
 }
 
-/// A ring whose inside comes into contact after it, all in one step. The search tries the step's end first, where the
-/// middle is part of the patch, and goes back to levels where the same box has another centre.
+/// A ring whose inside comes into contact after it, all in one step. The search tries the step's
+/// end first, where the middle is part of the patch, and goes back to levels where the same box has
+/// another centre.
 TEST(RingAgainstPlain, isTheSameWhereTheSearchGoesBack) {
   constexpr int kSize = 7;
   cv::Mat1d heights(15, 15, 0.0);
@@ -169,8 +178,8 @@ TEST(RingAgainstPlain, isTheSameWhereTheSearchGoesBack) {
     Options options = optionsOf(setting);
     options.interface.hamaker_constant = 0.0;
     options.interface.work_of_adhesion = 1e-4;
-    options.deformation =
-        Deformation::kElastic;  // so steep a ring would flow, and nothing stop the search within a step
+    options.deformation = Deformation::kElastic;  // so steep a ring would flow, and nothing stop
+                                                  // the search within a step
     const Prediction fast = AdhesionModel(options).predict(surface);
     expectSame(fast, plain::predict(options, surface), kSame);
     if (HasFailure()) FAIL() << "load " << load;

@@ -1,4 +1,5 @@
-/// Settings of the model that are out of range: every message names the key, the value and what is allowed.
+/// Settings of the model that are out of range: every message names the key, the value and what is
+/// allowed.
 
 #include <cmath>
 #include <limits>
@@ -123,7 +124,8 @@ TEST(ContactSolvers, refuseAnUnknownFormulationInTheWordsOfTheOptions) {
 
 TEST(ContactSolvers, sayWhatServesInPlaceOfAFormulationOfEarlierVersions) {
   const std::string reason = retirement("corrected");
-  for (const char* part : {"approach/formulation", "'corrected'", "`separation_curve`", "`paper`"}) {
+  for (const char* part :
+       {"approach/formulation", "'corrected'", "`separation_curve`", "`paper`"}) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   }
   Options options;

@@ -1,4 +1,5 @@
-/// Settings that no one would combine: every figure is a number, or NaN where nothing is to be told.
+/// Settings that no one would combine: every figure is a number, or NaN where nothing is to be
+/// told.
 
 #include <cmath>
 #include <random>
@@ -84,7 +85,8 @@ TEST(RandomOptions, TotalEnergyIsANumberAndNothingIsInfinite) {
       }
     });
     EXPECT_TRUE(std::isfinite(prediction.total_energy))
-        << "seed " << seed << ", status " << static_cast<int>(prediction.status) << ": " << draw.text();
+        << "seed " << seed << ", status " << static_cast<int>(prediction.status) << ": "
+        << draw.text();
   }
   EXPECT_GT(predicted, 250);  // the others are combinations that are refused
 }
@@ -107,7 +109,8 @@ class OneAtItsEnd : public OptionVisitor {
   void integer(const std::string&, int&, const Range&, const std::string&) override {}
   void flag(const std::string&, bool&, const std::string&) override {}
   void text(const std::string&, std::string&, const std::string&) override {}
-  void choice(const std::string&, std::string&, const std::vector<std::string>&, const std::string&) override {}
+  void choice(const std::string&, std::string&, const std::vector<std::string>&,
+              const std::string&) override {}
 
   int seen() const { return seen_; }
   const std::string& key() const { return key_; }
@@ -138,9 +141,12 @@ TEST(RandomOptions, EachNumberIsBoundedAndNothingIsInfiniteAtTheEnds) {
         if (!options.validate().empty()) continue;
         AdhesionModel model(options);
         const Prediction prediction = model.predict(pair);
-        EXPECT_TRUE(std::isfinite(prediction.total_energy)) << at_its_end.key() << ", upper " << upper;
-        EXPECT_TRUE(std::isfinite(prediction.pull_off_force)) << at_its_end.key() << ", upper " << upper;
-        EXPECT_TRUE(std::isfinite(prediction.normal_load)) << at_its_end.key() << ", upper " << upper;
+        EXPECT_TRUE(std::isfinite(prediction.total_energy))
+            << at_its_end.key() << ", upper " << upper;
+        EXPECT_TRUE(std::isfinite(prediction.pull_off_force))
+            << at_its_end.key() << ", upper " << upper;
+        EXPECT_TRUE(std::isfinite(prediction.normal_load))
+            << at_its_end.key() << ", upper " << upper;
       }
     }
   }

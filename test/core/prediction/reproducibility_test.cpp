@@ -1,4 +1,5 @@
-/// The same input gives the same output, bit for bit, whatever the model did before and however many threads there are.
+/// The same input gives the same output, bit for bit, whatever the model did before and however
+/// many threads there are.
 
 #include <cstring>
 #include <thread>
@@ -73,8 +74,9 @@ std::string bitsOf(const Prediction& p) {
     appendBits(value, bits);
   }
   for (const Asperity& a : p.asperities) {
-    for (const double value : {a.x, a.y, a.z, a.cap_radius, a.composite_radius, a.load, a.contact_radius, a.tilt,
-                               a.plasticity_index, a.tabor_parameter, a.area}) {
+    for (const double value :
+         {a.x, a.y, a.z, a.cap_radius, a.composite_radius, a.load, a.contact_radius, a.tilt,
+          a.plasticity_index, a.tabor_parameter, a.area}) {
       appendBits(value, bits);
     }
   }
@@ -85,7 +87,9 @@ std::string bitsOf(const Prediction& p) {
   return bits;
 }
 
-std::string predictFrame(AdhesionModel& model, const samples::Frame& frame) { return bitsOf(model.predict(frame)); }
+std::string predictFrame(AdhesionModel& model, const samples::Frame& frame) {
+  return bitsOf(model.predict(frame));
+}
 
 TEST(Reproducibility, givesTheSameBitsAgain) {
   for (const samples::Frame& frame : samples::allFrames()) {
@@ -100,7 +104,8 @@ TEST(Reproducibility, givesTheSameBitsAgain) {
 TEST(Reproducibility, doesNotRememberOtherFrames) {
   const std::vector<samples::Frame> frames = samples::allFrames();
   AdhesionModel used(richOptions());
-  // up and down the list: larger and smaller frames, flat and rough counter-surfaces follow each other
+  // up and down the list: larger and smaller frames, flat and rough counter-surfaces follow each
+  // other
   for (std::size_t k = 0; k < 2 * frames.size(); ++k) {
     const samples::Frame& frame = frames[k * 7 % frames.size()];
     AdhesionModel fresh(richOptions());
@@ -152,7 +157,8 @@ TEST(Reproducibility, doesNotDependOnHowThePixelsLieInMemory) {
   surface.heights().copyTo(larger(cv::Rect(11, 13, 60, 50)));
   AdhesionModel model(richOptions());
   const std::string bits = bitsOf(model.predict(surface));
-  EXPECT_TRUE(bitsOf(model.predict(HeightMap(larger(cv::Rect(11, 13, 60, 50)), 10e-9, 10e-9))) == bits);
+  EXPECT_TRUE(bitsOf(model.predict(HeightMap(larger(cv::Rect(11, 13, 60, 50)), 10e-9, 10e-9))) ==
+              bits);
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RoughSurface, testing::Values(1, 2, 3));
 
 TEST_P(RoughSurface, bondsAtAnAdhesionParameterOfOneAndBelow) {
   for (const double rms_height : {0.05 * kNm, 0.1 * kNm, 0.2 * kNm}) {
-    const Prediction prediction = predict(optionsOf(Deformation::kThreeRegimes), rms_height, GetParam());
+    const Prediction prediction =
+        predict(optionsOf(Deformation::kThreeRegimes), rms_height, GetParam());
     EXPECT_LT(prediction.adhesion_parameter, 1.2) << rms_height;
     EXPECT_EQ(prediction.status, Status::kBonded) << rms_height;
     EXPECT_GE(prediction.contact_fraction, 0.5);
@@ -50,7 +51,8 @@ TEST_P(RoughSurface, bondsAtAnAdhesionParameterOfOneAndBelow) {
 
 TEST_P(RoughSurface, touchesAtAFewContactsFarAboveTwelve) {
   for (const double rms_height : {1.5 * kNm, 3.0 * kNm, 6.0 * kNm}) {
-    const Prediction prediction = predict(optionsOf(Deformation::kThreeRegimes), rms_height, GetParam());
+    const Prediction prediction =
+        predict(optionsOf(Deformation::kThreeRegimes), rms_height, GetParam());
     EXPECT_GT(prediction.adhesion_parameter, 12.0) << rms_height;
     EXPECT_EQ(prediction.bonding_regime, BondingRegime::kNonBonding);
     EXPECT_EQ(prediction.status, Status::kEquilibrium) << rms_height;
@@ -62,22 +64,27 @@ TEST_P(RoughSurface, touchesAtAFewContactsFarAboveTwelve) {
 TEST_P(RoughSurface, touchesLessTheRougherItIs) {
   double previous = 1.0;
   for (const double rms_height : {0.2, 0.45, 0.55, 0.7, 1.0, 1.5, 2.5, 4.0}) {
-    const Prediction prediction = predict(optionsOf(Deformation::kThreeRegimes), rms_height * kNm, GetParam());
-    EXPECT_LE(prediction.contact_fraction, previous * 1.05) << rms_height;  // few cells: one more or less
+    const Prediction prediction =
+        predict(optionsOf(Deformation::kThreeRegimes), rms_height * kNm, GetParam());
+    EXPECT_LE(prediction.contact_fraction, previous * 1.05)
+        << rms_height;  // few cells: one more or less
     previous = prediction.contact_fraction;
   }
   EXPECT_LT(previous, 1e-3);
 }
 
 TEST(RoughSurfaces, touchLessAndLessBetweenBondingAndNonBonding) {
-  // one frame holds some twenty summits, so that a single high one can stop it early: the mean of six frames
+  // one frame holds some twenty summits, so that a single high one can stop it early: the mean of
+  // six frames
   constexpr int kFrames = 6;
   double previous = 1.0;
   double adhering = 0.0;
   for (const double rms_height : {0.2, 0.45, 0.55, 0.7, 1.0, 2.0}) {
     double fraction = 0.0;
     for (int seed = 1; seed <= kFrames; ++seed) {
-      fraction += predict(optionsOf(Deformation::kThreeRegimes), rms_height * kNm, seed).contact_fraction / kFrames;
+      fraction +=
+          predict(optionsOf(Deformation::kThreeRegimes), rms_height * kNm, seed).contact_fraction /
+          kFrames;
     }
     EXPECT_LT(fraction, previous) << rms_height;
     previous = fraction;
@@ -94,20 +101,25 @@ TEST_P(RoughSurface, neverSticksLessWithTheRegimesOnThanAllElastic) {
   for (const double load : {0.0, 1e-6, 2e-5}) {
     for (const double hardness : {12e9, 2e9}) {
       for (const double rms_height : {0.3, 0.7, 1.5, 3.0, 6.0}) {
-        const Prediction regimes =
-            predict(optionsOf(Deformation::kThreeRegimes, load, hardness), rms_height * kNm, GetParam());
+        const Prediction regimes = predict(optionsOf(Deformation::kThreeRegimes, load, hardness),
+                                           rms_height * kNm, GetParam());
         const Prediction elastic =
             predict(optionsOf(Deformation::kElastic, load, hardness), rms_height * kNm, GetParam());
-        EXPECT_GE(regimes.contact_area, elastic.contact_area) << load << " " << hardness << " " << rms_height;
-        EXPECT_GE(regimes.approach, elastic.approach) << load << " " << hardness << " " << rms_height;
-        // R of a patch scatters with its pixels, and the pull-off follows it: contacts of a few by a fifth
-        EXPECT_GE(regimes.pull_off_force, 0.8 * elastic.pull_off_force) << load << " " << hardness << " " << rms_height;
+        EXPECT_GE(regimes.contact_area, elastic.contact_area)
+            << load << " " << hardness << " " << rms_height;
+        EXPECT_GE(regimes.approach, elastic.approach)
+            << load << " " << hardness << " " << rms_height;
+        // R of a patch scatters with its pixels, and the pull-off follows it: contacts of a few by
+        // a fifth
+        EXPECT_GE(regimes.pull_off_force, 0.8 * elastic.pull_off_force)
+            << load << " " << hardness << " " << rms_height;
         ratios += regimes.pull_off_force / elastic.pull_off_force;
         pairs += 1.0;
         if (regimes.contact_area > elastic.contact_area) {
           ++larger;
           EXPECT_GT(regimes.plastic_work, 0.0);
-          // the larger contact may have the larger radius of an elastic one: what flowed then flowed on the way
+          // the larger contact may have the larger radius of an elastic one: what flowed then
+          // flowed on the way
           if (regimes.elasto_plastic_count + regimes.plastic_count > 0) ++with_flow;
         }
         EXPECT_EQ(elastic.plastic_work, 0.0);
@@ -123,7 +135,8 @@ TEST_P(RoughSurface, neverSticksLessWithTheRegimesOnThanAllElastic) {
 TEST_P(RoughSurface, pressesTogetherWithTheLoad) {
   double previous = 0.0;
   for (const double load : {0.0, 1e-7, 1e-6, 1e-5, 1e-4}) {
-    const Prediction prediction = predict(optionsOf(Deformation::kThreeRegimes, load), 2 * kNm, GetParam());
+    const Prediction prediction =
+        predict(optionsOf(Deformation::kThreeRegimes, load), 2 * kNm, GetParam());
     EXPECT_GE(prediction.contact_area, previous);
     EXPECT_EQ(prediction.normal_load, load);
     previous = prediction.contact_area;
@@ -141,8 +154,10 @@ TEST_P(RoughSurface, hardlyDependsOnTheStep) {
     options.solver.of<PaperOptions>().step = 1.5 * kNm / divisor;
     const Prediction prediction = AdhesionModel(options).predict(surface);
     EXPECT_EQ(prediction.status, automatic.status);
-    EXPECT_NEAR(prediction.contact_area, automatic.contact_area, 0.05 * automatic.contact_area) << divisor;
-    EXPECT_NEAR(prediction.pull_off_force, automatic.pull_off_force, 0.1 * automatic.pull_off_force) << divisor;
+    EXPECT_NEAR(prediction.contact_area, automatic.contact_area, 0.05 * automatic.contact_area)
+        << divisor;
+    EXPECT_NEAR(prediction.pull_off_force, automatic.pull_off_force, 0.1 * automatic.pull_off_force)
+        << divisor;
   }
 }
 
@@ -151,26 +166,33 @@ TEST_P(RoughSurface, addsTheVanDerWaalsForceToThePullOff) {
   options.interface.hamaker_constant = 65e-21;
   const Prediction prediction = predict(options, 2 * kNm, GetParam());
   EXPECT_GT(prediction.van_der_waals_force, 0.0);
-  EXPECT_DOUBLE_EQ(prediction.pull_off_force, prediction.pull_off_force_jkr + prediction.van_der_waals_force);
+  EXPECT_DOUBLE_EQ(prediction.pull_off_force,
+                   prediction.pull_off_force_jkr + prediction.van_der_waals_force);
   EXPECT_DOUBLE_EQ(prediction.normal_load, prediction.van_der_waals_force);
   EXPECT_GE(prediction.pull_off_force_transition, prediction.pull_off_force_jkr);
-  EXPECT_LE(prediction.pull_off_force_transition, prediction.pull_off_force_jkr * 4.0 / 3.0 * (1 + 1e-12));
+  EXPECT_LE(prediction.pull_off_force_transition,
+            prediction.pull_off_force_jkr * 4.0 / 3.0 * (1 + 1e-12));
 }
 
 TEST_P(RoughSurface, publishesTheAdhesionParameterAndEnergiesOfItsContacts) {
-  const Prediction prediction = predict(optionsOf(Deformation::kThreeRegimes, 1e-6), 1 * kNm, GetParam());
+  const Prediction prediction =
+      predict(optionsOf(Deformation::kThreeRegimes, 1e-6), 1 * kNm, GetParam());
   const double modulus = ContactPair(Material(), Material()).contact_modulus;
   double parameter = 0.0;
   double radii = 0.0;
   for (const Asperity& asperity : prediction.asperities) {
-    parameter += modulus / 0.05 * std::sqrt(std::pow(prediction.composite_rms_height, 3) / asperity.composite_radius);
+    parameter +=
+        modulus / 0.05 *
+        std::sqrt(std::pow(prediction.composite_rms_height, 3) / asperity.composite_radius);
     radii += asperity.composite_radius;
   }
   parameter /= prediction.asperity_count;
   EXPECT_NEAR(prediction.adhesion_parameter, parameter, 1e-9 * parameter);
-  EXPECT_NEAR(prediction.pull_off_force_jkr, 1.5 * kPi * 0.05 * radii, 1e-9 * prediction.pull_off_force_jkr);
-  EXPECT_DOUBLE_EQ(prediction.total_energy,
-                   prediction.mechanical_energy + prediction.surface_energy - prediction.elastic_energy);
+  EXPECT_NEAR(prediction.pull_off_force_jkr, 1.5 * kPi * 0.05 * radii,
+              1e-9 * prediction.pull_off_force_jkr);
+  EXPECT_DOUBLE_EQ(
+      prediction.total_energy,
+      prediction.mechanical_energy + prediction.surface_energy - prediction.elastic_energy);
   EXPECT_DOUBLE_EQ(prediction.bonding_energy, prediction.total_energy / prediction.nominal_area);
   EXPECT_DOUBLE_EQ(prediction.normalized_bonding_energy, prediction.bonding_energy / 0.05);
 }

@@ -43,14 +43,16 @@ struct Errors {
 
 Errors errorsOf(const SphereGrid& grid, double load, double pixels) {
   const double a = jkrRadius(load);
-  const Prediction prediction = AdhesionModel(silicon(load)).predict(sphereOn(grid, kRadius, a, pixels));
+  const Prediction prediction =
+      AdhesionModel(silicon(load)).predict(sphereOn(grid, kRadius, a, pixels));
   EXPECT_EQ(prediction.status, Status::kEquilibrium);
   EXPECT_EQ(prediction.asperity_count, 1);
   Errors errors;
   if (prediction.asperities.empty()) return errors;
   errors.area = std::abs(prediction.contact_area_jkr / (kPi * a * a) - 1.0);
   errors.patch_radius = std::abs(prediction.asperities[0].cap_radius / a - 1.0);
-  errors.pull_off = std::abs(prediction.pull_off_force / (1.5 * kPi * kWorkOfAdhesion * kRadius) - 1.0);
+  errors.pull_off =
+      std::abs(prediction.pull_off_force / (1.5 * kPi * kWorkOfAdhesion * kRadius) - 1.0);
   errors.cell_area = std::abs(prediction.contact_area / (kPi * a * a) - 1.0);
   return errors;
 }
@@ -72,7 +74,8 @@ TEST_P(SphereOnFlat, isJkrWithinThreePercentAtTwentyFivePixels) {
 
 TEST_P(SphereOnFlat, comesCloserWithAFinerPitch) {
   for (const double load : kLoads) {
-    // over an octave of pitches the error scatters with the grid's phase, so bounds are compared, not single values
+    // over an octave of pitches the error scatters with the grid's phase, so bounds are compared,
+    // not single values
     EXPECT_LT(errorsOf(GetParam(), load, 50).largest(), 0.015) << "load " << load;
     EXPECT_LT(errorsOf(GetParam(), load, 100).largest(), 0.0075) << "load " << load;
   }
@@ -84,7 +87,8 @@ TEST(SphereOnFlat, isHertzAsAdhesionVanishes) {
     for (const double work_of_adhesion : {0.0, 1e-9}) {
       Options options = silicon(load);
       options.interface.work_of_adhesion = work_of_adhesion;
-      const Prediction prediction = AdhesionModel(options).predict(sphereOn(kGrids[1], kRadius, a, 25));
+      const Prediction prediction =
+          AdhesionModel(options).predict(sphereOn(kGrids[1], kRadius, a, 25));
       EXPECT_EQ(prediction.status, Status::kEquilibrium);
       EXPECT_NEAR(prediction.contact_area_jkr, kPi * a * a, 0.03 * kPi * a * a);
       EXPECT_NEAR(prediction.contact_area, kPi * a * a, 0.06 * kPi * a * a);
@@ -95,15 +99,17 @@ TEST(SphereOnFlat, isHertzAsAdhesionVanishes) {
 
 /// chi of a sphere in a frame: by (9) with the rms height of that frame.
 double elasticShareOf(const Prediction& prediction, double radius, double hardness) {
-  return regimeFactor(plasticityIndex(contactModulus(), hardness, prediction.composite_rms_height, radius));
+  return regimeFactor(
+      plasticityIndex(contactModulus(), hardness, prediction.composite_rms_height, radius));
 }
 
 TEST(SphereOnFlat, restsOnALargerContactWhenPartlyPlastic) {
-  // chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi Gamma R; chi from the frame, which is two radii of an
-  // elastic contact wide
+  // chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi Gamma R; chi from the frame, which is
+  // two radii of an elastic contact wide
   const double load = 5e-5, work_of_adhesion = 0.2;
   const double pitch = jkrRadius(load, kRadius, work_of_adhesion) / 25;
-  const HeightMap surface = analytic::sphere(120, 120, pitch, pitch, kRadius, 0.3 * pitch, 0.2 * pitch);
+  const HeightMap surface =
+      analytic::sphere(120, 120, pitch, pitch, kRadius, 0.3 * pitch, 0.2 * pitch);
   double previous = 0.0;
   for (const double hardness : {8e9, 7e9, 6e9}) {
     Options options = contactOnly(load, work_of_adhesion);
@@ -115,11 +121,15 @@ TEST(SphereOnFlat, restsOnALargerContactWhenPartlyPlastic) {
     const double b = load + 3 * kPi * work_of_adhesion * kRadius;
     const double apparent = (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;
     const double a = jkr::contactRadius(apparent, kRadius, contactModulus());
-    EXPECT_NEAR(prediction.asperities[0].cap_radius, a, 0.03 * a) << hardness;  // 25 pixels and more
+    EXPECT_NEAR(prediction.asperities[0].cap_radius, a, 0.03 * a)
+        << hardness;  // 25 pixels and more
     EXPECT_NEAR(prediction.contact_area, kPi * a * a, 0.06 * kPi * a * a) << hardness;
-    EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * work_of_adhesion * kRadius, 0.03 * prediction.pull_off_force);
-    const double cap = kPi * kRadius * prediction.approach * prediction.approach;  // volume that flowed
-    EXPECT_NEAR(prediction.plastic_work, (1 - chi) * hardness * cap, 0.1 * prediction.plastic_work) << hardness;
+    EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * work_of_adhesion * kRadius,
+                0.03 * prediction.pull_off_force);
+    const double cap =
+        kPi * kRadius * prediction.approach * prediction.approach;  // volume that flowed
+    EXPECT_NEAR(prediction.plastic_work, (1 - chi) * hardness * cap, 0.1 * prediction.plastic_work)
+        << hardness;
     EXPECT_GT(prediction.contact_area, previous) << hardness;
     previous = prediction.contact_area;
   }
@@ -130,11 +140,12 @@ TEST(SphereOnFlat, neverRestsWhenFullyPlastic) {
     Options options = contactOnly(load, 0.2);
     options.lower.hardness = 0.3e9;
     const double pitch = 5e-9;
-    const Prediction prediction =
-        AdhesionModel(options).predict(analytic::paraboloid(121, 120, pitch, pitch, 0.5e-6, 0.2 * pitch));
+    const Prediction prediction = AdhesionModel(options).predict(
+        analytic::paraboloid(121, 120, pitch, pitch, 0.5e-6, 0.2 * pitch));
     EXPECT_EQ(prediction.status, Status::kNoEquilibrium) << load;
     EXPECT_EQ(prediction.plastic_count, 1);
-    EXPECT_NEAR(prediction.contact_fraction, 0.5, 0.01);  // where the search ends: a ring of pixels more
+    EXPECT_NEAR(prediction.contact_fraction, 0.5,
+                0.01);  // where the search ends: a ring of pixels more
     const double cap = kPi * 0.5e-6 * prediction.approach * prediction.approach;
     EXPECT_NEAR(prediction.plastic_work, 0.3e9 * cap, 0.1 * prediction.plastic_work);
   }
@@ -146,7 +157,8 @@ TEST(SphereArray, isNTimesOneSphere) {
   const double pitch = a / 25;
   const auto predictArray = [&](int count_x, int count_y, double total_load) {
     return AdhesionModel(silicon(total_load))
-        .predict(analytic::sphereArray(90 * count_y, 96 * count_x, pitch, pitch, {kRadius}, count_x, count_y));
+        .predict(analytic::sphereArray(90 * count_y, 96 * count_x, pitch, pitch, {kRadius}, count_x,
+                                       count_y));
   };
   const Prediction one = predictArray(1, 1, load);
   const Prediction twelve = predictArray(4, 3, 12 * load);
@@ -182,15 +194,18 @@ TEST(SphereArray, ofTwoRadiiHasTheSumOfTheirPullOffs) {
   EXPECT_NEAR(prediction.contact_area_jkr, area, 1e-9 * area);
   // rc^2 = 2 R D for every sphere, and the caps' volume goes with R: the larger carry twice as much
   for (const Asperity& asperity : prediction.asperities) {
-    EXPECT_NEAR(asperity.load / asperity.composite_radius, load / (2 * (radii[0] + radii[1])), 0.06 * 4e-7 / 6e-6);
+    EXPECT_NEAR(asperity.load / asperity.composite_radius, load / (2 * (radii[0] + radii[1])),
+                0.06 * 4e-7 / 6e-6);
   }
 }
 
 TEST(SphereOnTiltedFlat, isPressedByTheLoadAlongItsAxis) {
   const double load = 1e-6;
   const double pitch = jkrRadius(load) / 25;
-  const HeightMap plane = analytic::tiltedPlane(101, 110, pitch, pitch, std::tan(10 * kPi / 180), 0.0);
-  const HeightMap sphere = analytic::sum(analytic::paraboloid(101, 110, pitch, pitch, kRadius), plane);
+  const HeightMap plane =
+      analytic::tiltedPlane(101, 110, pitch, pitch, std::tan(10 * kPi / 180), 0.0);
+  const HeightMap sphere =
+      analytic::sum(analytic::paraboloid(101, 110, pitch, pitch, kRadius), plane);
   const Prediction prediction = AdhesionModel(silicon(load)).predict({sphere, plane});
   EXPECT_EQ(prediction.status, Status::kEquilibrium);
   ASSERT_EQ(prediction.asperity_count, 1);
@@ -211,9 +226,11 @@ TEST(SphereOnSphere, isASphereOfTheCompositeRadiusOnAFlat) {
   const HeightMap lower = analytic::paraboloid(101, 110, pitch, pitch, 2e-6);
   const HeightMap cap = analytic::paraboloid(101, 110, pitch, pitch, 3e-6);
   const cv::Mat1d upper = -cap.heights();
-  const Prediction prediction = AdhesionModel(silicon(load)).predict({lower, HeightMap(upper, pitch, pitch)});
+  const Prediction prediction =
+      AdhesionModel(silicon(load)).predict({lower, HeightMap(upper, pitch, pitch)});
   EXPECT_EQ(prediction.status, Status::kEquilibrium);
-  EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * kWorkOfAdhesion * composite, 0.03 * prediction.pull_off_force);
+  EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * kWorkOfAdhesion * composite,
+              0.03 * prediction.pull_off_force);
   EXPECT_NEAR(prediction.contact_area_jkr, kPi * a * a, 0.03 * kPi * a * a);
 }
 

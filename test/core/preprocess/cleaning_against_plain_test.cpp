@@ -15,7 +15,8 @@
 namespace mems_stiction {
 namespace {
 
-/// On a stage, tilted and bowed, each line on its own level, with spikes and holes; in single precision.
+/// On a stage, tilted and bowed, each line on its own level, with spikes and holes; in single
+/// precision.
 HeightMap scan(int rows, int cols, unsigned seed) {
   GaussianSurfaceOptions options;
   options.rows = rows;
@@ -45,7 +46,8 @@ HeightMap scan(int rows, int cols, unsigned seed) {
   return analytic::asSingle(HeightMap(heights, 10e-9, 10e-9));
 }
 
-/// The same pixels are valid, and heights are the same to 1e-9 of the rms height: what sums in another order leave.
+/// The same pixels are valid, and heights are the same to 1e-9 of the rms height: what sums in
+/// another order leave.
 void expectSame(const HeightMap& found, const cv::Mat1d& expected) {
   const double tolerance = 1e-9 * heightStatistics(found).rms_height;
   int different = 0;
@@ -84,7 +86,8 @@ TEST_P(Preparation, findsTheSpikesOfThePlainOne) {
     options.spikes.window = window;
     const CleanedScan prepared = cleanScan(scan_, options);
     EXPECT_GT(prepared.record.steps[0].changed_pixels, heights_.total() / 1000);
-    expectSame(prepared.surface, plain::withoutSpikes(heights_, window / 2, options.spikes.threshold));
+    expectSame(prepared.surface,
+               plain::withoutSpikes(heights_, window / 2, options.spikes.threshold));
   }
 }
 
@@ -111,14 +114,16 @@ INSTANTIATE_TEST_SUITE_P(Frames, Preparation,
 TEST(SampledFit, restsWhereTheOneOverAllPixelsDoes) {
   for (const cv::Size& size : {cv::Size(512, 400), cv::Size(333, 120)}) {
     WorkingSurface work(scan(size.height, size.width, 3));
-    const PolynomialSurface all =
-        fitPolynomial(work.heights, work.pitch_x, work.pitch_y, 2, FitWeights::kRobust, work.memory);
-    const PolynomialSurface sampled = fitPolynomialBySamples(work.heights, work.pitch_x, work.pitch_y, 2, work.memory);
+    const PolynomialSurface all = fitPolynomial(work.heights, work.pitch_x, work.pitch_y, 2,
+                                                FitWeights::kRobust, work.memory);
+    const PolynomialSurface sampled =
+        fitPolynomialBySamples(work.heights, work.pitch_x, work.pitch_y, 2, work.memory);
     const double right = size.width * work.pitch_x;
     const double bottom = size.height * work.pitch_y;
     for (const double x : {0.0, 0.5 * right, right}) {
       for (const double y : {0.0, 0.5 * bottom, bottom}) {
-        // Both stop at steps of 1e-4 noise in each of six terms, and the noise is that of a sample here.
+        // Both stop at steps of 1e-4 noise in each of six terms, and the noise is that of a sample
+        // here.
         EXPECT_NEAR(sampled.height(x, y), all.height(x, y), 2e-3 * all.noise);
       }
     }
@@ -129,7 +134,8 @@ TEST(SampledFit, ofFewPixelsIsTheOneOverAllOfThem) {
   WorkingSurface work(scan(40, 50, 3));
   const PolynomialSurface all =
       fitPolynomial(work.heights, work.pitch_x, work.pitch_y, 2, FitWeights::kRobust, work.memory);
-  const PolynomialSurface sampled = fitPolynomialBySamples(work.heights, work.pitch_x, work.pitch_y, 2, work.memory);
+  const PolynomialSurface sampled =
+      fitPolynomialBySamples(work.heights, work.pitch_x, work.pitch_y, 2, work.memory);
   EXPECT_EQ(sampled.coefficients, all.coefficients);
 }
 

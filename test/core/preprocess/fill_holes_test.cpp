@@ -47,7 +47,8 @@ double largestDifference(const HeightMap& first, const HeightMap& second) {
 
 TEST(FillHoles, givesAPlaneBackEvenAtTheBorderAndUnderAnOffset) {
   const HeightMap plane = analytic::tiltedPlane(40, 33, kPitchX, kPitchY, 0.2, -0.1, 1e-3);
-  for (const cv::Rect& hole : {cv::Rect(10, 10, 7, 5), cv::Rect(0, 0, 4, 4), cv::Rect(29, 20, 4, 9)}) {
+  for (const cv::Rect& hole :
+       {cv::Rect(10, 10, 7, 5), cv::Rect(0, 0, 4, 4), cv::Rect(29, 20, 4, 9)}) {
     // the membrane's share of heights of up to 40 nm; a double at 1 mm is spaced by 2e-19 m
     EXPECT_LT(largestDifference(withFilledHoles(withHole(plane, hole), generous()), plane), 1e-15);
   }
@@ -56,7 +57,8 @@ TEST(FillHoles, givesAPlaneBackEvenAtTheBorderAndUnderAnOffset) {
 TEST(FillHoles, givesTheTopOfAnAsperityBack) {
   const HeightMap dome = analytic::paraboloid(61, 61, kPitchX, kPitchY, 200e-9);
   const HeightMap filled = withFilledHoles(withHole(dome, {28, 29, 5, 3}), generous());
-  // The cap cut off by a hole of 5 x 3 pixels is (15 nm)^2/(2 R) = 0.6 nm high; a harmonic fill would leave it flat.
+  // The cap cut off by a hole of 5 x 3 pixels is (15 nm)^2/(2 R) = 0.6 nm high; a harmonic fill
+  // would leave it flat.
   EXPECT_NEAR(filled.height(30, 30), 0.0, 0.06e-9);
 }
 
@@ -76,7 +78,8 @@ TEST(FillHoles, errorOnARoughSurfaceIsFarBelowTheRoughness) {
   }
   const HeightMap filled = withFilledHoles(HeightMap(heights, 10e-9, 10e-9), generous());
   cv::Mat error = filled.heights() - clean.heights();
-  EXPECT_EQ(cv::countNonZero(error.setTo(0.0, lost)), 0);  // valid pixels are left alone, to the bit
+  EXPECT_EQ(cv::countNonZero(error.setTo(0.0, lost)),
+            0);  // valid pixels are left alone, to the bit
   error = filled.heights() - clean.heights();
   const double rms = std::sqrt(cv::mean(error.mul(error), lost)[0]);
   EXPECT_LT(rms, 0.02 * 3e-9);  // a hole of 3 pixels across in waves of some 20: (1.5/8)^4
@@ -121,7 +124,8 @@ TEST(FillHoles, worksFromASingleValidPixelAndRefusesNone) {
 }
 
 TEST(FillHoles, takesSinglePrecisionAndLeavesTheInputAlone) {
-  const HeightMap single = analytic::asSingle(analytic::withInvalidPixel(analytic::flat(8, 8, 1e-9, 1e-9, 2e-9), 3, 3));
+  const HeightMap single =
+      analytic::asSingle(analytic::withInvalidPixel(analytic::flat(8, 8, 1e-9, 1e-9, 2e-9), 3, 3));
   const HeightMap filled = withFilledHoles(single, generous());
   EXPECT_EQ(filled.heights().type(), CV_64FC1);
   EXPECT_NEAR(filled.height(3, 3), 2e-9, 1e-16);
@@ -134,13 +138,17 @@ TEST(FillHoles, fillsAMillionPixelsWithFivePercentHoles) {
   cv::Mat heights = gaussianSurface(options).heights();
   cv::theRNG().state = 6;
   for (int count = 0; count < 12000; ++count) {
-    heights(cv::Rect(cv::theRNG().uniform(0, 1022), cv::theRNG().uniform(0, 1022), 2, 2)).setTo(kMissing);
+    heights(cv::Rect(cv::theRNG().uniform(0, 1022), cv::theRNG().uniform(0, 1022), 2, 2))
+        .setTo(kMissing);
   }
   const auto start = std::chrono::steady_clock::now();
   const HeightMap filled = withFilledHoles(HeightMap(heights, 10e-9, 10e-9), generous());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(invalidFraction(filled), 0.0);
-  EXPECT_LT(seconds, 20.0);  // about one on an idle core; the limit finds a wrong power of the number of pixels
+  EXPECT_LT(
+      seconds,
+      20.0);  // about one on an idle core; the limit finds a wrong power of the number of pixels
   RecordProperty("seconds", std::to_string(seconds));
 }
 

@@ -30,7 +30,8 @@ double largestHeight(const HeightMap& surface) { return cv::norm(surface.heights
 
 TEST(LeastSquaresPlane, findsSlopesAndHeightOfAPlane) {
   const Plane plane = planeOf(analytic::tiltedPlane(23, 40, kPitchX, kPitchY, 0.012, -0.3, 5e-6));
-  EXPECT_NEAR(plane.slope_x, 0.012, 1e-12);  // round-off of sums over 920 pixels of heights up to 5 um
+  EXPECT_NEAR(plane.slope_x, 0.012,
+              1e-12);  // round-off of sums over 920 pixels of heights up to 5 um
   EXPECT_NEAR(plane.slope_y, -0.3, 1e-12);
   EXPECT_NEAR(plane.mean_height, 5e-6, 1e-18);
   EXPECT_NEAR(plane.centre_x, 0.5 * 39 * kPitchX, 1e-20);
@@ -38,7 +39,8 @@ TEST(LeastSquaresPlane, findsSlopesAndHeightOfAPlane) {
 }
 
 TEST(Levelled, leavesNothingOfAPlane) {
-  const HeightMap flat = levelled(analytic::tiltedPlane(23, 40, kPitchX, kPitchY, 0.012, -0.3, 5e-6));
+  const HeightMap flat =
+      levelled(analytic::tiltedPlane(23, 40, kPitchX, kPitchY, 0.012, -0.3, 5e-6));
   EXPECT_EQ(flat.heights().type(), CV_64FC1);
   EXPECT_EQ(flat.pitchX(), kPitchX);
   EXPECT_EQ(flat.pitchY(), kPitchY);
@@ -46,17 +48,19 @@ TEST(Levelled, leavesNothingOfAPlane) {
 }
 
 TEST(Levelled, givesBackARoughnessThatHasNoTiltOfItsOwn) {
-  // cosine-like along y and symmetrical caps have no tilt: a centred paraboloid less its mean is already level
+  // cosine-like along y and symmetrical caps have no tilt: a centred paraboloid less its mean is
+  // already level
   const HeightMap cap = analytic::paraboloid(41, 64, kPitchX, kPitchY, 2e-6);
-  const HeightMap tilted = analytic::sum(cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, 3e-7));
+  const HeightMap tilted =
+      analytic::sum(cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, 3e-7));
   EXPECT_LT(largestDifference(levelled(tilted), levelled(cap)), 1e-20);
   EXPECT_NEAR(planeOf(cap).slope_x, 0.0, 1e-13);
 }
 
 TEST(Levelled, keepsNanometresUnderAStageOffset) {
   const HeightMap cap = analytic::paraboloid(41, 64, kPitchX, kPitchY, 2e-6);
-  const HeightMap tilted =
-      analytic::sum(cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, kStageOffset));
+  const HeightMap tilted = analytic::sum(
+      cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, kStageOffset));
   // each height is rounded once under the offset, and the fit averages those errors
   EXPECT_LT(largestDifference(levelled(tilted), levelled(cap)), 2.0 * kSpacingUnderOffset);
 }
@@ -86,7 +90,8 @@ TEST(Levelled, takesSinglePrecisionAndSubtractsInDouble) {
   const HeightMap plane = analytic::tiltedPlane(20, 30, kPitchX, kPitchY, 0.01, 0.02, 1e-3);
   const HeightMap flat = levelled(analytic::asSingle(plane));
   EXPECT_EQ(flat.heights().type(), CV_64FC1);
-  // float32 near 1 mm: spacing 0.116 nm, half of it in each height, and as much again that the fit may pick up
+  // float32 near 1 mm: spacing 0.116 nm, half of it in each height, and as much again that the fit
+  // may pick up
   EXPECT_LT(largestHeight(flat), 0.116e-9);
   EXPECT_GT(largestHeight(flat), 0.0);
 }
@@ -105,7 +110,8 @@ TEST(Levelled, fitsValidPixelsOnlyAndKeepsInvalidOnesInvalid) {
 }
 
 TEST(Levelled, takesTheSlopeAlongASingleRowOrColumn) {
-  const Plane row = planeOf(analytic::tiltedPlane(1, 30, kPitchX, kPitchY, 0.01, 0.7, kStageOffset));
+  const Plane row =
+      planeOf(analytic::tiltedPlane(1, 30, kPitchX, kPitchY, 0.01, 0.7, kStageOffset));
   EXPECT_NEAR(row.slope_x, 0.01, 30.0 * kSpacingUnderOffset / kPitchX);
   EXPECT_EQ(row.slope_y, 0.0);
   const Plane column = planeOf(analytic::tiltedPlane(30, 1, kPitchX, kPitchY, 0.7, 0.01));
@@ -135,7 +141,8 @@ TEST(Levelled, fitsTwoLongRows) {
   // the worst-conditioned frame that still shows both slopes
   const Plane plane = planeOf(analytic::tiltedPlane(2, 40000, kPitchX, kPitchY, 1e-3, 0.05));
   EXPECT_NEAR(plane.slope_x, 1e-3, 1e-12);
-  EXPECT_NEAR(plane.slope_y, 0.05, 1e-9);  // heights of 0.26 um rounded to 5e-23 m, over 80000 pixels of one pitch
+  EXPECT_NEAR(plane.slope_y, 0.05,
+              1e-9);  // heights of 0.26 um rounded to 5e-23 m, over 80000 pixels of one pitch
 }
 
 TEST(Levelled, refusesASurfaceWithoutAValidPixel) {

@@ -42,7 +42,8 @@ HeightMap jumping(const HeightMap& surface, double jump, double tilt = 0.0) {
   for (int row = 0; row < heights.rows; ++row) {
     const double lift = jump * normal(engine);
     const double slope = tilt * normal(engine);
-    for (int col = 0; col < heights.cols; ++col) heights.at<double>(row, col) += lift + slope * col / heights.cols;
+    for (int col = 0; col < heights.cols; ++col)
+      heights.at<double>(row, col) += lift + slope * col / heights.cols;
   }
   return {heights, surface.pitchX(), surface.pitchY()};
 }
@@ -51,7 +52,8 @@ double rmsDifference(const HeightMap& first, const HeightMap& second) {
   return heightStatistics(HeightMap(first.heights() - second.heights(), 1.0, 1.0)).rms_height;
 }
 
-/// A surface whose rows all have the same median, so that nothing but the jumps is there to take off.
+/// A surface whose rows all have the same median, so that nothing but the jumps is there to take
+/// off.
 HeightMap stripes() { return analytic::sine(64, 96, 10e-9, 20e-9, 2e-9, 3, 0); }
 
 TEST(LineAlignment, takesJumpsOffExactly) {
@@ -71,7 +73,8 @@ TEST(LineAlignment, doesNotMindAFeatureOnTwoFifthsOfTheLines) {
   cv::Mat heights = stripes().heights().clone();
   heights(cv::Rect(10, 20, 38, 25)) += 80e-9;
   const HeightMap truth(heights, 10e-9, 20e-9);
-  const HeightMap found = withAlignedLines(jumping(truth, 20e-9), byMethod(LineAlignment::kMedianDifference));
+  const HeightMap found =
+      withAlignedLines(jumping(truth, 20e-9), byMethod(LineAlignment::kMedianDifference));
   // where the feature starts and ends, 60 % of the differences are exactly 0
   EXPECT_LT(rmsDifference(found, truth), 1e-20);
 }
@@ -82,8 +85,10 @@ TEST(LineAlignment, bringsTheRoughnessBackBeneathLargeJumps) {
   options.correlation_length_x = options.correlation_length_y = 50e-9;
   const HeightMap clean = gaussianSurface(options);
   const HeightMap jumped = jumping(clean, 20e-9);
-  // Every line takes the median of its own roughness with it: 1.25 sigma over the root of some 5.12 um/90 nm patches.
-  EXPECT_LT(rmsDifference(withAlignedLines(jumped, byMethod(LineAlignment::kMedian)), clean), 0.25 * 3e-9);
+  // Every line takes the median of its own roughness with it: 1.25 sigma over the root of some 5.12
+  // um/90 nm patches.
+  EXPECT_LT(rmsDifference(withAlignedLines(jumped, byMethod(LineAlignment::kMedian)), clean),
+            0.25 * 3e-9);
 }
 
 TEST(LineAlignment, keepsMeanInvalidPixelsAndEmptyLines) {
@@ -98,7 +103,8 @@ TEST(LineAlignment, keepsMeanInvalidPixelsAndEmptyLines) {
     const HeightMap found = withAlignedLines(holed, byMethod(method, 0));
     EXPECT_EQ(heightStatistics(found).valid_count, 62 * 96 - 1);
     EXPECT_TRUE(std::isnan(found.height(20, 30)));
-    EXPECT_NEAR(heightStatistics(found).mean, heightStatistics(holed).mean, 5e-15);  // a sum of 6000 heights of 10 mm
+    EXPECT_NEAR(heightStatistics(found).mean, heightStatistics(holed).mean,
+                5e-15);  // a sum of 6000 heights of 10 mm
     EXPECT_NEAR(heightStatistics(found).rms_height, 2e-9 / std::sqrt(2.0), 0.02e-9);
   }
 }

@@ -52,7 +52,8 @@ TEST(LowPass, aHoleDoesNotPullItsSurroundings) {
   const HeightMap wave = analytic::sine(80, 80, 5e-9, 5e-9, 1e-9, 1, 1);
   const HeightMap low = lowPassed(wave, at(30e-9));
   const HeightMap holed = lowPassed(analytic::withInvalidPixel(wave, 40, 20), at(30e-9));
-  // One of some 20 pixels that count is missing; the others stand for it, up to the slope between them.
+  // One of some 20 pixels that count is missing; the others stand for it, up to the slope between
+  // them.
   EXPECT_NEAR(holed.height(40, 21), low.height(40, 21), 0.01e-9);
 }
 
@@ -62,7 +63,8 @@ TEST(LowPass, cutoffBelowThePitchChangesNothingAndBeyondTheFrameGivesTheMean) {
   options.cols = 90;
   const HeightMap surface = gaussianSurface(options);
   double largest = 0.0;
-  cv::minMaxLoc(cv::abs(lowPassed(surface, at(5e-9)).heights() - surface.heights()), nullptr, &largest);
+  cv::minMaxLoc(cv::abs(lowPassed(surface, at(5e-9)).heights() - surface.heights()), nullptr,
+                &largest);
   EXPECT_LT(largest, 1e-20);
   EXPECT_LT(heightStatistics(lowPassed(surface, at(1.0))).rms_height, 1e-15);
 }

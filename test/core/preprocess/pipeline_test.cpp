@@ -36,7 +36,8 @@ GaussianSurfaceOptions smoothFilm() {
   return options;
 }
 
-/// As an instrument would deliver it: on a stage, tilted, bowed, with spikes up and down and with holes.
+/// As an instrument would deliver it: on a stage, tilted, bowed, with spikes up and down and with
+/// holes.
 HeightMap spoiled(const HeightMap& clean) {
   cv::Mat heights = clean.asDouble().heights().clone();
   const double width = clean.cols() * clean.pitchX();
@@ -44,16 +45,18 @@ HeightMap spoiled(const HeightMap& clean) {
     for (int col = 0; col < heights.cols; ++col) {
       const double u = 2.0 * col / heights.cols - 1.0;
       const double v = 2.0 * row / heights.rows - 1.0;
-      heights.at<double>(row, col) +=
-          2e-3 + 0.02 * width * u - 0.01 * width * v + 25e-9 * u * u - 15e-9 * u * v + 30e-9 * v * v;
+      heights.at<double>(row, col) += 2e-3 + 0.02 * width * u - 0.01 * width * v + 25e-9 * u * u -
+                                      15e-9 * u * v + 30e-9 * v * v;
     }
   }
   std::mt19937 engine(4);
   const auto place = [&](int size) {
     return cv::Rect(static_cast<int>(engine() % static_cast<unsigned>(heights.cols - size)),
-                    static_cast<int>(engine() % static_cast<unsigned>(heights.rows - size)), size, size);
+                    static_cast<int>(engine() % static_cast<unsigned>(heights.rows - size)), size,
+                    size);
   };
-  for (int count = 0; count < 150; ++count) heights(place(1 + count % 2)) += count % 3 == 0 ? -60e-9 : 90e-9;
+  for (int count = 0; count < 150; ++count)
+    heights(place(1 + count % 2)) += count % 3 == 0 ? -60e-9 : 90e-9;
   for (int count = 0; count < 250; ++count) {
     heights(place(1 + count % 4)).setTo(std::numeric_limits<double>::quiet_NaN());
   }
@@ -65,7 +68,8 @@ PipelineOptions cleaning() {
   options.offset.enabled = true;
   options.spikes.enabled = true;
   options.fill.enabled = true;
-  options.level.shape = LevelShape::kPolynomial;  // spikes are gone by then: least squares takes nothing else off
+  options.level.shape =
+      LevelShape::kPolynomial;  // spikes are gone by then: least squares takes nothing else off
   return options;
 }
 
@@ -113,7 +117,8 @@ TEST(Pipeline, recordsWhatEachStepDidInTheOrderOfTheTable) {
   const std::vector<PreprocessStep>& steps = prepared.record.steps;
   ASSERT_EQ(steps.size(), 8u);
   const char* names[] = {"offset", "lines", "spikes", "fill", "tip", "level", "low_pass", "refine"};
-  for (std::size_t index = 0; index < steps.size(); ++index) EXPECT_EQ(steps[index].name, names[index]);
+  for (std::size_t index = 0; index < steps.size(); ++index)
+    EXPECT_EQ(steps[index].name, names[index]);
   EXPECT_NEAR(steps[0].rms_change, 1e-3, 1e-8);
   EXPECT_EQ(steps[0].changed_pixels, 96 * 128 - 1);
   EXPECT_EQ(steps[2].parameters, "threshold=6 window=5");
@@ -135,10 +140,11 @@ TEST(Pipeline, recordsWhatEachStepDidInTheOrderOfTheTable) {
 TEST(Pipeline, optionsReadFromYamlAndNameWhatIsWrong) {
   PipelineOptions options;
   const auto describe = [&](OptionVisitor& visitor) { options.describe(visitor); };
-  const std::vector<std::string> lines = readYaml(
-      YAML::Load("preprocessing: {level: polynomial, level_robust: true, fill: {enabled: true, max_fraction: 0.2},"
-                 " tip/radius: 15e-9, lines: {method: median_difference}}"),
-      describe);
+  const std::vector<std::string> lines =
+      readYaml(YAML::Load("preprocessing: {level: polynomial, level_robust: true, fill: {enabled: "
+                          "true, max_fraction: 0.2},"
+                          " tip/radius: 15e-9, lines: {method: median_difference}}"),
+               describe);
   EXPECT_TRUE(lines.empty());
   EXPECT_EQ(options.level.shape, LevelShape::kPolynomial);
   EXPECT_TRUE(options.level.robust);
@@ -154,7 +160,8 @@ TEST(Pipeline, optionsReadFromYamlAndNameWhatIsWrong) {
     FAIL() << "was accepted";
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 2u);
-    EXPECT_NE(error.violations()[0].find("preprocessing/fill/max_fraction: 1.5"), std::string::npos);
+    EXPECT_NE(error.violations()[0].find("preprocessing/fill/max_fraction: 1.5"),
+              std::string::npos);
     EXPECT_NE(error.violations()[1].find("preprocessing/refine/factor: 0"), std::string::npos);
   }
 }
@@ -171,27 +178,31 @@ TEST(CleanedScan, pullOffForceOfAGaussianSurfaceIsThatOfTheCleanOne) {
   for (const int seed : {11, 12, 13}) {
     GaussianSurfaceOptions surface = smoothFilm();
     surface.seed = seed;
-    // A random surface has some bow of its own, which nobody can tell from the instrument's: this one has none.
+    // A random surface has some bow of its own, which nobody can tell from the instrument's: this
+    // one has none.
     LevelOptions without_bow;
     without_bow.shape = LevelShape::kPolynomial;
     const HeightMap clean = levelledBy(gaussianSurface(surface), without_bow);
     const CleanedScan prepared = cleanScan(spoiled(clean), cleaning());
     EXPECT_EQ(invalidFraction(prepared.surface), 0.0);
-    EXPECT_LT(heightStatistics(HeightMap(prepared.surface.heights() - clean.heights(), 1.0, 1.0)).rms_height,
+    EXPECT_LT(heightStatistics(HeightMap(prepared.surface.heights() - clean.heights(), 1.0, 1.0))
+                  .rms_height,
               0.01 * surface.rms_height);
     AdhesionModel model(polysilicon(200e-6));
     const Prediction expected = model.predict(clean);
     const Prediction found = model.predict(prepared.surface);
     ASSERT_EQ(expected.status, Status::kEquilibrium);
     ASSERT_EQ(found.status, Status::kEquilibrium);
-    EXPECT_GT(expected.asperity_count, 10);  // with three or four, a picometre can decide about one more
+    EXPECT_GT(expected.asperity_count,
+              10);  // with three or four, a picometre can decide about one more
     EXPECT_NEAR(found.pull_off_force / expected.pull_off_force, 1.0, 0.05) << "seed " << seed;
   }
 }
 
 TEST(CleanedScan, pullOffForceOfASphereIsThatOfTheCleanOne) {
-  // A bow cannot be told from a sphere that fills the frame: this one stands on a plane, on 11 % of it. Its apex lies
-  // between pixels, so that no two cells have the same gap and it does not hang on round-off which comes first.
+  // A bow cannot be told from a sphere that fills the frame: this one stands on a plane, on 11 % of
+  // it. Its apex lies between pixels, so that no two cells have the same gap and it does not hang
+  // on round-off which comes first.
   cv::Mat heights = analytic::paraboloid(301, 301, 5e-9, 5e-9, 2e-6, 1.1e-9, -0.7e-9).heights();
   heights += 20e-9;
   heights = cv::max(heights, 0.0);
@@ -206,7 +217,8 @@ TEST(CleanedScan, pullOffForceOfASphereIsThatOfTheCleanOne) {
   ASSERT_EQ(found.status, Status::kEquilibrium);
   EXPECT_EQ(found.asperity_count, 1);
   EXPECT_NEAR(found.pull_off_force / expected.pull_off_force, 1.0, 0.05);
-  EXPECT_GT(std::fabs(model.predict(spoiled(clean)).pull_off_force / expected.pull_off_force - 1.0), 0.2);
+  EXPECT_GT(std::fabs(model.predict(spoiled(clean)).pull_off_force / expected.pull_off_force - 1.0),
+            0.2);
 }
 
 TEST(CleanedScan, jumpsBetweenLinesLeaveNoTrace) {
@@ -221,7 +233,8 @@ TEST(CleanedScan, jumpsBetweenLinesLeaveNoTrace) {
   AdhesionModel model(polysilicon(200e-6));
   // Each line takes the median of its own roughness with it, jumps or not.
   const double expected = model.predict(cleanScan(clean, options).surface).pull_off_force;
-  EXPECT_NEAR(model.predict(cleanScan(jumped, options).surface).pull_off_force / expected, 1.0, 0.01);
+  EXPECT_NEAR(model.predict(cleanScan(jumped, options).surface).pull_off_force / expected, 1.0,
+              0.01);
 }
 
 }  // namespace

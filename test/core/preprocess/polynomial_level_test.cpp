@@ -17,7 +17,8 @@ namespace {
 
 PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights) {
   WorkingSurface work(surface);
-  return mems_stiction::fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, weights, work.memory);
+  return mems_stiction::fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, weights,
+                                      work.memory);
 }
 
 HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface) {
@@ -42,7 +43,8 @@ HeightMap bent(const HeightMap& surface, double offset = 0.0) {
     for (int col = 0; col < heights.cols; ++col) {
       const double u = 2.0 * col / heights.cols - 1.0;
       const double v = 2.0 * row / heights.rows - 1.0;
-      heights.at<double>(row, col) += offset + 40e-9 * u - 25e-9 * v + 12e-9 * u * u + 5e-9 * u * v - 9e-9 * v * v;
+      heights.at<double>(row, col) +=
+          offset + 40e-9 * u - 25e-9 * v + 12e-9 * u * u + 5e-9 * u * v - 9e-9 * v * v;
     }
   }
   return {heights, surface.pitchX(), surface.pitchY()};
@@ -76,7 +78,8 @@ TEST(PolynomialLevel, takesAPolynomialOfDegreeTwoOffExactly) {
 TEST(PolynomialLevel, keepsTheRoughnessUnderAStageOffset) {
   const HeightMap clean = gaussianSurface(rough());
   const HeightMap near = without(fitPolynomial(bent(clean), 2, FitWeights::kEqual), bent(clean));
-  const HeightMap far = without(fitPolynomial(bent(clean, 0.01), 2, FitWeights::kEqual), bent(clean, 0.01));
+  const HeightMap far =
+      without(fitPolynomial(bent(clean, 0.01), 2, FitWeights::kEqual), bent(clean, 0.01));
   EXPECT_LT(largestDifference(near, far), 5e-18);  // a double at 0.01 m is spaced by 1.7e-18 m
 }
 
@@ -97,7 +100,8 @@ TEST(PolynomialLevel, robustFitDoesNotMindFeaturesOnAFifthOfTheFrame) {
     return heightStatistics(found).rms_height;
   };
   EXPECT_GT(errorOf(FitWeights::kEqual), 20e-9);
-  // the roughness itself has a polynomial part: 2 nm times the root of 5 terms over some 300 independent patches
+  // the roughness itself has a polynomial part: 2 nm times the root of 5 terms over some 300
+  // independent patches
   EXPECT_LT(errorOf(FitWeights::kRobust), 0.4e-9);
 }
 
@@ -116,7 +120,8 @@ TEST(PolynomialLevel, tallFeaturesOnMostOfTheFrameDoNotTiltIt) {
     cv::Mat corner = cv::Mat::zeros(200, 310, CV_64FC1);
     corner(cv::Rect(8, 8, static_cast<int>(310 * std::sqrt(share)) - 8,
                     static_cast<int>(200 * std::sqrt(share)) - 8)) += 100e-9;
-    // least squares err by 25 nm and more; the roughness itself has a tilt of 2 nm over some 300 independent patches
+    // least squares err by 25 nm and more; the roughness itself has a tilt of 2 nm over some 300
+    // independent patches
     EXPECT_LT(errorUnder(ridge), 0.6e-9) << share;
     EXPECT_LT(errorUnder(corner), 0.6e-9) << share;
   }
@@ -128,7 +133,8 @@ TEST(PolynomialLevel, tallFeaturesDoNotBendIt) {
   cv::Mat heights = clean.heights() + shape.heights();
   heights(cv::Rect(0, 0, 140, 200)) += 100e-9;  // 45 % of the frame
   heights.at<double>(100, 200) = std::numeric_limits<double>::quiet_NaN();
-  const PolynomialSurface fit = fitPolynomial(HeightMap(heights, kPitchX, kPitchY), 2, FitWeights::kRobust);
+  const PolynomialSurface fit =
+      fitPolynomial(HeightMap(heights, kPitchX, kPitchY), 2, FitWeights::kRobust);
   EXPECT_LT(heightStatistics(without(fit, shape)).rms_height, 1.0e-9);
 }
 

@@ -22,12 +22,15 @@ cv::Mat tilted() {
   options.correlation_length_x = options.correlation_length_y = 40e-9;
   cv::Mat heights = gaussianSurface(options).asDouble().heights().clone();
   for (int row = 0; row < heights.rows; ++row) {
-    for (int col = 0; col < heights.cols; ++col) heights.at<double>(row, col) += 3e-9 * col + 2e-9 * row;
+    for (int col = 0; col < heights.cols; ++col)
+      heights.at<double>(row, col) += 3e-9 * col + 2e-9 * row;
   }
   return heights;
 }
 
-CleaningRecipe recipeFor(const cv::Mat& heights) { return cleaningRecipe({heights, kPitch, kPitch}); }
+CleaningRecipe recipeFor(const cv::Mat& heights) {
+  return cleaningRecipe({heights, kPitch, kPitch});
+}
 
 TEST(CleaningRecipe, ATiltedScanNeedsAPlaneAlone) {
   const CleaningRecipe recipe = recipeFor(tilted());
@@ -44,7 +47,8 @@ TEST(CleaningRecipe, NamesWhatElseAScanNeedsAndWhatThatChanges) {
   std::normal_distribution<double> jump(0.0, 3e-9);
   double drift = 0.0;
   for (int row = 0; row < heights.rows; ++row) heights.row(row) += drift += jump(engine);
-  for (int spike = 0; spike < 7; ++spike) heights.at<double>(20 + 20 * spike, 30 + 15 * spike) += 200e-9;
+  for (int spike = 0; spike < 7; ++spike)
+    heights.at<double>(20 + 20 * spike, 30 + 15 * spike) += 200e-9;
   heights.at<double>(9, 9) = std::numeric_limits<double>::quiet_NaN();
   const CleaningRecipe recipe = recipeFor(heights);
   EXPECT_EQ(recipe.steps.lines.method, LineAlignment::kMedianDifference);
@@ -56,9 +60,10 @@ TEST(CleaningRecipe, NamesWhatElseAScanNeedsAndWhatThatChanges) {
   const CleanedScan cleaned = cleanScan({heights, kPitch, kPitch}, recipe.steps);
   EXPECT_EQ(heightStatistics(cleaned.surface).rms_height, recipe.cleaned_rms_height);
   const std::string sentence = recipe.sentence();
-  for (const char* words : {"preprocessing/level: plane", "preprocessing/lines/method: median_difference",
-                            "preprocessing/spikes/enabled: true", "preprocessing/fill/enabled: true", "7 pixels jump",
-                            "1 pixel is missing"}) {
+  for (const char* words :
+       {"preprocessing/level: plane", "preprocessing/lines/method: median_difference",
+        "preprocessing/spikes/enabled: true", "preprocessing/fill/enabled: true", "7 pixels jump",
+        "1 pixel is missing"}) {
     EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
   }
   EXPECT_EQ(sentence.find(','), std::string::npos);

@@ -45,7 +45,8 @@ TEST(Refine, factorOneChangesNothing) {
 TEST(Refine, keepsTheMeasuredHeightsWhereTheyAre) {
   const HeightMap surface = analytic::sine(20, 30, kPitchX, kPitchY, 1e-9, 2, 3);
   for (const Interpolation interpolation : {Interpolation::kCubic, Interpolation::kLanczos}) {
-    const HeightMap fine = refined(surface, by(3, interpolation));  // odd: every pixel has a middle one
+    const HeightMap fine =
+        refined(surface, by(3, interpolation));  // odd: every pixel has a middle one
     EXPECT_NEAR(fine.height(3 * 7 + 1, 3 * 11 + 1), surface.height(7, 11), 1e-22);
   }
 }
@@ -57,8 +58,10 @@ TEST(Refine, givesPlanesAndParaboloidsBack) {
 
   const HeightMap dome = analytic::paraboloid(20, 30, kPitchX, kPitchY, 300e-9);
   const HeightMap fine_dome = analytic::paraboloid(80, 120, kPitchX / 4, kPitchY / 4, 300e-9);
-  const cv::Rect inside(8, 8, 104, 64);  // two original pixels from the border the weights stay within the frame
-  EXPECT_LT(largestDifference(refined(dome, by(4)).heights()(inside), fine_dome.heights()(inside)), 1e-21);
+  const cv::Rect inside(
+      8, 8, 104, 64);  // two original pixels from the border the weights stay within the frame
+  EXPECT_LT(largestDifference(refined(dome, by(4)).heights()(inside), fine_dome.heights()(inside)),
+            1e-21);
 }
 
 TEST(Refine, drawsASineOfEightPixels) {
@@ -68,7 +71,8 @@ TEST(Refine, drawsASineOfEightPixels) {
   double largest = 0.0;
   for (int col = 3 * factor; col < 61 * factor; ++col) {
     const double position = (col + 0.5) / factor - 0.5;
-    largest = std::max(largest, std::fabs(fine.height(16, col) - 1e-9 * std::sin(2.0 * kPi * position / 8.0)));
+    largest = std::max(
+        largest, std::fabs(fine.height(16, col) - 1e-9 * std::sin(2.0 * kPi * position / 8.0)));
   }
   EXPECT_LT(largest, 0.03e-9);
 }
@@ -83,13 +87,16 @@ TEST(Refine, invalidPixelsStayInvalidAndDoNotSpread) {
     EXPECT_TRUE(std::isnan(fine.height(19, 21)));
     cv::Mat error = fine.heights() - refined(plane, by(2, interpolation)).heights();
     error.setTo(0.0, ~validMask(error));
-    EXPECT_LT(largestDifference(error, cv::Mat::zeros(error.size(), CV_64FC1)), 1e-15);  // the plate's equations
+    EXPECT_LT(largestDifference(error, cv::Mat::zeros(error.size(), CV_64FC1)),
+              1e-15);  // the plate's equations
   }
 }
 
 TEST(Refine, worksOnSingleRowsAndRefusesWhatDoesNotFit) {
   EXPECT_EQ(refined(analytic::sine(1, 40, kPitchX, kPitchY, 1e-9, 2), by(2)).rows(), 2);
-  EXPECT_EQ(refined(analytic::flat(2, 1, kPitchX, kPitchY, 1e-9), by(2, Interpolation::kLanczos)).cols(), 2);
+  EXPECT_EQ(
+      refined(analytic::flat(2, 1, kPitchX, kPitchY, 1e-9), by(2, Interpolation::kLanczos)).cols(),
+      2);
   EXPECT_THROW(refined(analytic::flat(2000, 2000, kPitchX, kPitchY), by(16)), SurfaceError);
 }
 

@@ -1,5 +1,5 @@
-/// A region of interest: what lies outside is as if it had not been measured, in steps and figures, and contacts at its border
-/// are flagged.
+/// A region of interest: what lies outside is as if it had not been measured, in steps and figures,
+/// and contacts at its border are flagged.
 
 #include "preprocess/region.hpp"
 
@@ -66,16 +66,19 @@ TEST_F(RegionTest, ARectangleHoldsThePixelsWhoseMiddleLiesInside) {
   const cv::Mat outside = outsideOf(options, {8, 4});
   for (int row = 0; row < 4; ++row) {
     for (int col = 0; col < 8; ++col) {
-      EXPECT_EQ(outside.at<uchar>(row, col) == 0, row >= 1 && col >= 2 && col < 5) << row << " " << col;
+      EXPECT_EQ(outside.at<uchar>(row, col) == 0, row >= 1 && col >= 2 && col < 5)
+          << row << " " << col;
     }
   }
 }
 
 TEST_F(RegionTest, APolygonAndAMaskCutWhatIsLeft) {
   RegionOptions options;
-  options.polygon_file = written("corners.txt", "# the left half, in metres\n0 0\n4e-8, 0\n4e-8 4e-8\n0 4e-8\n");
+  options.polygon_file =
+      written("corners.txt", "# the left half, in metres\n0 0\n4e-8, 0\n4e-8 4e-8\n0 4e-8\n");
   EXPECT_EQ(cv::countNonZero(outsideOf(options, {8, 4})), 16);
-  options.mask_file = written("mask.txt", "0 1 1 1 1 1 1 1\n0 1 1 1 1 1 1 1\n0 1 1 1 1 1 1 1\n0 0 0 0 0 0 0 0\n");
+  options.mask_file =
+      written("mask.txt", "0 1 1 1 1 1 1 1\n0 1 1 1 1 1 1 1\n0 1 1 1 1 1 1 1\n0 0 0 0 0 0 0 0\n");
   EXPECT_EQ(cv::countNonZero(outsideOf(options, {8, 4})), 32 - 9);
 }
 
@@ -90,7 +93,9 @@ TEST_F(RegionTest, FilesThatCannotBeUsedAreNamedByTheirKey) {
     Region region(options);
     ADD_FAILURE();
   } catch (const OptionsError& error) {
-    EXPECT_NE(std::string(error.what()).find("preprocessing/region/polygon_file"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("preprocessing/region/polygon_file"),
+              std::string::npos)
+        << error.what();
     EXPECT_NE(std::string(error.what()).find("line 3"), std::string::npos) << error.what();
   }
   options = RegionOptions();
@@ -115,7 +120,8 @@ TEST_F(RegionTest, NoLaterStepSeesOrFillsWhatLiesOutside) {
     for (int col = 0; col < 16; ++col) {
       const double height = cleaned.surface.heights().at<double>(row, col);
       if (col < 8) {
-        EXPECT_NEAR(height, 0.0, 1e-20) << row << " " << col;  // round-off of levelling a plane of zeros
+        EXPECT_NEAR(height, 0.0, 1e-20)
+            << row << " " << col;  // round-off of levelling a plane of zeros
       } else {
         EXPECT_TRUE(std::isnan(height)) << row << " " << col;
       }
@@ -136,7 +142,8 @@ TEST_F(RegionTest, FiguresAreThoseOfTheRegionAlone) {
   EXPECT_DOUBLE_EQ(of_region.nominal_area, of_half.nominal_area);
   EXPECT_DOUBLE_EQ(of_region.rms_height, of_half.rms_height);
   EXPECT_EQ(of_region.asperity_count, of_half.asperity_count);
-  EXPECT_NEAR(of_region.pull_off_force, of_half.pull_off_force, 1e-9 * of_half.pull_off_force);  // order of sums
+  EXPECT_NEAR(of_region.pull_off_force, of_half.pull_off_force,
+              1e-9 * of_half.pull_off_force);  // order of sums
   EXPECT_EQ(of_region.invalid_fraction, 0.0);
 }
 

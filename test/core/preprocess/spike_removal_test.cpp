@@ -51,7 +51,8 @@ TEST(SpikeRemoval, takesEverySpikeAndNothingElse) {
   }
   const HeightMap surface(heights, 10e-9, 10e-9);
   const HeightMap found = withoutSpikes(surface, enabled());
-  for (const cv::Rect& spike : spikes) EXPECT_TRUE(std::isnan(found.height(spike.y, spike.x))) << spike;
+  for (const cv::Rect& spike : spikes)
+    EXPECT_TRUE(std::isnan(found.height(spike.y, spike.x))) << spike;
   EXPECT_EQ(removedCount(surface, found), count);
 }
 

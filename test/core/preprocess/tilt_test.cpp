@@ -27,7 +27,8 @@ HeightMap waves(int rows, int cols, double tilt, int depth = CV_64F) {
 }
 
 TEST(Tilt, LevelScansNeedNoAdvice) {
-  for (const int size : {8, 63, 64, 65, 300}) EXPECT_FALSE(tiltOf(waves(size, 2 * size, 0.0)).isLarge()) << size;
+  for (const int size : {8, 63, 64, 65, 300})
+    EXPECT_FALSE(tiltOf(waves(size, 2 * size, 0.0)).isLarge()) << size;
   EXPECT_FALSE(tiltOf(HeightMap(cv::Mat::zeros(64, 64, CV_64FC1), kPitch, kPitch)).isLarge());
 }
 
@@ -41,7 +42,8 @@ HeightMap pulledByARidge() {
 TEST(TiltLeft, SaysWhatTallFeaturesHavePulledAslant) {
   const TiltLeft left = tiltLeft(pulledByARidge(), 1);
   EXPECT_TRUE(left.isLarge());
-  // the least-squares slope of a step of height h on a third of the width is 4/3 h, the rms of a slope its twelfth's root
+  // the least-squares slope of a step of height h on a third of the width is 4/3 h, the rms of a
+  // slope its twelfth's root
   EXPECT_NEAR(left.rms_height, 4.0 / 3.0 * 50e-9 / std::sqrt(12.0), 0.5e-9);
   EXPECT_NE(left.advice().find("set preprocessing/level_robust to true"), std::string::npos);
   EXPECT_EQ(left.advice().find(','), std::string::npos);
@@ -50,9 +52,11 @@ TEST(TiltLeft, SaysWhatTallFeaturesHavePulledAslant) {
 TEST(TiltLeft, IsNothingWithoutFeatures) {
   for (const int size : {8, 63, 300})
     EXPECT_FALSE(tiltLeft(levelled(waves(size, 2 * size, 0.02)), 1).isLarge()) << size;
-  EXPECT_FALSE(tiltLeft(levelled(HeightMap(cv::Mat::zeros(64, 64, CV_64FC1), kPitch, kPitch)), 2).isLarge());
-  const HeightMap nothing(cv::Mat(9, 9, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN())), kPitch,
-                          kPitch);
+  EXPECT_FALSE(
+      tiltLeft(levelled(HeightMap(cv::Mat::zeros(64, 64, CV_64FC1), kPitch, kPitch)), 2).isLarge());
+  const HeightMap nothing(
+      cv::Mat(9, 9, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN())), kPitch,
+      kPitch);
   EXPECT_EQ(tiltLeft(nothing, 1).rms_height, 0.0);
 }
 

@@ -22,7 +22,8 @@ TipOptions sphere(double radius, double half_angle = 0.0) {
   return tip;
 }
 
-/// A half-sphere of the given radius standing on a plane at z = 0, its middle in the middle of the frame.
+/// A half-sphere of the given radius standing on a plane at z = 0, its middle in the middle of the
+/// frame.
 HeightMap ballOnPlane(int side, double pitch, double radius) {
   cv::Mat heights(side, side, CV_64FC1);
   for (int row = 0; row < side; ++row) {
@@ -34,7 +35,8 @@ HeightMap ballOnPlane(int side, double pitch, double radius) {
   return {heights, pitch, pitch};
 }
 
-/// What a spherical tip draws of it: a sphere of the radius R + tip about the same middle, less the tip's radius.
+/// What a spherical tip draws of it: a sphere of the radius R + tip about the same middle, less the
+/// tip's radius.
 HeightMap imageOfBall(int side, double pitch, double radius, double tip_radius) {
   cv::Mat heights(side, side, CV_64FC1);
   const double sum = radius + tip_radius;
@@ -48,7 +50,8 @@ HeightMap imageOfBall(int side, double pitch, double radius, double tip_radius) 
   return {heights, pitch, pitch};
 }
 
-/// Radius of the sphere whose cap of height h has this cross-section: r^2 = 2 R h - h^2 at the distance r.
+/// Radius of the sphere whose cap of height h has this cross-section: r^2 = 2 R h - h^2 at the
+/// distance r.
 double radiusAt(const HeightMap& surface, int pixels) {
   const int middle = surface.rows() / 2;
   const double r = pixels * surface.pitchX();
@@ -74,11 +77,13 @@ TEST(TipCorrection, givesTheRadiusOfADilatedSphereBack) {
   EXPECT_NEAR(radiusAt(image, 20), radius + tip_radius, 1e-12);
   const TipCorrection corrected = tipCorrected(image, sphere(tip_radius));
   for (const int pixels : {5, 10, 20, 35}) {
-    EXPECT_NEAR(radiusAt(corrected.surface, pixels), radius, 0.03 * radius) << pixels << " pixels from the apex";
+    EXPECT_NEAR(radiusAt(corrected.surface, pixels), radius, 0.03 * radius)
+        << pixels << " pixels from the apex";
   }
   const int middle = 75;
   EXPECT_NEAR(corrected.surface.height(middle, middle), radius, 1e-12);
-  // The upper half of the ball was touched; the foot of it, where tip and plane make a wedge, was not.
+  // The upper half of the ball was touched; the foot of it, where tip and plane make a wedge, was
+  // not.
   EXPECT_EQ(corrected.reached.at<uchar>(middle, middle + 20), 255);
   EXPECT_EQ(corrected.reached.at<uchar>(middle, middle + 55), 0);
   EXPECT_EQ(corrected.reached.at<uchar>(3, 3), 255);
@@ -92,7 +97,8 @@ TEST(TipCorrection, doesSoForAConicalTipAndOurOwnDilation) {
   const HeightMap image = tipImaged(ball, tip);
   EXPECT_GT(radiusAt(image, 20), 1.3 * 80e-9);
   const TipCorrection corrected = tipCorrected(image, tip);
-  for (const int pixels : {5, 10, 20, 30}) EXPECT_NEAR(radiusAt(corrected.surface, pixels), 80e-9, 0.03 * 80e-9);
+  for (const int pixels : {5, 10, 20, 30})
+    EXPECT_NEAR(radiusAt(corrected.surface, pixels), 80e-9, 0.03 * 80e-9);
 }
 
 TEST(TipCorrection, isNeverBelowTheSurfaceAndDrawsTheSameImage) {
@@ -111,11 +117,12 @@ TEST(TipCorrection, isNeverBelowTheSurfaceAndDrawsTheSameImage) {
   cv::minMaxLoc(corrected.surface.heights() - surface.heights(), &lowest, nullptr);
   EXPECT_GT(lowest, -1e-20);
   double largest = 0.0;
-  cv::minMaxLoc(cv::abs(tipImaged(corrected.surface, tip).heights() - image.heights()), nullptr, &largest);
+  cv::minMaxLoc(cv::abs(tipImaged(corrected.surface, tip).heights() - image.heights()), nullptr,
+                &largest);
   EXPECT_LT(largest, 1e-20);
 
-  // What counts as reached is the surface; what does not is far above it. Pixels that share a touch with a neighbour on
-  // a steep flank are the few exceptions.
+  // What counts as reached is the surface; what does not is far above it. Pixels that share a touch
+  // with a neighbour on a steep flank are the few exceptions.
   const cv::Mat error = corrected.surface.heights() - surface.heights();
   const double wrong = cv::countNonZero((error > 0.2 * options.rms_height) & corrected.reached);
   EXPECT_LT(wrong / cv::countNonZero(corrected.reached), 0.03);
@@ -150,7 +157,8 @@ TEST(TipCorrection, saysThatTheTipBridgedATrench) {
 }
 
 TEST(TipCorrection, invalidPixelsStayInvalidAndConstrainNothing) {
-  const HeightMap image = analytic::withInvalidPixel(analytic::flat(20, 20, 2e-9, 2e-9, 1e-9), 10, 10);
+  const HeightMap image =
+      analytic::withInvalidPixel(analytic::flat(20, 20, 2e-9, 2e-9, 1e-9), 10, 10);
   const TipCorrection corrected = tipCorrected(image, sphere(10e-9));
   EXPECT_TRUE(std::isnan(corrected.surface.height(10, 10)));
   EXPECT_EQ(heightStatistics(corrected.surface).valid_count, 399);
@@ -180,7 +188,8 @@ TEST(TipCorrection, takesSecondsForAMillionPixelsAndATipOfThirtyByThirty) {
   const HeightMap image = tipImaged(gaussianSurface(options), sphere(30e-9));
   const auto start = std::chrono::steady_clock::now();
   const TipCorrection corrected = tipCorrected(image, sphere(30e-9));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GT(corrected.unreached_fraction, 0.0);
   // about two on an idle machine; a sanitizer takes ten times as long
   EXPECT_LT(seconds, std::getenv("MEMS_STICTION_SANITIZER") == nullptr ? 60.0 : 600.0);

@@ -14,11 +14,13 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Beyond the frame the surface goes on by its reflection through the border pixels, rows after columns.
+/// Beyond the frame the surface goes on by its reflection through the border pixels, rows after
+/// columns.
 double heightAt(const cv::Mat1d& heights, int row, int col) {
   if (row < 0) return 2.0 * heightAt(heights, 0, col) - heightAt(heights, -row, col);
   const int last_row = heights.rows - 1;
-  if (row > last_row) return 2.0 * heightAt(heights, last_row, col) - heightAt(heights, 2 * last_row - row, col);
+  if (row > last_row)
+    return 2.0 * heightAt(heights, last_row, col) - heightAt(heights, 2 * last_row - row, col);
   if (col < 0) return 2.0 * heights(row, 0) - heights(row, -col);
   const int last_col = heights.cols - 1;
   if (col > last_col) return 2.0 * heights(row, last_col) - heights(row, 2 * last_col - col);
@@ -43,7 +45,8 @@ double plainResidual(const cv::Mat1d& heights, int half, int row, int col) {
 void expectSame(const cv::Mat1d& heights, int half) {
   WindowMedian windows;
   windows.setFrame(heights.rows, heights.cols, half);
-  for (int row = 0; row < heights.rows; ++row) std::copy_n(heights[row], heights.cols, windows.row(row));
+  for (int row = 0; row < heights.rows; ++row)
+    std::copy_n(heights[row], heights.cols, windows.row(row));
   cv::Mat1d residuals(heights.size());
   windows.findResiduals(residuals[0]);
   int different = 0;
@@ -105,7 +108,8 @@ TEST(WindowMedian, servesFramesOfAnotherSizeInTheSameMemory) {
   for (const int size : {40, 12, 33}) {
     const cv::Mat1d heights = noise(size, size + 1, 6);
     windows.setFrame(heights.rows, heights.cols, 2);
-    for (int row = 0; row < heights.rows; ++row) std::copy_n(heights[row], heights.cols, windows.row(row));
+    for (int row = 0; row < heights.rows; ++row)
+      std::copy_n(heights[row], heights.cols, windows.row(row));
     cv::Mat1d residuals(heights.size());
     windows.findResiduals(residuals[0]);
     EXPECT_EQ(residuals(0, 0), plainResidual(heights, 2, 0, 0));

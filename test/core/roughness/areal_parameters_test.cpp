@@ -23,7 +23,8 @@ TEST(ArealParameters, ofASineAreItsClosedForms) {
   const double amplitude = 4.2e-9;
   const int cols = 240;
   const int periods = 5;
-  const ArealParameters found = arealParameters(analytic::sine(37, cols, kPitchX, kPitchY, amplitude, periods));
+  const ArealParameters found =
+      arealParameters(analytic::sine(37, cols, kPitchX, kPitchY, amplitude, periods));
   // sums of sin^2 and sin^4 over whole periods of equidistant points are exact
   expectRelative(found.sq, amplitude / std::sqrt(2.0), 1e-12);
   expectRelative(found.sku, 1.5, 1e-12);
@@ -41,22 +42,25 @@ TEST(ArealParameters, gradientOfASineIsThatOfCentralDifferences) {
   const int cols = 240;
   const int periods = 5;
   const double phase_step = 2.0 * kPi * periods / cols;
-  const ArealParameters found = arealParameters(analytic::sine(37, cols, kPitchX, kPitchY, amplitude, periods));
-  // central differences of a sine are A sin(step)/pitch cos(x); two of 240 columns, at phase 0, have no neighbours and
-  // their cos^2 is 1 where the mean is 1/2: (120 - 2)/(240 - 2)
+  const ArealParameters found =
+      arealParameters(analytic::sine(37, cols, kPitchX, kPitchY, amplitude, periods));
+  // central differences of a sine are A sin(step)/pitch cos(x); two of 240 columns, at phase 0,
+  // have no neighbours and their cos^2 is 1 where the mean is 1/2: (120 - 2)/(240 - 2)
   const double central = amplitude * std::sin(phase_step) / kPitchX;
   const double cos_first = 1.0;
   const double cos_last = std::cos(phase_step);
   const double mean_square = (0.5 * cols - cos_first - cos_last * cos_last) / (cols - 2);
   expectRelative(found.sdq, central * std::sqrt(mean_square), 1e-10);
-  // and the derivative itself, A k/sqrt(2), to the order of the differences, (step^2)/6 = 0.3 %, and the two columns
+  // and the derivative itself, A k/sqrt(2), to the order of the differences, (step^2)/6 = 0.3 %,
+  // and the two columns
   expectRelative(found.sdq, amplitude * phase_step / kPitchX / std::sqrt(2.0), 0.01);
 }
 
 TEST(ArealParameters, ofATiltedPlaneAreItsSlopeAndNoMore) {
   const double slope_x = 0.13;
   const double slope_y = -0.04;
-  const ArealParameters found = arealParameters(analytic::tiltedPlane(31, 18, kPitchX, kPitchY, slope_x, slope_y));
+  const ArealParameters found =
+      arealParameters(analytic::tiltedPlane(31, 18, kPitchX, kPitchY, slope_x, slope_y));
   const double square = slope_x * slope_x + slope_y * slope_y;
   // central differences of a plane are exact
   expectRelative(found.sdq, std::sqrt(square), 1e-12);
@@ -72,7 +76,8 @@ TEST(ArealParameters, ofAParaboloidAreItsClosedForms) {
   const double radius = 2e-6;
   const int rows = 41;
   const int cols = 64;
-  const ArealParameters found = arealParameters(analytic::paraboloid(rows, cols, kPitchX, kPitchY, radius));
+  const ArealParameters found =
+      arealParameters(analytic::paraboloid(rows, cols, kPitchX, kPitchY, radius));
   // central differences of a parabola are exact: slopes x/R and y/R on the inner points
   const double mean_x2 = kPitchX * kPitchX * ((cols - 2.0) * (cols - 2.0) - 1.0) / 12.0;
   const double mean_y2 = kPitchY * kPitchY * ((rows - 2.0) * (rows - 2.0) - 1.0) / 12.0;
@@ -83,11 +88,13 @@ TEST(ArealParameters, ofAParaboloidAreItsClosedForms) {
   expectRelative(found.sq, std::sqrt(spread_x + spread_y) / (2.0 * radius), 1e-12);
   EXPECT_LT(found.ssk, 0.0);  // a cap has long tails downwards
   // highest: half a pitch off the middle in x, on it in y
-  const double mean = -(kPitchX * kPitchX * (cols * cols - 1.0) + kPitchY * kPitchY * (rows * rows - 1.0)) / 12.0;
+  const double mean =
+      -(kPitchX * kPitchX * (cols * cols - 1.0) + kPitchY * kPitchY * (rows * rows - 1.0)) / 12.0;
   expectRelative(found.sp, (-0.25 * kPitchX * kPitchX - mean) / (2.0 * radius), 1e-12);
 }
 
-/// Two heights, a share p of the upper: skewness (1 - 2 p)/sqrt(p (1 - p)), kurtosis 1/(p (1 - p)) - 3.
+/// Two heights, a share p of the upper: skewness (1 - 2 p)/sqrt(p (1 - p)), kurtosis 1/(p (1 - p))
+/// - 3.
 TEST(ArealParameters, ofTwoLevelsAreThoseOfABernoulliVariable) {
   cv::Mat1d heights(20, 30, 1e-9);
   heights.rowRange(0, 3) = 7e-9;
@@ -101,7 +108,8 @@ TEST(ArealParameters, ofTwoLevelsAreThoseOfABernoulliVariable) {
 }
 
 TEST(ArealParameters, sdrIsHalfOfSdqSquaredForSmallSlopes) {
-  const ArealParameters found = arealParameters(analytic::sine(40, 41, kPitchX, kPitchY, 2e-11, 3, 2));
+  const ArealParameters found =
+      arealParameters(analytic::sine(40, 41, kPitchX, kPitchY, 2e-11, 3, 2));
   // next term: slope^2/4, slopes of 1e-3
   expectRelative(found.sdr, 0.5 * found.sdq * found.sdq, 1e-6);
 }
@@ -143,7 +151,8 @@ TEST(ArealParameters, ofSinglePrecisionAgreeToItsDigits) {
 TEST(ArealParameters, leaveInvalidPixelsOut) {
   const HeightMap plane = analytic::tiltedPlane(9, 12, kPitchX, kPitchY, 0.2, 0.1);
   const ArealParameters whole = arealParameters(plane);
-  // a hole takes its own pixel and the gradients of its four neighbours; on a plane the others are all the same
+  // a hole takes its own pixel and the gradients of its four neighbours; on a plane the others are
+  // all the same
   const ArealParameters holed = arealParameters(analytic::withInvalidPixel(plane, 4, 5));
   expectRelative(holed.sdq, whole.sdq, 1e-12);
   EXPECT_TRUE(std::isfinite(holed.sku));
@@ -159,8 +168,8 @@ TEST(ArealParameters, leaveInvalidPixelsOut) {
 
 TEST(ArealParameters, ofAConstantSurfaceAreZero) {
   const ArealParameters found = arealParameters(analytic::flat(7, 5, kPitchX, kPitchY, 0.0123));
-  for (const double value :
-       {found.sa, found.sq, found.ssk, found.sku, found.sp, found.sv, found.sz, found.sdq, found.sdr}) {
+  for (const double value : {found.sa, found.sq, found.ssk, found.sku, found.sp, found.sv, found.sz,
+                             found.sdq, found.sdr}) {
     EXPECT_EQ(value, 0.0);
   }
 }

@@ -31,7 +31,8 @@ double pairMean(const HeightMap& surface, int row_lag, int col_lag) {
   int pairs = 0;
   for (int row = 0; row + row_lag < surface.rows(); ++row) {
     for (int col = 0; col + col_lag < surface.cols(); ++col) {
-      const double product = (surface.height(row, col) - mean) * (surface.height(row + row_lag, col + col_lag) - mean);
+      const double product =
+          (surface.height(row, col) - mean) * (surface.height(row + row_lag, col + col_lag) - mean);
       if (!std::isfinite(product)) continue;
       products += product;
       ++pairs;
@@ -49,13 +50,15 @@ TEST(Autocorrelation, isTheMeanOverPairsOfValidPixels) {
   ASSERT_EQ(acf.size(), cv::Size(47, 33));
   EXPECT_NEAR(acf.at<double>(16, 23), 1.0, 1e-12);
   for (const auto& [row, col] : {std::pair{0, 1}, {3, 5}, {16, 0}, {7, 23}}) {
-    EXPECT_NEAR(acf.at<double>(16 + row, 23 + col), pairMean(surface, row, col) / pairMean(surface, 0, 0), 1e-12);
+    EXPECT_NEAR(acf.at<double>(16 + row, 23 + col),
+                pairMean(surface, row, col) / pairMean(surface, 0, 0), 1e-12);
     EXPECT_NEAR(acf.at<double>(16 - row, 23 - col), acf.at<double>(16 + row, 23 + col), 1e-12);
   }
 }
 
 TEST(Autocorrelation, ofAPeriodicSineIsACosine) {
-  const cv::Mat acf = autocorrelation(analytic::sine(30, 40, 2e-9, 3e-9, 1e-9, 4), FrameBoundary::kPeriodic);
+  const cv::Mat acf =
+      autocorrelation(analytic::sine(30, 40, 2e-9, 3e-9, 1e-9, 4), FrameBoundary::kPeriodic);
   for (int lag = -20; lag <= 20; ++lag) {
     EXPECT_NEAR(acf.at<double>(15, 20 + lag), std::cos(2.0 * kPi * lag / 10.0), 1e-12);
     EXPECT_NEAR(acf.at<double>(0, 20 + lag), std::cos(2.0 * kPi * lag / 10.0), 1e-12);
@@ -68,7 +71,8 @@ TEST(SpatialParameters, ofAGaussianSurfaceAreThoseOfItsFormula) {
   const double reach = std::sqrt(std::log(5.0));
   for (const FrameBoundary boundary : {FrameBoundary::kOpen, FrameBoundary::kPeriodic}) {
     const SpatialParameters found = spatialParameters(gaussianSurface(options), boundary);
-    // the sample's autocorrelation scatters by 0.02; its slope at 0.2 is 0.5/l: 4 % of l, two of them for the extremes
+    // the sample's autocorrelation scatters by 0.02; its slope at 0.2 is 0.5/l: 4 % of l, two of
+    // them for the extremes
     EXPECT_NEAR(found.sal, 60e-9 * reach, 0.08 * 60e-9 * reach);
     EXPECT_NEAR(found.longest, 120e-9 * reach, 0.08 * 120e-9 * reach);
     EXPECT_NEAR(found.str, 0.5, 0.06);
@@ -95,10 +99,13 @@ TEST(SpatialParameters, holesDoNotBiasThem) {
   const HeightMap whole = gaussianSurface(options);
   cv::Mat heights = whole.heights().clone();
   for (int hole = 0; hole < 40; ++hole) {
-    heights(cv::Rect(20 * hole, (37 * hole) % 660, 20, 30)).setTo(std::numeric_limits<double>::quiet_NaN());
+    heights(cv::Rect(20 * hole, (37 * hole) % 660, 20, 30))
+        .setTo(std::numeric_limits<double>::quiet_NaN());
   }
-  const SpatialParameters found = spatialParameters(HeightMap(heights, options.pitch_x, options.pitch_y));
-  EXPECT_NEAR(found.sal, spatialParameters(whole).sal, 0.02 * found.sal);  // 4 % of the pixels are gone
+  const SpatialParameters found =
+      spatialParameters(HeightMap(heights, options.pitch_x, options.pitch_y));
+  EXPECT_NEAR(found.sal, spatialParameters(whole).sal,
+              0.02 * found.sal);  // 4 % of the pixels are gone
 }
 
 TEST(SpatialParameters, ofAConstantSurfaceAreZeroAndABadLevelIsRefused) {

@@ -18,7 +18,8 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 HeightMap tiltedPlane(int rows, int cols) {
   cv::Mat heights(rows, cols, CV_64FC1);
   for (int row = 0; row < rows; ++row) {
-    for (int col = 0; col < cols; ++col) heights.at<double>(row, col) = 1e-6 + 2e-9 * col - 3e-9 * row;
+    for (int col = 0; col < cols; ++col)
+      heights.at<double>(row, col) = 1e-6 + 2e-9 * col - 3e-9 * row;
   }
   return {heights, 10e-9, 10e-9};
 }

@@ -19,7 +19,8 @@ std::vector<double> sampleOf(int count, int seed, const std::function<double(dou
 
 TEST(HeightMarginal, NormalShareAndItsInverse) {
   EXPECT_NEAR(normalShare(1.959963984540054), 0.975, 1e-12);
-  for (const double g : {-5.0, -1.0, 0.0, 0.3, 4.0}) EXPECT_NEAR(normalNumber(normalShare(g)), g, 1e-7);
+  for (const double g : {-5.0, -1.0, 0.0, 0.3, 4.0})
+    EXPECT_NEAR(normalNumber(normalShare(g)), g, 1e-7);
 }
 
 TEST(HeightMarginal, GaussianHeightsGoOnAsGaussian) {
@@ -52,7 +53,8 @@ TEST(HeightMarginal, FewIndependentPlacesSayAsAGaussianSurface) {
 }
 
 TEST(HeightMarginal, MixedWithAGaussianOne) {
-  const HeightMarginal marginal(sampleOf(20000, 4, [](double g) { return std::exp(0.3 * g); }), 20000);
+  const HeightMarginal marginal(sampleOf(20000, 4, [](double g) { return std::exp(0.3 * g); }),
+                                20000);
   const HeightMarginal half = marginal.mixed(0.5, 1.0, 0.2);
   EXPECT_NEAR(half.heightOf(2.0), 0.5 * marginal.heightOf(2.0) + 0.5 * 1.4, 1e-9);
 }

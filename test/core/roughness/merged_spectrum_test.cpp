@@ -20,7 +20,8 @@ template <typename Density>
 cv::Mat surfaceOf(int side, int seed, const Density& density) {
   return filteredNoise(whiteNoise(side, side, seed), [&](int row, int col) {
     if (row == 0 && col == 0) return 0.0;
-    return std::sqrt(density(waveNumber(col, side, kPitch), waveNumber(row, side, kPitch))) / kPitch;
+    return std::sqrt(density(waveNumber(col, side, kPitch), waveNumber(row, side, kPitch))) /
+           kPitch;
   });
 }
 
@@ -41,10 +42,12 @@ double gaussianDensity(double q, double length, double rms) {
 
 /// With 1 % missing the shortest band had 34 times its density.
 TEST(MergedSpectrum, MissingPixelsLeaveItsBands) {
-  const cv::Mat large = surfaceOf(512, 1, [](double x, double y) { return std::pow(std::hypot(x, y), -3.6); });
+  const cv::Mat large =
+      surfaceOf(512, 1, [](double x, double y) { return std::pow(std::hypot(x, y), -3.6); });
   const HeightMap whole = part(large, 0, 0, 512);
   const MergedSpectrum expected = merged({whole});
-  for (const HeightMap& holed : {withScatteredHoles(whole, 0.05, 1), withRoundHoles(whole, 0.05, 2)}) {
+  for (const HeightMap& holed :
+       {withScatteredHoles(whole, 0.05, 1), withRoundHoles(whole, 0.05, 2)}) {
     const MergedSpectrum found = merged({holed});
     ASSERT_EQ(found.bands.size(), expected.bands.size());
     for (std::size_t i = 0; i < found.bands.size(); ++i) {
@@ -58,10 +61,11 @@ TEST(MergedSpectrum, MissingPixelsLeaveItsBands) {
 TEST(MergedSpectrum, GaussianSurfaceHasItsClosedForm) {
   const double length = 150e-9;
   const double rms = 3e-9;
-  const cv::Mat large =
-      surfaceOf(2048, 1, [&](double x, double y) { return gaussianDensity(std::hypot(x, y), length, rms); });
-  const MergedSpectrum spectrum = merged(
-      {part(large, 0, 0, 512), part(large, 900, 300, 512), part(large, 1500, 1500, 512), part(large, 100, 1400, 512)});
+  const cv::Mat large = surfaceOf(
+      2048, 1, [&](double x, double y) { return gaussianDensity(std::hypot(x, y), length, rms); });
+  const MergedSpectrum spectrum =
+      merged({part(large, 0, 0, 512), part(large, 900, 300, 512), part(large, 1500, 1500, 512),
+              part(large, 100, 1400, 512)});
   double chi_square = 0.0;
   double freedom = 0.0;
   for (const SpectrumBand& band : spectrum.bands) {
@@ -72,14 +76,20 @@ TEST(MergedSpectrum, GaussianSurfaceHasItsClosedForm) {
   }
   EXPECT_GT(freedom, 10.0);
   EXPECT_LT(chi_square, freedom + 4.0 * std::sqrt(2.0 * freedom));
-  EXPECT_NEAR(spectrum.rootMean(0, spectrum.bands.front().wave_number, spectrum.largest_wave_number) / rms, 1.0, 0.1);
+  EXPECT_NEAR(
+      spectrum.rootMean(0, spectrum.bands.front().wave_number, spectrum.largest_wave_number) / rms,
+      1.0, 0.1);
   // <|grad z|^2> = 4 rms^2/length^2
-  EXPECT_NEAR(spectrum.rootMean(1, 1.0, spectrum.largest_wave_number) / (2.0 * rms / length), 1.0, 0.05);
+  EXPECT_NEAR(spectrum.rootMean(1, 1.0, spectrum.largest_wave_number) / (2.0 * rms / length), 1.0,
+              0.05);
 }
 
-/// What levelling and window do to the longest waves of steep spectra is taken off again: without it they are 2 to 3 times too low.
+/// What levelling and window do to the longest waves of steep spectra is taken off again: without
+/// it they are 2 to 3 times too low.
 TEST(MergedSpectrum, LongWavesOfASteepSpectrumAreNotTooLow) {
-  const auto density = [](double x, double y) { return std::pow(std::max(std::hypot(x, y), 2.0 * kPi / 20e-6), -3.6); };
+  const auto density = [](double x, double y) {
+    return std::pow(std::max(std::hypot(x, y), 2.0 * kPi / 20e-6), -3.6);
+  };
   double ratio = 0.0;
   int count = 0;
   for (int seed = 1; seed <= 3; ++seed) {
@@ -97,11 +107,14 @@ TEST(MergedSpectrum, LongWavesOfASteepSpectrumAreNotTooLow) {
 }
 
 TEST(MergedSpectrum, CoarseAndFineScansGiveOneSpectrum) {
-  const auto density = [](double x, double y) { return std::pow(std::max(std::hypot(x, y), 2.0 * kPi / 4e-6), -3.6); };
+  const auto density = [](double x, double y) {
+    return std::pow(std::max(std::hypot(x, y), 2.0 * kPi / 4e-6), -3.6);
+  };
   const cv::Mat large = surfaceOf(2048, 3, density);
   cv::Mat coarse;
   cv::resize(large, coarse, cv::Size(256, 256), 0.0, 0.0, cv::INTER_AREA);
-  const MergedSpectrum spectrum = merged({part(large, 300, 300, 512), HeightMap(coarse, 8 * kPitch, 8 * kPitch)});
+  const MergedSpectrum spectrum =
+      merged({part(large, 300, 300, 512), HeightMap(coarse, 8 * kPitch, 8 * kPitch)});
   EXPECT_GT(2.0 * kPi / spectrum.bands.front().wave_number, 15e-6);
   double sum = 0.0;
   double weights = 0.0;
@@ -119,7 +132,8 @@ TEST(MergedSpectrum, DirectionAndRatioOfGroovesAreFound) {
   const auto density = [&](double x, double y) {
     const double along = std::cos(direction) * x + std::sin(direction) * y;
     const double across = std::cos(direction) * y - std::sin(direction) * x;
-    return gaussianDensity(std::sqrt(ratio * along * along + across * across / ratio), 150e-9, 3e-9);
+    return gaussianDensity(std::sqrt(ratio * along * along + across * across / ratio), 150e-9,
+                           3e-9);
   };
   const cv::Mat large = surfaceOf(1024, 5, density);
   const MergedSpectrum spectrum = merged({part(large, 0, 0, 512), part(large, 512, 512, 512)});
@@ -129,8 +143,9 @@ TEST(MergedSpectrum, DirectionAndRatioOfGroovesAreFound) {
 
 TEST(MergedSpectrum, RoundSurfaceHasNoDirection) {
   for (int seed = 1; seed <= 8; ++seed) {
-    const cv::Mat large =
-        surfaceOf(512, seed, [](double x, double y) { return gaussianDensity(std::hypot(x, y), 100e-9, 3e-9); });
+    const cv::Mat large = surfaceOf(512, seed, [](double x, double y) {
+      return gaussianDensity(std::hypot(x, y), 100e-9, 3e-9);
+    });
     EXPECT_EQ(merged({part(large, 0, 0, 512)}).stretch.ratio, 1.0) << "seed " << seed;
   }
 }
@@ -140,12 +155,14 @@ TEST(MergedSpectrum, FlatScansShowNoRoughness) {
 }
 
 TEST(MergedSpectrum, ScansThatContradictEachOtherAreTold) {
-  const auto density = [](double x, double y) { return gaussianDensity(std::hypot(x, y), 100e-9, 3e-9); };
+  const auto density = [](double x, double y) {
+    return gaussianDensity(std::hypot(x, y), 100e-9, 3e-9);
+  };
   const cv::Mat large = surfaceOf(1024, 7, density);
   const auto third = [&](double times) {
     const HeightMap scan(times * part(large, 512, 512, 512).heights(), kPitch, kPitch);
-    return spectrumDifferences(
-               {ScanWaves(part(large, 0, 0, 512)), ScanWaves(part(large, 512, 0, 512)), ScanWaves(scan)})
+    return spectrumDifferences({ScanWaves(part(large, 0, 0, 512)),
+                                ScanWaves(part(large, 512, 0, 512)), ScanWaves(scan)})
         .back();
   };
   const SpectrumDifference same = third(1.0);
@@ -167,7 +184,8 @@ TEST(WaveTransfer, ofARoundSpectrumGoesByTheLengthOfItsWavesAlone) {
   EXPECT_LT(12 * by_length.size(), 2 * by_place.size());
   const cv::Mat whole = transfer.shares * cv::Mat(by_place);
   const cv::Mat round = transfer.round_shares * cv::Mat(by_length);
-  EXPECT_LT(cv::norm(whole, round, cv::NORM_INF), 1e-12 * cv::norm(whole, cv::NORM_INF));  // round-off of the sums
+  EXPECT_LT(cv::norm(whole, round, cv::NORM_INF),
+            1e-12 * cv::norm(whole, cv::NORM_INF));  // round-off of the sums
 }
 
 }  // namespace

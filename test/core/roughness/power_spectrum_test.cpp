@@ -20,7 +20,8 @@ void expectRelative(double found, double expected, double tolerance) {
 }
 
 TEST(PowerSpectrum, momentsOfASineAreItsMeanSquares) {
-  // z = a sin(k r), wave vector (kx, ky) of any direction: m0 = a^2/2, m2 = a^2 k^2/4, m4 = 3 a^2 k^4/16
+  // z = a sin(k r), wave vector (kx, ky) of any direction: m0 = a^2/2, m2 = a^2 k^2/4, m4 = 3 a^2
+  // k^4/16
   const double dx = 3e-9;
   const double dy = 5e-9;
   const double a = 2e-9;
@@ -48,7 +49,8 @@ TEST(PowerSpectrum, momentsOfGaussianSurfacesAreThoseOfTheirAutocorrelation) {
   double alpha = 0.0;
   const int seeds = 8;
   for (options.seed = 0; options.seed < seeds; ++options.seed) {
-    const SpectralMoments moments = powerSpectrum(gaussianSurface(options), SpectrumWindow::kNone).moments;
+    const SpectralMoments moments =
+        powerSpectrum(gaussianSurface(options), SpectrumWindow::kNone).moments;
     m0 += moments.m0 / seeds;
     m2 += moments.m2 / seeds;
     m4 += moments.m4 / seeds;
@@ -71,7 +73,8 @@ TEST(PowerSpectrum, ringsOfAGaussianSurfaceFollowItsFormula) {
   for (const SpectrumRing& ring : spectrum.rings) {
     const double q = ring.wave_number;
     if (ring.count < 400 || q * l > 6.0) continue;
-    const double formula = kPi * l * l * options.rms_height * options.rms_height * std::exp(-0.25 * q * q * l * l);
+    const double formula =
+        kPi * l * l * options.rms_height * options.rms_height * std::exp(-0.25 * q * q * l * l);
     // count/2 independent exponential numbers, 4.5 standard deviations
     expectRelative(ring.density, formula, 4.5 * std::sqrt(2.0 / ring.count));
     ++checked;
@@ -97,12 +100,14 @@ TEST(PowerSpectrum, windowTakesTheJumpAtTheBorderAway) {
   const double pitch = 2e-9;
   cv::Mat heights(200, 200, CV_64FC1);
   for (int row = 0; row < 200; ++row) {
-    for (int col = 0; col < 200; ++col) heights.at<double>(row, col) = 1e-9 * std::sin(2.0 * kPi * 7.5 * col / 200.0);
+    for (int col = 0; col < 200; ++col)
+      heights.at<double>(row, col) = 1e-9 * std::sin(2.0 * kPi * 7.5 * col / 200.0);
   }
   const HeightMap surface(heights, pitch, pitch);
   const double k = 2.0 * kPi * 7.5 / (200 * pitch);
   const double m4 = 3.0 / 16.0 * 1e-18 * std::pow(k, 4);
-  expectRelative(powerSpectrum(surface, SpectrumWindow::kHann).moments.m4, m4, 0.05);  // (1/7.5)^2 of the window's own
+  expectRelative(powerSpectrum(surface, SpectrumWindow::kHann).moments.m4, m4,
+                 0.05);  // (1/7.5)^2 of the window's own
   EXPECT_GT(powerSpectrum(surface, SpectrumWindow::kNone).moments.m4, 2.0 * m4);
 }
 
@@ -118,7 +123,8 @@ TEST(PowerSpectrum, doesNotDependOnOffsetPrecisionOrASingleHole) {
   expectRelative(powerSpectrum(holed, SpectrumWindow::kHann).moments.m0, moments.m0, 1e-3);
 }
 
-/// Missing pixels as zeros spread power over all waves: H fell from 0.80 to 0.65, m4 rose up to 190 times.
+/// Missing pixels as zeros spread power over all waves: H fell from 0.80 to 0.65, m4 rose up to 190
+/// times.
 TEST(PowerSpectrum, missingPixelsLeaveMomentsSlopeAndShortestWaves) {
   SelfAffineSurfaceOptions options;
   options.rows = options.cols = 512;
@@ -131,7 +137,8 @@ TEST(PowerSpectrum, missingPixelsLeaveMomentsSlopeAndShortestWaves) {
   };
   const PowerSpectrum whole = powerSpectrum(surface, SpectrumWindow::kHann);
   for (const double share : {0.01, 0.05}) {
-    for (const HeightMap& holed : {withScatteredHoles(surface, share, 1), withRoundHoles(surface, share, 2)}) {
+    for (const HeightMap& holed :
+         {withScatteredHoles(surface, share, 1), withRoundHoles(surface, share, 2)}) {
       const PowerSpectrum found = powerSpectrum(holed, SpectrumWindow::kHann);
       EXPECT_NEAR(hurst(found), hurst(whole), 0.01) << share;
       expectRelative(found.moments.m0, whole.moments.m0, 0.02);
@@ -143,11 +150,13 @@ TEST(PowerSpectrum, missingPixelsLeaveMomentsSlopeAndShortestWaves) {
 }
 
 TEST(PowerSpectrum, ofAConstantSurfaceIsZeroAndOfALineIsRefused) {
-  const SpectralMoments moments = powerSpectrum(analytic::flat(20, 30, 1e-9, 1e-9, 0.1), SpectrumWindow::kHann).moments;
+  const SpectralMoments moments =
+      powerSpectrum(analytic::flat(20, 30, 1e-9, 1e-9, 0.1), SpectrumWindow::kHann).moments;
   EXPECT_EQ(moments.m0, 0.0);
   EXPECT_EQ(moments.m4, 0.0);
   EXPECT_EQ(moments.alpha, 0.0);
-  EXPECT_THROW(powerSpectrum(analytic::flat(1, 30, 1e-9, 1e-9), SpectrumWindow::kNone), SurfaceError);
+  EXPECT_THROW(powerSpectrum(analytic::flat(1, 30, 1e-9, 1e-9), SpectrumWindow::kNone),
+               SurfaceError);
 }
 
 TEST(HurstFit, readsAPowerLawBack) {
@@ -163,13 +172,15 @@ TEST(HurstFit, readsAPowerLawBack) {
 }
 
 TEST(HurstFit, namesTheRangeThatTheSpectrumHas) {
-  const PowerSpectrum spectrum = powerSpectrum(gaussianSurface(GaussianSurfaceOptions()), SpectrumWindow::kNone);
+  const PowerSpectrum spectrum =
+      powerSpectrum(gaussianSurface(GaussianSurfaceOptions()), SpectrumWindow::kNone);
   EXPECT_THROW(fitHurstExponent(spectrum, 1e-7, 1e-8), OptionsError);
   try {
     fitHurstExponent(spectrum, 1e-10, 2e-10);
     FAIL() << "a range without a ring was accepted";
   } catch (const SurfaceError& error) {
-    EXPECT_NE(std::string(error.what()).find("the spectrum has wavelengths of"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("the spectrum has wavelengths of"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -12,8 +12,9 @@
 namespace mems_stiction {
 namespace {
 
-/// What the formulas of summits.hpp say for the given moments; rms_height = sqrt(m0 (1 - 0.8968/alpha)) (Bush, Gibson, Keogh,
-/// Mech. Res. Comm. 3 (1976) 169). `count` is 0. All 0 for a constant surface.
+/// What the formulas of summits.hpp say for the given moments; rms_height = sqrt(m0 (1 -
+/// 0.8968/alpha)) (Bush, Gibson, Keogh, Mech. Res. Comm. 3 (1976) 169). `count` is 0. All 0 for a
+/// constant surface.
 SummitParameters summitsOfGaussianSurface(const SpectralMoments& moments) {
   SummitParameters expected;
   if (!(moments.m2 > 0.0)) return expected;
@@ -58,12 +59,14 @@ TEST(Summits, ofGaussianSurfacesAreThoseOfRandomProcessTheory) {
   options.pitch_x = options.pitch_y = 5e-9;
   options.correlation_length_x = options.correlation_length_y = 80e-9;  // 16 pixels
   const double square = options.rms_height * options.rms_height;
-  const SpectralMoments moments{square, 2.0 * square / std::pow(80e-9, 2), 12.0 * square / std::pow(80e-9, 4), 3.0};
+  const SpectralMoments moments{square, 2.0 * square / std::pow(80e-9, 2),
+                                12.0 * square / std::pow(80e-9, 4), 3.0};
   const SummitParameters expected = summitsOfGaussianSurface(moments);
   // m4/m2 = 6/l^2: density 6/(6 pi sqrt 3 l^2)
   EXPECT_NEAR(expected.density * 80e-9 * 80e-9, 1.0 / (kPi * std::sqrt(3.0)), 1e-12);
   const SummitParameters found = summitParameters(gaussianSurface(options));
-  // 750 summits: 4 % by number, half of it by regular spacing; pixels of l/16 cost a few per cent of the curvature
+  // 750 summits: 4 % by number, half of it by regular spacing; pixels of l/16 cost a few per cent
+  // of the curvature
   EXPECT_NEAR(found.density / expected.density, 1.0, 0.07);
   EXPECT_NEAR(found.mean_curvature / expected.mean_curvature, 1.0, 0.07);
   EXPECT_NEAR(found.mean_radius / expected.mean_radius, 1.0, 0.07);

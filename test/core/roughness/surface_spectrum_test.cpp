@@ -63,7 +63,9 @@ TEST(SurfaceSpectrum, saysWhichValuesAreNotAllowed) {
   const std::vector<std::string> violations = spectrum.validate();
   ASSERT_EQ(violations.size(), 4u);
   EXPECT_EQ(violations[0], "spectrum/density[2]: 0 is not allowed; must be > 0 and finite");
-  EXPECT_EQ(violations[1], "spectrum/wave_number[1]: 300000 is not allowed; must be above the one before it, 300000");
+  EXPECT_EQ(
+      violations[1],
+      "spectrum/wave_number[1]: 300000 is not allowed; must be above the one before it, 300000");
   EXPECT_EQ(violations[2], "spectrum/stretch: 0.5 is not allowed; must be >= 1");
   EXPECT_EQ(violations[3], "spectrum/direction: nan is not allowed; must be any finite number");
   EXPECT_EQ(SurfaceSpectrum().validate().size(), 1u);

@@ -16,7 +16,8 @@ HeightMap waves(int rows = 20, int cols = 400) {
   cv::Mat heights(rows, cols, CV_64FC1);
   for (int row = 0; row < rows; ++row) {
     for (int col = 0; col < cols; ++col) {
-      heights.at<double>(row, col) = kAmplitude * std::cos(2.0 * CV_PI * col * kPitch / kWavelength);
+      heights.at<double>(row, col) =
+          kAmplitude * std::cos(2.0 * CV_PI * col * kPitch / kWavelength);
     }
   }
   return {heights, kPitch, kPitch};
@@ -31,14 +32,16 @@ double curvatureOver(double length) {
 TEST(TipLimit, IsWhereTheSummitsOfAWaveHaveHalfTheCurvatureOfTheTip) {
   for (const double length : {21e-9, 40e-9, 73e-9}) {
     const double radius = 0.5 / curvatureOver(length);
-    EXPECT_NEAR(tipLimit(waves(), radius), length, 0.01 * length) << length;  // between pixels by a straight line
+    EXPECT_NEAR(tipLimit(waves(), radius), length, 0.01 * length)
+        << length;  // between pixels by a straight line
   }
 }
 
 TEST(TipLimit, IsNothingForASharpTipAndTheWidthForABluntOne) {
   EXPECT_EQ(tipLimit(waves(), 0.4 / curvatureOver(2.0 * kPitch)), 0.0);
   cv::Mat bowl(5, 40, CV_64FC1);
-  for (int col = 0; col < 40; ++col) bowl.col(col).setTo(-0.5 * std::pow((col - 20) * kPitch, 2) / 1e-6);
+  for (int col = 0; col < 40; ++col)
+    bowl.col(col).setTo(-0.5 * std::pow((col - 20) * kPitch, 2) / 1e-6);
   EXPECT_EQ(tipLimit({bowl, kPitch, kPitch}, 0.4e-6), 0.0);
   EXPECT_DOUBLE_EQ(tipLimit({bowl, kPitch, kPitch}, 0.6e-6), 40 * kPitch);
 }

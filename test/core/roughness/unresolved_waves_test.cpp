@@ -1,4 +1,5 @@
-/// Waves that pixels do not show, continued from those that they do: against surfaces whose whole spectrum is known.
+/// Waves that pixels do not show, continued from those that they do: against surfaces whose whole
+/// spectrum is known.
 
 #include "mems_stiction/roughness/unresolved_waves.hpp"
 
@@ -50,7 +51,8 @@ HeightMap everyPixel(const cv::Mat& fine, int factor) {
   const int side = kFineSide / factor;
   cv::Mat coarse(side, side, CV_32FC1);
   for (int row = 0; row < side; ++row) {
-    for (int col = 0; col < side; ++col) coarse.at<float>(row, col) = fine.at<float>(row * factor, col * factor);
+    for (int col = 0; col < side; ++col)
+      coarse.at<float>(row, col) = fine.at<float>(row * factor, col * factor);
   }
   return {coarse, factor * kFinePitch, factor * kFinePitch};
 }
@@ -95,7 +97,8 @@ TEST(UnresolvedWaves, areNotThoseOfStepsParticlesAndMissingPixels) {
   const double plain = unresolvedWaves(scan, {}, kNoTip).rms_height;
   cv::Mat heights = scan.heights().clone();
   for (int row = 0; row < heights.rows; ++row) {
-    for (int col = heights.cols / 2; col < heights.cols; ++col) heights.at<float>(row, col) += 100e-9F;
+    for (int col = heights.cols / 2; col < heights.cols; ++col)
+      heights.at<float>(row, col) += 100e-9F;
     heights.at<float>(row, row % 7 * 40) = 500e-9F;
     heights.at<float>(row, 11) = std::numeric_limits<float>::quiet_NaN();
   }
@@ -108,7 +111,8 @@ TEST(UnresolvedWaves, ofTwoSurfacesAreThoseOfTheirRelief) {
   cv::Mat turned;
   cv::flip(scan.heights(), turned, 0);  // another surface, as far as waves go
   const double alone = unresolvedWaves(scan, {}, kNoTip).rms_height;
-  const double both = unresolvedWaves(scan, {turned, scan.pitchX(), scan.pitchY()}, kNoTip).rms_height;
+  const double both =
+      unresolvedWaves(scan, {turned, scan.pitchX(), scan.pitchY()}, kNoTip).rms_height;
   EXPECT_NEAR(both, std::sqrt(2.0) * alone, 0.1 * alone);
 }
 

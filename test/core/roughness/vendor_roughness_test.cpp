@@ -1,5 +1,6 @@
-/// Cleaning and roughness figures on files as instruments wrote them. The folder is named by the environment variable
-/// MEMS_STICTION_SCANS; rms heights and gradients are those that numpy gives for the same files after plane levelling.
+/// Cleaning and roughness figures on files as instruments wrote them. The folder is named by the
+/// environment variable MEMS_STICTION_SCANS; rms heights and gradients are those that numpy gives
+/// for the same files after plane levelling.
 
 #include <gtest/gtest.h>
 
@@ -57,9 +58,12 @@ TEST_F(VendorRoughness, spectrumCarriesTheKnownRmsHeight) {
     SCOPED_TRACE(known.file);
     const HeightMap surface = flat(known.file);
     const SpectralMoments moments = powerSpectrum(surface, SpectrumWindow::kNone).moments;
-    // Parseval; seven digits are listed. Pixels that the interferometer lacks lie in a pit, and are filled.
-    EXPECT_NEAR(std::sqrt(moments.m0) / known.sq, 1.0, invalidFraction(surface) > 0.0 ? 5e-3 : 1e-6);
-    // Central differences see less than the spectrum up to its end; how much less hangs on the noise.
+    // Parseval; seven digits are listed. Pixels that the interferometer lacks lie in a pit, and are
+    // filled.
+    EXPECT_NEAR(std::sqrt(moments.m0) / known.sq, 1.0,
+                invalidFraction(surface) > 0.0 ? 5e-3 : 1e-6);
+    // Central differences see less than the spectrum up to its end; how much less hangs on the
+    // noise.
     EXPECT_GT(std::sqrt(2.0 * moments.m2), known.sdq);
     EXPECT_GE(moments.alpha, 1.5);
   }
@@ -115,7 +119,8 @@ TEST_F(VendorRoughness, missingPixelsOfTheInterferometerAreFilled) {
   const CleanedScan prepared = cleanScan(scan("opd-1.opd"), options);
   EXPECT_EQ(prepared.record.steps[0].changed_pixels, 116);
   EXPECT_EQ(invalidFraction(prepared.surface), 0.0);
-  // The largest hole is the bottom of a pit whose rim lies 70 nm deep: the rms height grows a little.
+  // The largest hole is the bottom of a pit whose rim lies 70 nm deep: the rms height grows a
+  // little.
   EXPECT_NEAR(arealParameters(prepared.surface).sq / 6.711198e-9, 1.0, 0.01);
 }
 

@@ -31,7 +31,8 @@ TEST(ConformingContact, longWavesTearSoonerThanSpringsAndAreDoubted) {
   const double modulus = 10e9;
   const Options options = elastic(modulus);
   const double pitch = 2.5e-9;
-  const HeightMap wave = analytic::sine(8, 128, pitch, pitch, amplitudeFor(0.3, 128 * pitch, options, modulus), 1, 0);
+  const HeightMap wave =
+      analytic::sine(8, 128, pitch, pitch, amplitudeFor(0.3, 128 * pitch, options, modulus), 1, 0);
   const SolvedHalfSpace solved = halfSpaceOf(wave, options);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
   const Prediction prediction = AdhesionModel(options).predict(wave);
@@ -49,7 +50,8 @@ TEST(ConformingContact, shortWavesBreakAsAWhole) {
   const double modulus = 100e9;
   const Options options = elastic(modulus);
   const double pitch = 8e-9;
-  const HeightMap waves = analytic::sine(16, 64, pitch, pitch, amplitudeFor(0.3, 16 * pitch, options, modulus), 4, 0);
+  const HeightMap waves =
+      analytic::sine(16, 64, pitch, pitch, amplitudeFor(0.3, 16 * pitch, options, modulus), 4, 0);
   const SolvedHalfSpace solved = halfSpaceOf(waves, options);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
   const Prediction prediction = AdhesionModel(options).predict(waves);

@@ -40,9 +40,12 @@ TEST(ContactTraction, energyAndCurvatureAreItsIntegralAndSecondDerivative) {
   const double h = 1e-4 * law.range();
   for (const double gap : {0.05, 0.2, 1.0, 7.0}) {
     const double d = gap * law.range();
-    // central differences: h^2/d^2 = 4e-6 at the closest, and the first derivative vanishes nowhere here
-    EXPECT_NEAR((law.energy(d - h) - law.energy(d + h)) / (2.0 * h) / law.traction(d), 1.0, 1e-5) << gap;
-    const double second = (law.traction(d - h) - 2.0 * law.traction(d) + law.traction(d + h)) / (h * h);
+    // central differences: h^2/d^2 = 4e-6 at the closest, and the first derivative vanishes nowhere
+    // here
+    EXPECT_NEAR((law.energy(d - h) - law.energy(d + h)) / (2.0 * h) / law.traction(d), 1.0, 1e-5)
+        << gap;
+    const double second =
+        (law.traction(d - h) - 2.0 * law.traction(d) + law.traction(d + h)) / (h * h);
     EXPECT_NEAR(second / law.curvature(d), 1.0, 1e-4) << gap;
   }
 }
@@ -107,7 +110,8 @@ TEST(ContactTraction, layerAndBodiesCarryTheSame) {
     for (const double depth : {1e-4, 0.03, 0.5, 3.0, 50.0}) {  // of z0
       const double elastic = stiffness * law.stress() * depth;
       const double found = law.pressureInSeries(elastic, depth * law.range());
-      EXPECT_NEAR(found / bisectedPressure(law, elastic, depth * law.range()), 1.0, 1e-5) << stiffness << " " << depth;
+      EXPECT_NEAR(found / bisectedPressure(law, elastic, depth * law.range()), 1.0, 1e-5)
+          << stiffness << " " << depth;
       EXPECT_LE(found, elastic);
     }
   }
@@ -119,7 +123,8 @@ TEST(ContactTraction, shallowOverlapsSeeTheLayersOwnStiffness) {
   const double layer_stiffness = 6.0 * law.stress() / law.range();  // of t at z0
   const double body_stiffness = 2.0 * layer_stiffness;
   // two springs in a row: 2/3 of the softer one; the layer stiffens by 1e-5 of itself
-  EXPECT_NEAR(law.pressureInSeries(body_stiffness * depth, depth) / (layer_stiffness * depth), 2.0 / 3.0, 2e-5);
+  EXPECT_NEAR(law.pressureInSeries(body_stiffness * depth, depth) / (layer_stiffness * depth),
+              2.0 / 3.0, 2e-5);
 }
 
 TEST(ContactTraction, aLayerMuchStifferThanTheBodiesHardlyMatters) {

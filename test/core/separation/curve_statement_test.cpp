@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kWork = 0.05;  // J/m^2
 
-ContactSolution solutionWith(double flattening_ratio, const char* doubt, bool is_conforming = false) {
+ContactSolution solutionWith(double flattening_ratio, const char* doubt,
+                             bool is_conforming = false) {
   ContactSolution solution;
   solution.is_conforming = is_conforming;
   solution.flattening_energy = flattening_ratio * kWork;
@@ -46,13 +47,16 @@ TEST(CurveStatement, doubtsContactsWhereBondedSurfacesHaveLessEnergy) {
   for (const double ratio : {0.3, 0.999, 1.0, 3.0}) {
     const ModelStatement contacts = CurveStatement::of(solutionWith(ratio, nullptr), kWork);
     EXPECT_EQ(contacts.doubt != nullptr, ratio < 1.0) << ratio;
-    EXPECT_EQ(CurveStatement::of(solutionWith(ratio, nullptr, true), kWork).doubt, nullptr) << ratio;
+    EXPECT_EQ(CurveStatement::of(solutionWith(ratio, nullptr, true), kWork).doubt, nullptr)
+        << ratio;
   }
-  EXPECT_EQ(CurveStatement::of(solutionWith(0.3, nullptr), kWork).error.pull_off, chosen::kDoubtError.pull_off);
+  EXPECT_EQ(CurveStatement::of(solutionWith(0.3, nullptr), kWork).error.pull_off,
+            chosen::kDoubtError.pull_off);
 }
 
 TEST(CurveStatement, statesAnErrorWhereNothingSticks) {
-  EXPECT_EQ(CurveStatement::of(solutionWith(3.0, nullptr), 0.0).error.pull_off, chosen::kSureError.pull_off);
+  EXPECT_EQ(CurveStatement::of(solutionWith(3.0, nullptr), 0.0).error.pull_off,
+            chosen::kSureError.pull_off);
 }
 
 TEST(CurveStatement, thinBodiesAreDoubtedHoweverRoughTheyAre) {

@@ -29,10 +29,13 @@ double ofWave(double wave_number) {
 TEST(FlatteningWaves, groovesCostTheSameInEachDirection) {
   // lines along rows and columns alone tell 0.79 of it along one of them, 1.11 between
   const double pitch = 2e-9;
-  for (const cv::Point waves : {cv::Point(2, 0), cv::Point(0, 2), cv::Point(2, 2), cv::Point(5, 2)}) {
+  for (const cv::Point waves :
+       {cv::Point(2, 0), cv::Point(0, 2), cv::Point(2, 2), cv::Point(5, 2)}) {
     SCOPED_TRACE(testing::Message() << waves);
-    const double energy = byWaves(analytic::sine(64, 64, pitch, pitch, kWaveAmplitude, waves.x, waves.y));
-    EXPECT_NEAR(energy / ofWave(2.0 * kPi * std::hypot(waves.x, waves.y) / (64 * pitch)), 1.0, 0.03);
+    const double energy =
+        byWaves(analytic::sine(64, 64, pitch, pitch, kWaveAmplitude, waves.x, waves.y));
+    EXPECT_NEAR(energy / ofWave(2.0 * kPi * std::hypot(waves.x, waves.y) / (64 * pitch)), 1.0,
+                0.03);
   }
 }
 

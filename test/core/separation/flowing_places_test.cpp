@@ -118,15 +118,18 @@ TEST(FlowingPlaces, areThoseOfTheHalfSpaceWithoutAttraction) {
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
 
     FlowingPlaces places;
-    ASSERT_TRUE(places.press(gapOf(surface), rigidLaw(),
-                             {kFlowModulus, one.hardness, options.load.mechanical_load, GapField::kInvalidGap}));
-    SCOPED_TRACE(testing::Message() << one.rms << " m, " << one.hardness << " Pa, " << one.pixels << " pixels");
+    ASSERT_TRUE(places.press(
+        gapOf(surface), rigidLaw(),
+        {kFlowModulus, one.hardness, options.load.mechanical_load, GapField::kInvalidGap}));
+    SCOPED_TRACE(testing::Message()
+                 << one.rms << " m, " << one.hardness << " Pa, " << one.pixels << " pixels");
     double squares = 0.0, errors = 0.0;
     int flowed = 0, flowed_there = 0, pressed = 0;
     for (int row = 0; row < surface.rows(); ++row) {
       for (int col = 0; col < surface.cols(); ++col) {
-        const double there = surface.height(row, col) - solved.deformed_lower.height(row, col) +
-                             (solved.deformed_upper.empty() ? 0.0 : solved.deformed_upper.height(row, col));
+        const double there =
+            surface.height(row, col) - solved.deformed_lower.height(row, col) +
+            (solved.deformed_upper.empty() ? 0.0 : solved.deformed_upper.height(row, col));
         const double here = places.flowed()(row, col);
         squares += there * there;
         errors += (here - there) * (here - there);
@@ -136,7 +139,8 @@ TEST(FlowingPlaces, areThoseOfTheHalfSpaceWithoutAttraction) {
       }
     }
     EXPECT_LT(std::sqrt(errors / squares), 0.2);
-    EXPECT_NEAR(static_cast<double>(flowed) / pressed, static_cast<double>(flowed_there) / pressed, 0.1);
+    EXPECT_NEAR(static_cast<double>(flowed) / pressed, static_cast<double>(flowed_there) / pressed,
+                0.1);
   }
 }
 
@@ -144,7 +148,8 @@ TEST(FlowingPlaces, answerNothingWhereAllCellsAtTheHardnessBearLess) {
   const GapField gap = gapOf(gaussianFrame(1e-9, 40));
   FlowingPlaces places;
   const double area = 64 * 64 * 16e-18;
-  EXPECT_FALSE(places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1.01e9 * area, GapField::kInvalidGap}));
+  EXPECT_FALSE(
+      places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1.01e9 * area, GapField::kInvalidGap}));
   EXPECT_FALSE(places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1e9 * area, 0.0}));
 }
 
@@ -154,10 +159,12 @@ TEST(SeparationFlow, contactsThatHaveGrownTogetherPartAsTheyHaveFlowed) {
     HeightMap surface;
     double modulus, hardness, pressure;
   };
-  const Pressed cases[] = {
-      {gaussianFrame(0.6e-9, 302), 50e9, 0.6e9, 80e6},   {gaussianFrame(1.2e-9, 310), 100e9, 1.2e9, 80e6},
-      {gaussianFrame(1.2e-9, 312), 140e9, 0.8e9, 80e6},  {selfAffineFrame(0.6e-9, 321), 100e9, 1.2e9, 20e6},
-      {selfAffineFrame(1.2e-9, 326), 50e9, 0.6e9, 80e6}, {selfAffineFrame(2.5e-9, 332), 50e9, 0.6e9, 80e6}};
+  const Pressed cases[] = {{gaussianFrame(0.6e-9, 302), 50e9, 0.6e9, 80e6},
+                           {gaussianFrame(1.2e-9, 310), 100e9, 1.2e9, 80e6},
+                           {gaussianFrame(1.2e-9, 312), 140e9, 0.8e9, 80e6},
+                           {selfAffineFrame(0.6e-9, 321), 100e9, 1.2e9, 20e6},
+                           {selfAffineFrame(1.2e-9, 326), 50e9, 0.6e9, 80e6},
+                           {selfAffineFrame(2.5e-9, 332), 50e9, 0.6e9, 80e6}};
   for (const Pressed& one : cases) {
     const double area = one.surface.rows() * one.surface.cols() * one.surface.cellArea();
     Options options = flowing(one.modulus, one.hardness, one.pressure * area);
@@ -200,10 +207,15 @@ TEST(SeparationFlow, aSecondPressingUnderTheSameLoadChangesLittle) {
   Options options = flowing(100e9, 1.2e9, 80e6 * 64 * 64 * 16e-18);
   options.output.deformed_surfaces = true;
   const Prediction first = AdhesionModel(options).predict(surface);
-  const auto map = [&](const cv::Mat& heights) { return HeightMap(heights, surface.pitchX(), surface.pitchY()); };
-  const Prediction second = AdhesionModel(options).predict({map(first.deformed_lower), map(first.deformed_upper)});
+  const auto map = [&](const cv::Mat& heights) {
+    return HeightMap(heights, surface.pitchX(), surface.pitchY());
+  };
+  const Prediction second =
+      AdhesionModel(options).predict({map(first.deformed_lower), map(first.deformed_upper)});
   EXPECT_NEAR(second.pull_off_force / first.pull_off_force, 1.0, 0.05);
-  const auto lost = [](const cv::Mat& before, const cv::Mat& behind) { return cv::norm(before, behind, cv::NORM_L1); };
+  const auto lost = [](const cv::Mat& before, const cv::Mat& behind) {
+    return cv::norm(before, behind, cv::NORM_L1);
+  };
   const double lost_first = lost(surface.asDouble().heights(), first.deformed_lower);
   const double lost_second = lost(first.deformed_lower, second.deformed_lower);
   EXPECT_LT(lost_second, 0.1 * lost_first);

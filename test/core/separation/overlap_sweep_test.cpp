@@ -48,7 +48,8 @@ TEST_P(SampleFrames, patchesAreThoseOfALabelling) {
       }
       cv::Mat labels;
       const int patch_count =
-          cv::connectedComponents(touching, labels, connectivity == Connectivity::kFour ? 4 : 8) - 1;
+          cv::connectedComponents(touching, labels, connectivity == Connectivity::kFour ? 4 : 8) -
+          1;
       std::vector<Labelled> labelled(static_cast<std::size_t>(patch_count));
       ASSERT_EQ(sweep.advanceTo(approach, order), touching_count);
       ASSERT_EQ(static_cast<int>(sweep.livePatches().size()), patch_count);
@@ -113,7 +114,8 @@ TEST(OverlapSweep, loadsAreKeptWherePatchesMeet) {
   EXPECT_EQ(both.cells, 5);
   EXPECT_EQ(both.first_cell, 1);
   EXPECT_GT(both.merged_term, 0.0);  // the larger patch alone would carry less
-  // the ridge itself joins with the larger of the two, where it adds no volume: sqrt(n) of its cells alone
+  // the ridge itself joins with the larger of the two, where it adds no volume: sqrt(n) of its
+  // cells alone
   EXPECT_NEAR(load() / before, 1.0, 0.1);
   EXPECT_NEAR(both.gap_sum, 7.5 * kNm, 1e-20);
   EXPECT_NEAR(both.depth(ridge), 2.5 * kNm, 1e-20);
@@ -214,8 +216,10 @@ TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
     const double approach = 0.4 * field.largestGap();
     ASSERT_EQ(used.advanceTo(approach, order), fresh.advanceTo(approach, order));
     EXPECT_EQ(used.livePatches(), fresh.livePatches());
-    for (int cell = 0; cell < field.cellCount(); ++cell) ASSERT_EQ(used.patchOf(cell), fresh.patchOf(cell));
-    for (const std::int32_t id : used.livePatches()) EXPECT_EQ(used.patch(id).merged_term, fresh.patch(id).merged_term);
+    for (int cell = 0; cell < field.cellCount(); ++cell)
+      ASSERT_EQ(used.patchOf(cell), fresh.patchOf(cell));
+    for (const std::int32_t id : used.livePatches())
+      EXPECT_EQ(used.patch(id).merged_term, fresh.patch(id).merged_term);
   }
 }
 

@@ -1,5 +1,5 @@
-/// Sums over places: those of two tiles at a common height are those of the whole, and a frame's do not depend on the order
-/// of the calls.
+/// Sums over places: those of two tiles at a common height are those of the whole, and a frame's do
+/// not depend on the order of the calls.
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,14 @@ namespace {
 
 /// One frame, its displacements counted from a common height.
 struct Tile {
-  Tile(const cv::Mat1d& heights, double top, const Options& options) : depth(top - highestOf(heights)) {
+  Tile(const cv::Mat1d& heights, double top, const Options& options)
+      : depth(top - highestOf(heights)) {
     field.compute(HeightMap(heights, 2e-9, 2e-9));
     frame.start(field, options);
   }
-  static double highestOf(const cv::Mat1d& heights) { return *std::max_element(heights.begin(), heights.end()); }
+  static double highestOf(const cv::Mat1d& heights) {
+    return *std::max_element(heights.begin(), heights.end());
+  }
 
   PlaceSums at(double approach, double hold) {
     PlaceSums sums = frame.reach(approach - depth, hold);
@@ -44,8 +47,9 @@ Options pressed() {
 void expectEqual(const PlaceSums& a, const PlaceSums& b, double relative) {
   EXPECT_EQ(a.contact_count, b.contact_count);
   for (double PlaceSums::*sum :
-       {&PlaceSums::adhesion, &PlaceSums::electrostatic, &PlaceSums::carried, &PlaceSums::opened, &PlaceSums::weight,
-        &PlaceSums::soft, &PlaceSums::loss, &PlaceSums::loss_alone, &PlaceSums::edge_loss, &PlaceSums::edge_slope}) {
+       {&PlaceSums::adhesion, &PlaceSums::electrostatic, &PlaceSums::carried, &PlaceSums::opened,
+        &PlaceSums::weight, &PlaceSums::soft, &PlaceSums::loss, &PlaceSums::loss_alone,
+        &PlaceSums::edge_loss, &PlaceSums::edge_slope}) {
     EXPECT_NEAR(a.*sum, b.*sum, relative * std::abs(b.*sum));
   }
   // far from contact, cells that water fills are counted by the bucket

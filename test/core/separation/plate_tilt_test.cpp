@@ -1,5 +1,6 @@
-/// A plate that may tilt: on which three places it lies, and where it comes to rest on contacts that give way. Exhaustive searches
-/// over tilts stand beside it: every triple of places, and the energy of the plate at rest at every tilt of a grid.
+/// A plate that may tilt: on which three places it lies, and where it comes to rest on contacts
+/// that give way. Exhaustive searches over tilts stand beside it: every triple of places, and the
+/// energy of the plate at rest at every tilt of a grid.
 
 #include "separation/plate_tilt.hpp"
 
@@ -61,7 +62,8 @@ Options stiffOptions(double load) {
 }
 
 /// Of plate and load at rest at a tilt, over the relief's own level [J].
-double energyAtRest(const cv::Mat1d& heights, double slope_x, double slope_y, const Options& options) {
+double energyAtRest(const cv::Mat1d& heights, double slope_x, double slope_y,
+                    const Options& options) {
   const cv::Mat1d surface = tilted(heights, slope_x, slope_y);
   const GapField field = fieldOf(surface);
   ContactCurve curve;
@@ -70,7 +72,8 @@ double energyAtRest(const cv::Mat1d& heights, double slope_x, double slope_y, co
   double energy = options.load.mechanical_load * (highest(surface) - curve.rest().approach);
   energy -= curve.frame().energy(states.front().approach);
   for (std::size_t i = 1; i < states.size(); ++i) {
-    energy -= 0.5 * (states[i - 1].force() + states[i].force()) * (states[i].approach - states[i - 1].approach);
+    energy -= 0.5 * (states[i - 1].force() + states[i].force()) *
+              (states[i].approach - states[i - 1].approach);
   }
   return energy;
 }
@@ -78,7 +81,8 @@ double energyAtRest(const cv::Mat1d& heights, double slope_x, double slope_y, co
 /// The tilt of least energy, on grids that become finer about it.
 PlaneSlopes leastEnergy(const cv::Mat1d& heights, const Options& options) {
   constexpr int kHalf = 10;
-  double width = 2.0 * (highest(heights) - highest(-heights) + 4.0 * 1e-9) / (heights.cols * kPitch);
+  double width =
+      2.0 * (highest(heights) - highest(-heights) + 4.0 * 1e-9) / (heights.cols * kPitch);
   PlaneSlopes best;
   double least = std::numeric_limits<double>::infinity();
   for (int level = 0; level < 7; ++level, width *= 0.3) {
@@ -100,10 +104,12 @@ PlaneSlopes leastEnergy(const cv::Mat1d& heights, const Options& options) {
 TEST(SupportPlane, itIsTheLowestOfAllPlanesOverThreePlacesAroundTheMiddle) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const cv::Mat1d heights = roughHeights(7, 8, seed, 3e-9, 0.6);
-    // the lowest plane over the middle that no place sticks out of: over triples of places, those that carry all others
+    // the lowest plane over the middle that no place sticks out of: over triples of places, those
+    // that carry all others
     double least = std::numeric_limits<double>::infinity();
     const auto placeOf = [&](int cell) {
-      return cv::Vec3d((cell % 8 - 3.5) * kPitch, (cell / 8 - 3.0) * kPitch, heights(cell / 8, cell % 8));
+      return cv::Vec3d((cell % 8 - 3.5) * kPitch, (cell / 8 - 3.0) * kPitch,
+                       heights(cell / 8, cell % 8));
     };
     for (int a = 0; a < 56; ++a) {
       for (int b = a + 1; b < 56; ++b) {
@@ -111,7 +117,8 @@ TEST(SupportPlane, itIsTheLowestOfAllPlanesOverThreePlacesAroundTheMiddle) {
           const cv::Vec3d normal = (placeOf(b) - placeOf(a)).cross(placeOf(c) - placeOf(a));
           if (std::abs(normal[2]) < 1e-9 * kPitch * kPitch) continue;
           const auto height = [&](double x, double y) {
-            return placeOf(a)[2] - (normal[0] * (x - placeOf(a)[0]) + normal[1] * (y - placeOf(a)[1])) / normal[2];
+            return placeOf(a)[2] -
+                   (normal[0] * (x - placeOf(a)[0]) + normal[1] * (y - placeOf(a)[1])) / normal[2];
           };
           bool carries_all = height(0.0, 0.0) < least;
           for (int d = 0; carries_all && d < 56; ++d) {
@@ -147,18 +154,22 @@ TEST(PlateTilt, itComesToRestWhereAnExhaustiveSearchOverTiltsFindsTheLeastEnergy
     PlateTilt tilt;
     tilt.settle(fieldOf(heights), options);
     const double energy = energyAtRest(heights, least.x, least.y, options);
-    EXPECT_LT(energyAtRest(heights, tilt.slopes().x, tilt.slopes().y, options), 1.01 * energy) << seed;
+    EXPECT_LT(energyAtRest(heights, tilt.slopes().x, tilt.slopes().y, options), 1.01 * energy)
+        << seed;
     const double apart = std::hypot(tilt.slopes().x - least.x, tilt.slopes().y - least.y) * kWidth;
-    if (apart > 1e-9) continue;  // it rests on other three, as well: adhesion leaves a plate more than one place
+    if (apart > 1e-9)
+      continue;  // it rests on other three, as well: adhesion leaves a plate more than one place
     ++same;
     EXPECT_LT(apart, 0.05e-9) << seed;
 
     AdhesionModel guided(options);
-    const Prediction at_least = guided.predict(HeightMap(tilted(heights, least.x, least.y), kPitch, kPitch));
+    const Prediction at_least =
+        guided.predict(HeightMap(tilted(heights, least.x, least.y), kPitch, kPitch));
     options.guidance = Guidance::kFree;
     AdhesionModel model(options);
     const Prediction settled = model.predict(HeightMap(heights, kPitch, kPitch));
-    EXPECT_NEAR(settled.pull_off_force, at_least.pull_off_force, 0.03 * at_least.pull_off_force) << seed;
+    EXPECT_NEAR(settled.pull_off_force, at_least.pull_off_force, 0.03 * at_least.pull_off_force)
+        << seed;
     EXPECT_NEAR(settled.approach, at_least.approach, 0.03 * at_least.approach + 0.02e-9) << seed;
   }
   EXPECT_GE(same, 4);
@@ -174,7 +185,8 @@ TEST(PlateTilt, threeSpheresShareTheLoadByTheLever) {
     for (int col = 0; col < kSide; ++col) {
       for (const cv::Point& centre : centres) {
         const double distance = std::hypot(row - centre.y, col - centre.x) * kPitch;
-        heights(row, col) = std::max(heights(row, col), centre.x * 0.05e-9 - distance * distance / (2.0 * kRadius));
+        heights(row, col) =
+            std::max(heights(row, col), centre.x * 0.05e-9 - distance * distance / (2.0 * kRadius));
       }
     }
   }

@@ -1,4 +1,5 @@
-/// What touches of a patch that overlaps: closed forms of tops, of adhesion, of the layer and of flow.
+/// What touches of a patch that overlaps: closed forms of tops, of adhesion, of the layer and of
+/// flow.
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,8 @@ TEST(RealArea, ofASoftSphereIsThatPartOfJkrsContactThatPresses) {
     patch.prefactor = 1.5;
     // JKR under that load from outside which the patch carries beside its rim's
     const double outer = std::max(patch.load.carried - kRim, 0.0);
-    const double a = jkr::contactRadius(jkr::apparentLoad(outer, kWork, kRadius), kRadius, kModulus);
+    const double a =
+        jkr::contactRadius(jkr::apparentLoad(outer, kWork, kRadius), kRadius, kModulus);
     // p(x) = p1 sqrt(1 - x^2) - p2/sqrt(1 - x^2) presses up to x^2 = 1 - p2/p1
     const double p1 = 2.0 * kModulus * a / (kPi * kRadius);
     const double p2 = std::sqrt(2.0 * kWork * kModulus / (kPi * a));

@@ -1,5 +1,6 @@
-/// The separation curve against the half-space: frames that an independent solver has solved (their folder is named by
-/// MEMS_STICTION_HALF_SPACE), and frames that nothing here was adjusted to, solved on the spot.
+/// The separation curve against the half-space: frames that an independent solver has solved (their
+/// folder is named by MEMS_STICTION_HALF_SPACE), and frames that nothing here was adjusted to,
+/// solved on the spot.
 
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +23,8 @@ using separation_cases::halfSpaceOf;
 
 TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
   const char* const folder = std::getenv("MEMS_STICTION_HALF_SPACE");
-  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_HALF_SPACE names no folder of solved frames";
+  if (folder == nullptr)
+    GTEST_SKIP() << "MEMS_STICTION_HALF_SPACE names no folder of solved frames";
   std::ifstream file(std::string(folder) + "/reference.json");
   ASSERT_TRUE(file) << folder << "/reference.json cannot be read";
   const nlohmann::json reference = nlohmann::json::parse(file);
@@ -32,8 +34,9 @@ TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
     options.interface.work_of_adhesion = reference["work_of_adhesion"];
     options.interface.hamaker_constant = 0.0;
     options.interface.equilibrium_distance = reference["z0"];
-    const HeightMap surface(cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
-                            frame["pitch"], frame["pitch"]);
+    const HeightMap surface(
+        cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
+        frame["pitch"], frame["pitch"]);
     const Prediction prediction = AdhesionModel(options).predict(surface);
     const double ratio = prediction.pull_off_force / frame["pull_off_force"].get<double>();
     EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1)) << ratio;
@@ -51,14 +54,15 @@ struct Case {
 
 TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpaceAndBondedOnesWithinTwenty) {
   // from near bonding to single summits, with and without load; pixels resolve the cohesive length
-  const Case cases[] = {{true, 0.5e-9, 30e-9, 80e9, 0.05, 0},   {true, 1e-9, 40e-9, 80e9, 0.05, 0},
-                        {true, 2e-9, 40e-9, 80e9, 0.05, 0},     {true, 1e-9, 30e-9, 30e9, 0.03, 0},
-                        {true, 3e-9, 50e-9, 50e9, 0.05, 2e7},   {true, 1.5e-9, 60e-9, 90e9, 0.1, 5e6},
-                        {false, 1e-9, 60e-9, 80e9, 0.05, 0},    {false, 0.6e-9, 50e-9, 80e9, 0.03, 0},
-                        {false, 2e-9, 80e-9, 80e9, 0.05, 0},    {false, 1e-9, 60e-9, 40e9, 0.02, 1e7},
-                        {true, 0.05e-9, 60e-9, 20e9, 0.05, 0},  {true, 0.1e-9, 60e-9, 10e9, 0.03, 0},
-                        {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0},
-                        {true, 0.2e-9, 30e-9, 60e9, 0.05, 0}};
+  const Case cases[] = {
+      {true, 0.5e-9, 30e-9, 80e9, 0.05, 0},   {true, 1e-9, 40e-9, 80e9, 0.05, 0},
+      {true, 2e-9, 40e-9, 80e9, 0.05, 0},     {true, 1e-9, 30e-9, 30e9, 0.03, 0},
+      {true, 3e-9, 50e-9, 50e9, 0.05, 2e7},   {true, 1.5e-9, 60e-9, 90e9, 0.1, 5e6},
+      {false, 1e-9, 60e-9, 80e9, 0.05, 0},    {false, 0.6e-9, 50e-9, 80e9, 0.03, 0},
+      {false, 2e-9, 80e-9, 80e9, 0.05, 0},    {false, 1e-9, 60e-9, 40e9, 0.02, 1e7},
+      {true, 0.05e-9, 60e-9, 20e9, 0.05, 0},  {true, 0.1e-9, 60e-9, 10e9, 0.03, 0},
+      {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0},
+      {true, 0.2e-9, 30e-9, 60e9, 0.05, 0}};
   int seed = 100;
   int near_areas = 0;
   for (const Case& one : cases) {
@@ -94,14 +98,16 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpaceAndBondedOnesWith
     const double area_ratio = prediction.contact_area / solved.contact_area;
     // of a few cells pixels decide
     const double cells = std::abs(prediction.contact_area - solved.contact_area) / (pitch * pitch);
-    EXPECT_TRUE(cells < 3.0 || std::abs(std::log(area_ratio)) < std::log(1.5)) << "contact area at rest " << area_ratio;
+    EXPECT_TRUE(cells < 3.0 || std::abs(std::log(area_ratio)) < std::log(1.5))
+        << "contact area at rest " << area_ratio;
     if (std::abs(std::log(area_ratio)) < std::log(1.3)) ++near_areas;
   }
   EXPECT_GE(near_areas, 13) << "contact areas at rest within 1.3, of 15";
 }
 
 TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBondedOnes) {
-  // flattening ratios around 1, but contact on a tenth of the frame: bonded surfaces would hold 20 % more
+  // flattening ratios around 1, but contact on a tenth of the frame: bonded surfaces would hold 20
+  // % more
   for (const int seed : {2, 3, 6, 11}) {
     GaussianSurfaceOptions surface_options;
     surface_options.rows = surface_options.cols = 64;
@@ -115,7 +121,8 @@ TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBonde
     ASSERT_LT(prediction.contact_fraction, 0.2);
     const SolvedHalfSpace solved = halfSpaceOf(surface, options);
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
-    SCOPED_TRACE(testing::Message() << "seed " << seed << ", flattening ratio " << prediction.flattening_ratio);
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << seed << ", flattening ratio " << prediction.flattening_ratio);
     EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.04);
     EXPECT_NEAR(prediction.apparent_work_of_adhesion / solved.work_of_adhesion, 1.0, 0.05);
   }

@@ -17,7 +17,9 @@ using separation_cases::kWork;
 using separation_cases::rangeOf;
 using separation_cases::sameFigures;
 
-HeightMap rough(double rms = 1e-9, int seed = 3) { return samples::gaussian(72, 96, 4e-9, 4e-9, rms, 40e-9, seed); }
+HeightMap rough(double rms = 1e-9, int seed = 3) {
+  return samples::gaussian(72, 96, 4e-9, 4e-9, rms, 40e-9, seed);
+}
 
 Prediction predict(const Options& options, const SurfacePair& surfaces) {
   return AdhesionModel(options).predict(surfaces);
@@ -41,7 +43,8 @@ TEST(SeparationBounds, neitherStrengthNorWorkOfTheLawAreExceeded) {
       for (const SeparationCurvePoint& point : prediction.curve) EXPECT_LE(point.force, strength);
       EXPECT_LE(prediction.pull_off_force, strength);
       EXPECT_GT(prediction.pull_off_force, 0.0);
-      EXPECT_LE(prediction.apparent_work_of_adhesion, 1.05 * kWork);  // trapezia of a curve in steps of 0.3 z0
+      EXPECT_LE(prediction.apparent_work_of_adhesion,
+                1.05 * kWork);  // trapezia of a curve in steps of 0.3 z0
       EXPECT_LE(prediction.contact_area, prediction.nominal_area);
     }
   }
@@ -80,7 +83,8 @@ TEST(SeparationSymmetry, transposedFramesWithTheirPitchAreTheSame) {
   const HeightMap oblong = samples::gaussian(60, 90, 3e-9, 5e-9, 1e-9, 40e-9, 5);
   const cv::Mat turned = oblong.heights().t();
   const Options options = elastic(20e9);
-  expectSame(predict(options, oblong), predict(options, HeightMap(turned, 5e-9, 3e-9)), 1e-9);  // sums in another order
+  expectSame(predict(options, oblong), predict(options, HeightMap(turned, 5e-9, 3e-9)),
+             1e-9);  // sums in another order
 }
 
 TEST(SeparationSymmetry, mirroredFramesAreTheSame) {
@@ -94,9 +98,12 @@ TEST(SeparationSymmetry, mirroredFramesAreTheSame) {
 
 TEST(SeparationSymmetry, anisotropicPixelsDescribeTheSameSphere) {
   const Options options = elastic(5e9);
-  const Prediction square = predict(options, analytic::paraboloid(160, 160, 0.5e-9, 0.5e-9, 100e-9));
-  const Prediction oblong = predict(options, analytic::paraboloid(100, 200, 0.4e-9, 0.8e-9, 100e-9));
-  EXPECT_NEAR(oblong.pull_off_force / square.pull_off_force, 1.0, 0.01);  // pixels of a tenth of the contact's ring
+  const Prediction square =
+      predict(options, analytic::paraboloid(160, 160, 0.5e-9, 0.5e-9, 100e-9));
+  const Prediction oblong =
+      predict(options, analytic::paraboloid(100, 200, 0.4e-9, 0.8e-9, 100e-9));
+  EXPECT_NEAR(oblong.pull_off_force / square.pull_off_force, 1.0,
+              0.01);  // pixels of a tenth of the contact's ring
   EXPECT_NEAR(oblong.apparent_work_of_adhesion / square.apparent_work_of_adhesion, 1.0, 0.01);
 }
 
@@ -152,7 +159,8 @@ TEST(SeparationFrames, loadCarriesOnIntoFullContact) {
     for (int col = 0; col < 96; ++col) top = std::max(top, surface.height(row, col));
   }
   for (int row = 0; row < 72; ++row) {
-    for (int col = 0; col < 96; ++col) touching += top - surface.height(row, col) < prediction.approach ? 1.0 : 0.0;
+    for (int col = 0; col < 96; ++col)
+      touching += top - surface.height(row, col) < prediction.approach ? 1.0 : 0.0;
   }
   EXPECT_GT(touching / (72 * 96), 0.5);
   // half of the overlap, and the other half of each summit's cell
@@ -168,7 +176,8 @@ TEST(SeparationFrames, pullOffForceOfElasticSurfacesDoesNotDependOnTheLoadThatPr
   const Prediction unloaded = predict(elastic(50e9), rough(2e-9));
   const Prediction loaded = predict(elastic(50e9, 2e-6), rough(2e-9));
   EXPECT_GT(loaded.contact_area, 1.5 * unloaded.contact_area);
-  EXPECT_NEAR(loaded.pull_off_force / unloaded.pull_off_force, 1.0, 1e-3);  // the same steps up to the maximum
+  EXPECT_NEAR(loaded.pull_off_force / unloaded.pull_off_force, 1.0,
+              1e-3);  // the same steps up to the maximum
 }
 
 TEST(SeparationFrames, bitsAreThoseOfAFreshObject) {
@@ -190,9 +199,11 @@ TEST(SeparationFrames, exponentsAreTheChangesWithTheConstants) {
   const auto expectExponents = [&](const Options& changed, double of_force, double of_work) {
     const Prediction moved = predict(changed, rough(3e-9));
     // the change of the bending factor and of what contacts open is left out: up to a tenth
-    EXPECT_NEAR(std::log(moved.pull_off_force / at.pull_off_force) / std::log(factor), of_force, 0.1);
-    EXPECT_NEAR(std::log(moved.apparent_work_of_adhesion / at.apparent_work_of_adhesion) / std::log(factor), of_work,
+    EXPECT_NEAR(std::log(moved.pull_off_force / at.pull_off_force) / std::log(factor), of_force,
                 0.1);
+    EXPECT_NEAR(
+        std::log(moved.apparent_work_of_adhesion / at.apparent_work_of_adhesion) / std::log(factor),
+        of_work, 0.1);
   };
   Options changed = options;
   changed.lower.youngs_modulus *= factor;

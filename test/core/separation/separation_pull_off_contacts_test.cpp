@@ -1,4 +1,5 @@
-/// The contacts that hold at the pull-off: no load that made the contact, voltage or weight, moves what a verdict rests on.
+/// The contacts that hold at the pull-off: no load that made the contact, voltage or weight, moves
+/// what a verdict rests on.
 
 #include <cmath>
 
@@ -47,7 +48,8 @@ TEST(PullOffContacts, noLoadMovesAVerdictThatHasThePullOffForceOfNone) {
     device.contact_area = plain.nominal_area;
     device.spring_stiffness = 20.0 * plain.pull_off_force / device.travel;
     const Verdict alone = verdictOf(plain, device, {}, unloaded, cell_area);
-    for (const auto& [voltage, load] : {std::pair(20.0, 0.0), {60.0, 0.0}, {0.0, 3e-5}, {20.0, 1e-5}}) {
+    for (const auto& [voltage, load] :
+         {std::pair(20.0, 0.0), {60.0, 0.0}, {0.0, 3e-5}, {20.0, 1e-5}}) {
       SCOPED_TRACE(testing::Message() << rms_height << " m, " << voltage << " V, " << load << " N");
       const Options options = under(voltage, load);
       const Prediction pressed = AdhesionModel(options).predict(scan);
@@ -57,7 +59,8 @@ TEST(PullOffContacts, noLoadMovesAVerdictThatHasThePullOffForceOfNone) {
       const Verdict verdict = verdictOf(pressed, device, {}, options, cell_area);
       EXPECT_EQ(verdict.sticks, alone.sticks) << verdict.reason << " for " << alone.reason;
       EXPECT_EQ(regimeFlagNames(verdict.regime_flags), regimeFlagNames(alone.regime_flags));
-      // the powers of the constants are sums over cells that a load brings into another order: round-off
+      // the powers of the constants are sums over cells that a load brings into another order:
+      // round-off
       EXPECT_NEAR(verdict.margin_lower / alone.margin_lower, 1.0, 1e-6);
       EXPECT_NEAR(verdict.margin_upper / alone.margin_upper, 1.0, 1e-6);
       EXPECT_EQ(verdict.place_deviation, alone.place_deviation);
@@ -86,13 +89,15 @@ TEST(PullOffContacts, thatHaveFlowedUnderTheLoadAreKnownByIt) {
   options.lower.hardness = options.upper.hardness = 1e9;
   const Prediction prediction = AdhesionModel(options).predict(spheres);
   ASSERT_EQ(prediction.pull_off_contact_count, 20);
-  for (const Asperity& contact : prediction.holdingContacts()) EXPECT_NE(contact.regime, Regime::kElastic);
+  for (const Asperity& contact : prediction.holdingContacts())
+    EXPECT_NE(contact.regime, Regime::kElastic);
   EXPECT_TRUE(regimeFlags(prediction, 4e-18) & kPlasticityFlag);
 }
 
 TEST(PullOffContacts, atTheFramesBorderAreMarked) {
   const HeightMap slope = analytic::paraboloid(65, 65, 1e-9, 1e-9, 1e-6);
-  cv::Mat half = slope.heights()(cv::Rect(32, 0, 33, 65)).clone();  // its summit lies on the first column
+  cv::Mat half =
+      slope.heights()(cv::Rect(32, 0, 33, 65)).clone();  // its summit lies on the first column
   const Prediction prediction = AdhesionModel(under(0.0, 0.0)).predict(HeightMap(half, 1e-9, 1e-9));
   ASSERT_EQ(prediction.pull_off_contact_count, 1);
   EXPECT_TRUE(prediction.holdingContacts().front().is_at_border);

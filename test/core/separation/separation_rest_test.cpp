@@ -15,9 +15,10 @@ constexpr int kSide = 120;
 constexpr double kPitch = 1e-9;
 constexpr int kBump = 3;
 
-/// A stiff bump that holds a plain off, though the plain would hold fast once it came near: the bump carries 5 nN for
-/// each 0.016 nm, the plain attracts with 36 nN at first touch, with 90 % of what the bump carries at 0.25 nm past it,
-/// and with twice that at 0.7 nm. Beside the plain there is a pit, so that the surfaces cannot conform.
+/// A stiff bump that holds a plain off, though the plain would hold fast once it came near: the
+/// bump carries 5 nN for each 0.016 nm, the plain attracts with 36 nN at first touch, with 90 % of
+/// what the bump carries at 0.25 nm past it, and with twice that at 0.7 nm. Beside the plain there
+/// is a pit, so that the surfaces cannot conform.
 Prediction predictAt(double load, double contact_modulus = 100e9) {
   cv::Mat1d heights(kSide, 2 * kSide, -50e-9);
   heights.colRange(0, kSide) = -1e-9;
@@ -42,7 +43,8 @@ TEST(SeparationRest, aLoadTakesThemPastIt) {
 TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHoldsMore) {
   const Prediction held = predictAt(0.0);  // by a tenth of what the bump carries
   ASSERT_NE(held.model.doubt, nullptr);
-  EXPECT_NE(std::string(held.model.doubt).find("nearer rest"), std::string::npos) << held.model.doubt;
+  EXPECT_NE(std::string(held.model.doubt).find("nearer rest"), std::string::npos)
+      << held.model.doubt;
   // the law's peak that is left: a bump twice as stiff carries twice as much there
   const Prediction stiff = predictAt(0.0, 200e9);
   EXPECT_EQ(stiff.status, Status::kEquilibrium);
@@ -56,10 +58,12 @@ TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHold
 
 TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
   const HeightMap surface = samples::gaussian(64, 64, 4e-9, 4e-9, 0.6e-9, 30e-9, 97);
-  const Options options = separation_cases::elastic(10e9);  // soft: what follows rest is another unloading branch
+  const Options options =
+      separation_cases::elastic(10e9);  // soft: what follows rest is another unloading branch
   const Prediction prediction = AdhesionModel(options).predict(surface);
   ASSERT_NE(prediction.model.doubt, nullptr);
-  ASSERT_NE(std::string(prediction.model.doubt).find("nearer rest"), std::string::npos) << prediction.model.doubt;
+  ASSERT_NE(std::string(prediction.model.doubt).find("nearer rest"), std::string::npos)
+      << prediction.model.doubt;
   GapField field;
   field.compute(surface);
   ContactCurve curve;

@@ -32,7 +32,9 @@ double modulusOf(double tabor, double radius = kRadius) {
   return std::sqrt(radius * kWork * kWork / std::pow(tabor * range, 3.0));
 }
 
-HeightMap fineSphere(double radius = kRadius) { return analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, radius); }
+HeightMap fineSphere(double radius = kRadius) {
+  return analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, radius);
+}
 
 /// Over pi Gamma R.
 double prefactorOf(double tabor) {
@@ -57,7 +59,8 @@ TEST(SeparationSphere, followsMaugis) {
   const double mean_stress = square / sum;
   for (const double tabor : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0}) {
     const double prefactor = prefactorOf(tabor);
-    const double of_mean_stress = maugis::transitionParameter(mean_stress, kRadius, kWork, modulusOf(tabor));
+    const double of_mean_stress =
+        maugis::transitionParameter(mean_stress, kRadius, kWork, modulusOf(tabor));
     EXPECT_NEAR(prefactor / maugis::pullOffPrefactor(of_mean_stress), 1.0, 0.022) << tabor;
     const double of_largest_stress = maugis::transitionParameter(tabor);
     EXPECT_NEAR(prefactor / maugis::pullOffPrefactor(of_largest_stress), 1.0, 0.07) << tabor;
@@ -70,7 +73,8 @@ TEST(SeparationSphere, followsTheHalfSpace) {
     double tabor;
     double prefactor;
   } known[] = {{0.16, 1.94}, {0.32, 1.86}, {0.67, 1.73}, {1.06, 1.67}, {1.96, 1.60}};
-  for (const auto& point : known) EXPECT_NEAR(prefactorOf(point.tabor) / point.prefactor, 1.0, 0.025) << point.tabor;
+  for (const auto& point : known)
+    EXPECT_NEAR(prefactorOf(point.tabor) / point.prefactor, 1.0, 0.025) << point.tabor;
 }
 
 TEST(SeparationSphere, pressedWithoutAdhesionItIsHertzs) {
@@ -79,7 +83,8 @@ TEST(SeparationSphere, pressedWithoutAdhesionItIsHertzs) {
   for (const double depth : {0.5e-9, 1e-9, 2e-9}) {
     Options options = elastic(modulus, hertz::load(depth, radius, modulus));
     options.interface.work_of_adhesion = 0.0;
-    const Prediction prediction = predict(options, analytic::paraboloid(301, 301, 1e-9, 1e-9, radius));
+    const Prediction prediction =
+        predict(options, analytic::paraboloid(301, 301, 1e-9, 1e-9, radius));
     ASSERT_EQ(prediction.status, Status::kEquilibrium);
     EXPECT_EQ(prediction.pull_off_force, 0.0);
     EXPECT_EQ(prediction.asperity_count, 1);
@@ -89,8 +94,10 @@ TEST(SeparationSphere, pressedWithoutAdhesionItIsHertzs) {
     EXPECT_NEAR(prediction.contact_area / (kPi * a * a), 1.0, 0.02);
     ASSERT_EQ(prediction.asperities.size(), 1U);
     EXPECT_NEAR(prediction.asperities[0].composite_radius / radius, 1.0, 0.02);
-    EXPECT_NEAR(prediction.asperities[0].load / options.load.mechanical_load, 1.0, 2e-3);  // where the search ends
-    EXPECT_NEAR(prediction.contact_stiffness / (2.0 * modulus * a), 1.0, 0.1);  // a secant over the last step
+    EXPECT_NEAR(prediction.asperities[0].load / options.load.mechanical_load, 1.0,
+                2e-3);  // where the search ends
+    EXPECT_NEAR(prediction.contact_stiffness / (2.0 * modulus * a), 1.0,
+                0.1);  // a secant over the last step
   }
 }
 
@@ -102,7 +109,8 @@ TEST(SeparationSphere, stiffnessDoesNotDependOnWhereTheStepsFall) {
     Options options = elastic(modulus, hertz::load((1.0 + 0.002 * i) * 1e-9, radius, modulus));
     options.interface.work_of_adhesion = 0.0;
     const double a = hertz::contactRadius(options.load.mechanical_load, radius, modulus);
-    // a secant over up to 1.5 steps of 5 %: 2 % less than the tangent; over cells that come in rings, 7 % more or less
+    // a secant over up to 1.5 steps of 5 %: 2 % less than the tangent; over cells that come in
+    // rings, 7 % more or less
     EXPECT_NEAR(predict(options, surface).contact_stiffness / (2.0 * modulus * a), 0.98, 0.1) << i;
   }
 }
@@ -110,14 +118,19 @@ TEST(SeparationSphere, stiffnessDoesNotDependOnWhereTheStepsFall) {
 TEST(SeparationSphere, rowsOfSpheresPullWithTheSumOfTheirRadii) {
   const double modulus = modulusOf(0.05);
   const double one =
-      predict(elastic(modulus), analytic::sphereArray(128, 128, 0.25e-9, 0.25e-9, {kRadius}, 1, 1)).pull_off_force;
-  const Prediction nine = predict(elastic(modulus), analytic::sphereArray(384, 384, 0.25e-9, 0.25e-9, {kRadius}, 3, 3));
-  EXPECT_NEAR(nine.pull_off_force / one, 9.0, 0.09);  // neighbours make up for a part of what each loses by bending
+      predict(elastic(modulus), analytic::sphereArray(128, 128, 0.25e-9, 0.25e-9, {kRadius}, 1, 1))
+          .pull_off_force;
+  const Prediction nine =
+      predict(elastic(modulus), analytic::sphereArray(384, 384, 0.25e-9, 0.25e-9, {kRadius}, 3, 3));
+  EXPECT_NEAR(nine.pull_off_force / one, 9.0,
+              0.09);  // neighbours make up for a part of what each loses by bending
   EXPECT_EQ(nine.asperity_count, 9);
   const double ratio = 0.5;
   const Prediction two =
-      predict(elastic(modulus), analytic::sphereArray(256, 512, 0.25e-9, 0.25e-9, {kRadius, ratio * kRadius}, 2, 1));
-  EXPECT_NEAR(two.pull_off_force / (2.0 * kPi * kWork * kRadius * (1.0 + ratio)), 1.0, 0.03);  // mu 0.05: 1 % less
+      predict(elastic(modulus),
+              analytic::sphereArray(256, 512, 0.25e-9, 0.25e-9, {kRadius, ratio * kRadius}, 2, 1));
+  EXPECT_NEAR(two.pull_off_force / (2.0 * kPi * kWork * kRadius * (1.0 + ratio)), 1.0,
+              0.03);  // mu 0.05: 1 % less
 }
 
 TEST(SeparationSphere, twoSpheresAreOneOfTheirCompositeRadius) {
@@ -135,7 +148,8 @@ TEST(SeparationSphere, twoSpheresAreOneOfTheirCompositeRadius) {
 TEST(SeparationSphere, aSphereApexBetweenPixelsPullsAsHard) {
   const Options options = elastic(modulusOf(0.3));
   const Prediction on = predict(options, fineSphere());
-  const Prediction off = predict(options, analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, kRadius, 0.1e-9, 0.07e-9));
+  const Prediction off =
+      predict(options, analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, kRadius, 0.1e-9, 0.07e-9));
   EXPECT_NEAR(off.pull_off_force / on.pull_off_force, 1.0, 2e-3);  // 0.15 pm of height in 160
 }
 
@@ -173,7 +187,8 @@ TEST(SeparationPlates, voltagePullsAsPlatesDo) {
   const Prediction prediction = predict(options, surfaces);
   // the plates at gap + 10 nm, and the pin at 10 nm
   const double field = 0.5 * kVacuumPermittivity * 25.0;
-  const double expected = field * 4e-18 * (1600 / std::pow(gap + 10e-9, 2.0) + 1.0 / std::pow(10e-9, 2.0));
+  const double expected =
+      field * 4e-18 * (1600 / std::pow(gap + 10e-9, 2.0) + 1.0 / std::pow(10e-9, 2.0));
   EXPECT_NEAR(prediction.electrostatic_force / expected, 1.0, 1e-6);
 }
 
@@ -203,7 +218,8 @@ TEST(SeparationPunch, aFlatPunchHasItsStiffness) {
 TEST(SeparationPunch, aPlateauBeyondTheLimitTouchesWithAllOfItsArea) {
   const double pitch = 1e-6;
   cv::Mat1d heights(16, 16, -78.74e-9);
-  heights.rowRange(0, 11) = 0.0;  // at first touch more than the limit of contact overlap, by nothing
+  heights.rowRange(0, 11) =
+      0.0;  // at first touch more than the limit of contact overlap, by nothing
   for (const double work : {0.0, 0.05}) {
     Options options = elastic(88.8e9, 1e-12);
     options.interface.work_of_adhesion = work;
@@ -219,7 +235,8 @@ TEST(SeparationPunch, oneCellTouchesWithAllOfItsAreaUnderAnyLoad) {
       Options options = elastic(88.8e9, load);
       options.interface.work_of_adhesion = work;
       const SurfacePair surfaces{pinnedSurface(analytic::flat(40, 40, pitch, pitch), 50e-9), {}};
-      EXPECT_DOUBLE_EQ(predict(options, surfaces).contact_area, pitch * pitch) << work << " " << load;
+      EXPECT_DOUBLE_EQ(predict(options, surfaces).contact_area, pitch * pitch)
+          << work << " " << load;
     }
   }
 }
@@ -230,7 +247,8 @@ TEST(SeparationFlow, contactAreaOfASoftSphereIsLoadOverHardness) {
   options.lower.hardness = options.upper.hardness = 0.5e9;
   for (const double work : {0.0, 0.05}) {
     options.interface.work_of_adhesion = work;
-    const Prediction prediction = predict(options, analytic::paraboloid(401, 401, 2e-9, 2e-9, 2e-6));
+    const Prediction prediction =
+        predict(options, analytic::paraboloid(401, 401, 2e-9, 2e-9, 2e-6));
     ASSERT_EQ(prediction.status, Status::kEquilibrium);
     const double pressing = prediction.mechanical_load + prediction.van_der_waals_force;
     EXPECT_GT(prediction.plastic_count + prediction.elasto_plastic_count, 0);
@@ -248,7 +266,8 @@ TEST(SeparationFlow, flattenedSpheresHoldHarder) {
   const Prediction flowed = predict(options, sphere);
   EXPECT_GT(flowed.pull_off_force, 1.2 * elastic_sphere.pull_off_force);
   bool has_unloading = false;
-  for (const SeparationCurvePoint& point : flowed.curve) has_unloading = has_unloading || point.is_separation;
+  for (const SeparationCurvePoint& point : flowed.curve)
+    has_unloading = has_unloading || point.is_separation;
   EXPECT_TRUE(has_unloading);
 }
 

@@ -1,5 +1,5 @@
-/// What holds on the unloading branch: soft summits beyond their touch, shoulders that the contact has opened, and which way
-/// surfaces part. Against JKR's closed form and against the half-space.
+/// What holds on the unloading branch: soft summits beyond their touch, shoulders that the contact
+/// has opened, and which way surfaces part. Against JKR's closed form and against the half-space.
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ double forceAt(const Prediction& prediction, double displacement, bool is_separa
   const SeparationCurvePoint* nearest = nullptr;
   for (const SeparationCurvePoint& point : prediction.curve) {
     if (point.is_separation != is_separation) continue;
-    if (nearest == nullptr ||
-        std::abs(point.displacement - displacement) < std::abs(nearest->displacement - displacement)) {
+    if (nearest == nullptr || std::abs(point.displacement - displacement) <
+                                  std::abs(nearest->displacement - displacement)) {
       nearest = &point;
     }
   }
@@ -40,8 +40,10 @@ class SoftSphere : public testing::TestWithParam<double> {
   /// Of the sphere with Tabor's parameter mu.
   static Prediction predicted(double tabor) {
     const double range = rangeOf(Options());
-    const Options options = elastic(std::sqrt(kRadius * kWork * kWork / std::pow(tabor * range, 3.0)));
-    return AdhesionModel(options).predict(analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, kRadius));
+    const Options options =
+        elastic(std::sqrt(kRadius * kWork * kWork / std::pow(tabor * range, 3.0)));
+    return AdhesionModel(options).predict(
+        analytic::paraboloid(257, 257, 0.25e-9, 0.25e-9, kRadius));
   }
 };
 
@@ -49,17 +51,20 @@ TEST_P(SoftSphere, holdsUntilJkrsPullOffDisplacement) {
   const double tabor = GetParam();
   const Prediction sphere = predicted(tabor);
   // delta_c = -(1/3) (9 pi/8)^(2/3) mu z0; the law's own range does as much for mu up to 1/2
-  const double hold = std::pow(9.0 * kPi / 8.0, 2.0 / 3.0) / 3.0 * (tabor - 0.5) * rangeOf(Options());
+  const double hold =
+      std::pow(9.0 * kPi / 8.0, 2.0 / 3.0) / 3.0 * (tabor - 0.5) * rangeOf(Options());
   EXPECT_NEAR(forceAt(sphere, -0.8 * hold, true) / sphere.pull_off_force, 1.0, 0.06);
   EXPECT_LT(forceAt(sphere, -1.0 * hold - rangeOf(Options()), true), 0.6 * sphere.pull_off_force);
-  EXPECT_LT(forceAt(sphere, -0.8 * hold, false), forceAt(sphere, -0.8 * hold, true)) << "no hysteresis";
+  EXPECT_LT(forceAt(sphere, -0.8 * hold, false), forceAt(sphere, -0.8 * hold, true))
+      << "no hysteresis";
 }
 
 INSTANTIATE_TEST_SUITE_P(Tabor, SoftSphere, testing::Values(1.5, 2.0, 3.0));
 
 TEST(StiffSphere, goesOutAsItCameIn) {
   const Options options = elastic(1e12);
-  const Prediction sphere = AdhesionModel(options).predict(analytic::paraboloid(129, 129, 0.25e-9, 0.25e-9, 20e-9));
+  const Prediction sphere =
+      AdhesionModel(options).predict(analytic::paraboloid(129, 129, 0.25e-9, 0.25e-9, 20e-9));
   EXPECT_TRUE(std::none_of(sphere.curve.begin(), sphere.curve.end(),
                            [](const SeparationCurvePoint& point) { return point.is_separation; }));
 }
@@ -93,22 +98,27 @@ Ratios againstHalfSpace(const HeightMap& surface, const Options& options) {
   const Prediction prediction = AdhesionModel(options).predict(surface);
   const SolvedHalfSpace solved = halfSpaceOf(surface, options);
   EXPECT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
-  return {prediction.pull_off_force / solved.pull_off_force, prediction.contact_area / solved.contact_area,
+  return {prediction.pull_off_force / solved.pull_off_force,
+          prediction.contact_area / solved.contact_area,
           prediction.apparent_work_of_adhesion / solved.work_of_adhesion};
 }
 
 TEST(SoftTips, holdAsInTheHalfSpace) {
-  // Tabor parameters of 1.6 to 1.9: let go where they would on the loading branch, they hold 0.83 to 0.86, the paraboloid's work is 0.79
-  for (const Tip& tip : {Tip{2.0, 3e-9, 5e9}, {1.5, 3e-9, 5e9}, {1.3, 3e-9, 5e9}, {1.3, 6e-9, 5e9}}) {
+  // Tabor parameters of 1.6 to 1.9: let go where they would on the loading branch, they hold 0.83
+  // to 0.86, the paraboloid's work is 0.79
+  for (const Tip& tip :
+       {Tip{2.0, 3e-9, 5e9}, {1.5, 3e-9, 5e9}, {1.3, 3e-9, 5e9}, {1.3, 6e-9, 5e9}}) {
     SCOPED_TRACE(testing::Message() << "exponent " << tip.exponent << ", height " << tip.height);
-    const Ratios ratios = againstHalfSpace(summit(tip.exponent, tip.height, 40e-9, 128, 1e-9), elastic(tip.modulus));
+    const Ratios ratios =
+        againstHalfSpace(summit(tip.exponent, tip.height, 40e-9, 128, 1e-9), elastic(tip.modulus));
     EXPECT_NEAR(ratios.pull_off, 1.0, 0.07);
     EXPECT_NEAR(ratios.work, 1.0, 0.13);
   }
 }
 
 TEST(Shoulders, thatAContactHasOpenedDoNotAttract) {
-  // a stiff tip with shoulders: attracted by all of the undeformed gap it would touch on a quarter more
+  // a stiff tip with shoulders: attracted by all of the undeformed gap it would touch on a quarter
+  // more
   const Ratios ratios = againstHalfSpace(summit(1.3, 6e-9, 40e-9, 128, 1e-9), elastic(20e9));
   EXPECT_NEAR(ratios.area, 1.0, 0.12);
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.08);
@@ -128,8 +138,8 @@ HeightMap punch(double radius, int pixels, double pitch) {
 class FlatPunch : public testing::TestWithParam<double> {};
 
 TEST_P(FlatPunch, letsGoFromItsEdge) {
-  // from the strength of the law on all of its area to Griffith's crack around it, sqrt(8 pi E Gamma a^3): by its radius
-  // over the one at which both are the same
+  // from the strength of the law on all of its area to Griffith's crack around it, sqrt(8 pi E
+  // Gamma a^3): by its radius over the one at which both are the same
   const double radius = 40e-9;
   const Options law = elastic(1e9);
   const double strength = 16.0 * kWork / (9.0 * std::sqrt(3.0) * rangeOf(law));
@@ -144,7 +154,8 @@ TEST_P(FlatPunch, letsGoFromItsEdge) {
   const Ratios ratios = againstHalfSpace(surface, options);
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.12);
   EXPECT_NEAR(ratios.work, 1.0, 0.1);
-  // wider than a0 it parts by a crack, and what roughness and outline make of that the curve does not know
+  // wider than a0 it parts by a crack, and what roughness and outline make of that the curve does
+  // not know
   if (GetParam() != 1.0) {
     EXPECT_EQ(prediction.model.doubt != nullptr, GetParam() > 1.0);
   }
@@ -153,7 +164,8 @@ TEST_P(FlatPunch, letsGoFromItsEdge) {
 INSTANTIATE_TEST_SUITE_P(RadiusOverEven, FlatPunch, testing::Values(0.1, 1.0, 10.0));
 
 TEST(Doubt, isOfForcesThatAreDifferences) {
-  // what is subtracted raises the force's exponent with the work of adhesion above 1; what wide contacts leave of the limit is less
+  // what is subtracted raises the force's exponent with the work of adhesion above 1; what wide
+  // contacts leave of the limit is less
   GaussianSurfaceOptions rough;
   rough.rows = rough.cols = 96;
   rough.pitch_x = rough.pitch_y = 2e-9;
@@ -182,7 +194,8 @@ TEST(Decision, aTallSummitKeepsSurfacesApartThatWouldHoldIfTheyMet) {
   for (int row = 0; row < 128; ++row) {
     for (int col = 0; col < 128; ++col) {
       const double square = (std::pow(row - 64, 2.0) + std::pow(col - 64, 2.0)) / 36.0;
-      heights(row, col) = 7e-9 * std::exp(-0.5 * square) + 5e-11 * std::sin(0.4 * row) * std::sin(0.5 * col);
+      heights(row, col) =
+          7e-9 * std::exp(-0.5 * square) + 5e-11 * std::sin(0.4 * row) * std::sin(0.5 * col);
     }
   }
   const Options options = elastic(5e9);
@@ -195,10 +208,13 @@ TEST(Decision, aTallSummitKeepsSurfacesApartThatWouldHoldIfTheyMet) {
 }
 
 TEST(Decision, candidatesMeetWhereItFalls) {
-  // a wave that is flattened for a little less and a little more than three quarters of what adhesion gives
+  // a wave that is flattened for a little less and a little more than three quarters of what
+  // adhesion gives
   const double pitch = 1e-9;
   const Options options = elastic(100e9);
-  const auto waveOf = [&](double amplitude) { return analytic::sine(64, 64, pitch, pitch, amplitude, 1, 0); };
+  const auto waveOf = [&](double amplitude) {
+    return analytic::sine(64, 64, pitch, pitch, amplitude, 1, 0);
+  };
   const double amplitude = 0.5e-9;
   const double ratio = AdhesionModel(options).predict(waveOf(amplitude)).flattening_ratio;
   for (const double wanted : {0.74, 0.76}) {
@@ -211,13 +227,15 @@ TEST(Decision, candidatesMeetWhereItFalls) {
   }
 }
 
-/// Egg boxes of this amplitude [m] and wavelength [pixels], 64 x 64 of them, up to `rough_cols` columns and
-/// `rough_rows` rows; the rest is a hundredth of them, at another level [m].
-HeightMap roughBesideSmooth(double amplitude, double wave, int rough_rows, int rough_cols, double level, double pitch) {
+/// Egg boxes of this amplitude [m] and wavelength [pixels], 64 x 64 of them, up to `rough_cols`
+/// columns and `rough_rows` rows; the rest is a hundredth of them, at another level [m].
+HeightMap roughBesideSmooth(double amplitude, double wave, int rough_rows, int rough_cols,
+                            double level, double pitch) {
   cv::Mat1d heights(64, 64);
   for (int row = 0; row < heights.rows; ++row) {
     for (int col = 0; col < heights.cols; ++col) {
-      const double rough = amplitude * std::cos(2.0 * kPi * row / wave) * std::cos(2.0 * kPi * col / wave);
+      const double rough =
+          amplitude * std::cos(2.0 * kPi * row / wave) * std::cos(2.0 * kPi * col / wave);
       heights(row, col) = row < rough_rows && col < rough_cols ? rough : level + 0.01 * rough;
     }
   }
@@ -226,7 +244,8 @@ HeightMap roughBesideSmooth(double amplitude, double wave, int rough_rows, int r
 
 TEST(ChangingTexture, aSmoothPlaceThatClosesByItselfIsDoubted) {
   const Options options = elastic(40e9);
-  // as a whole far from bonding; the smooth part holds four times what the contacts of the rough one do
+  // as a whole far from bonding; the smooth part holds four times what the contacts of the rough
+  // one do
   const HeightMap surface = roughBesideSmooth(1e-9, 12, 38, 64, 0.6e-9, 2e-9);
   const Prediction prediction = AdhesionModel(options).predict(surface);
   EXPECT_GT(prediction.flattening_ratio, 10.0);
@@ -256,7 +275,8 @@ TEST(ChangingTexture, bondedSurfacesAreDoubtedWhereAPartIsRougher) {
   EXPECT_TRUE(prediction.is_conforming);
   EXPECT_GT(againstHalfSpace(changing, options).pull_off, 1.3);
   EXPECT_NE(prediction.model.doubt, nullptr);
-  const Prediction alike = AdhesionModel(options).predict(roughBesideSmooth(0.15e-9, 16, 64, 64, 0.0, 1e-9));
+  const Prediction alike =
+      AdhesionModel(options).predict(roughBesideSmooth(0.15e-9, 16, 64, 64, 0.0, 1e-9));
   EXPECT_TRUE(alike.is_conforming);
   EXPECT_EQ(alike.model.doubt, nullptr);
 }
@@ -269,7 +289,8 @@ TEST(ChangingTexture, framesOfAnyShapeAndWithHolesArePredicted) {
     cv::Mat1d heights(size);
     for (int row = 0; row < size.height; ++row) {
       for (int col = 0; col < size.width; ++col) {
-        heights(row, col) = range * ((col < size.width / 2) ? 0.01 : 1.0) * std::sin(1.1 * row) * std::cos(0.7 * col);
+        heights(row, col) = range * ((col < size.width / 2) ? 0.01 : 1.0) * std::sin(1.1 * row) *
+                            std::cos(0.7 * col);
         if (size.height > 20 && size.width > 20 && row < size.height / 2 && col < size.width / 4) {
           heights(row, col) = std::nan("");
         }

@@ -1,4 +1,5 @@
-/// A relief on springs: the law alone where nothing gives way, the energy of flattening where all is flat.
+/// A relief on springs: the law alone where nothing gives way, the energy of flattening where all
+/// is flat.
 
 #include <cmath>
 #include <limits>
@@ -30,12 +31,14 @@ TEST(SpringContact, aPlaneHasTheStrengthAndTheEnergyOfTheLaw) {
 }
 
 TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
-  // two heights, half of the cells each, h apart: sigma = h/2, and springs of k store k sigma^2/2 = U
+  // two heights, half of the cells each, h apart: sigma = h/2, and springs of k store k sigma^2/2 =
+  // U
   const double height = 0.4e-9;
   const double flattening = 0.01;
   const double stiffness = 2.0 * flattening / (0.25 * height * height);
   const auto branch = springBranch({{0.0, 0.5}, {height, 0.5}}, law(), stiffness);
-  // all else but the give of the law, some U/(Gamma 27/...) of it: a stiff law would give exactly Gamma - U
+  // all else but the give of the law, some U/(Gamma 27/...) of it: a stiff law would give exactly
+  // Gamma - U
   EXPECT_NEAR(-restOf(branch, 0.0)->energy, 0.05 - flattening, 0.1 * flattening);
 }
 

@@ -1,4 +1,5 @@
-/// YAML that contains itself, or that stands for more than memory holds, is refused wherever the core reads YAML.
+/// YAML that contains itself, or that stands for more than memory holds, is refused wherever the
+/// core reads YAML.
 
 #include "settings/yaml_text.hpp"
 
@@ -45,33 +46,43 @@ std::string anchorBomb(const std::string& open, const std::string& close, const 
 }
 
 TEST(YamlText, WhatContainsItselfIsRefusedWithItsLine) {
-  for (const char* text : {"scan: &x {b: *x}", "scan: &x [*x]", "&x\na: *x", "scan: &x {b: {c: [1, *x]}}",
-                           "scan: &x\n  ? *x\n  : 1", "a: &x 1\nscan: &x {b: *x}"}) {
-    EXPECT_NE(parseError(text).find("so that the text contains itself; must not"), std::string::npos) << text;
+  for (const char* text :
+       {"scan: &x {b: *x}", "scan: &x [*x]", "&x\na: *x", "scan: &x {b: {c: [1, *x]}}",
+        "scan: &x\n  ? *x\n  : 1", "a: &x 1\nscan: &x {b: *x}"}) {
+    EXPECT_NE(parseError(text).find("so that the text contains itself; must not"),
+              std::string::npos)
+        << text;
   }
-  EXPECT_EQ(parseError("load:\n  a: &x\n    b: *x\n").rfind("a.yaml: line 3: an alias stands inside what it names", 0),
+  EXPECT_EQ(parseError("load:\n  a: &x\n    b: *x\n")
+                .rfind("a.yaml: line 3: an alias stands inside what it names", 0),
             0u);
 }
 
 TEST(YamlText, AliasesForMoreThanMemoryHoldsAreRefused) {
-  EXPECT_NE(parseError(anchorBomb("[", "]", "")).find("values, as aliases stand for many"), std::string::npos);
-  EXPECT_NE(parseError(anchorBomb("{", "}", "k: ")).find("values, as aliases stand for many"), std::string::npos);
+  EXPECT_NE(parseError(anchorBomb("[", "]", "")).find("values, as aliases stand for many"),
+            std::string::npos);
+  EXPECT_NE(parseError(anchorBomb("{", "}", "k: ")).find("values, as aliases stand for many"),
+            std::string::npos);
   std::string of_text = "a: &a " + std::string(100000, 'x') + "\nb: [";
   for (int i = 0; i < 100; ++i) of_text += "*a, ";
   EXPECT_NE(parseError(of_text + "1]").find("bytes, as aliases stand for many"), std::string::npos);
 }
 
 TEST(YamlText, LevelsEndWithAliasesOrWithout) {
-  const auto nested = [](int levels) { return std::string(levels, '[') + "1" + std::string(levels, ']'); };
+  const auto nested = [](int levels) {
+    return std::string(levels, '[') + "1" + std::string(levels, ']');
+  };
   EXPECT_EQ(parseError(nested(kMaxYamlDepth)), "no error");
   EXPECT_NE(parseError(nested(kMaxYamlDepth + 1)).find("more than 32 levels"), std::string::npos);
   EXPECT_NE(parseError(nested(400000)).find("more than 32 levels"), std::string::npos);
-  EXPECT_NE(parseError("a: &a " + nested(20) + "\nb: [[[[[[[[[[[[[*a]]]]]]]]]]]]]").find("more than 32 levels"),
+  EXPECT_NE(parseError("a: &a " + nested(20) + "\nb: [[[[[[[[[[[[[*a]]]]]]]]]]]]]")
+                .find("more than 32 levels"),
             std::string::npos);
 }
 
 TEST(YamlText, AliasesInMeasureServe) {
-  const YAML::Node tree = parseYaml("lower: &film {hardness: 2e9}\nupper: *film\nx: &y 1\nz: [*y, *y]\n", "a.yaml");
+  const YAML::Node tree =
+      parseYaml("lower: &film {hardness: 2e9}\nupper: *film\nx: &y 1\nz: [*y, *y]\n", "a.yaml");
   EXPECT_EQ(tree["upper"]["hardness"].as<double>(), 2e9);
   EXPECT_EQ(tree["z"].size(), 2u);
   EXPECT_TRUE(parseYaml("", "a.yaml").IsNull());
@@ -79,7 +90,8 @@ TEST(YamlText, AliasesInMeasureServe) {
 
 TEST(YamlText, WhatIsNoYamlIsSaidInWords) {
   EXPECT_EQ(parseError("a: [1, 2").rfind("a.yaml: not valid YAML: ", 0), 0u);
-  EXPECT_EQ(parseError("a: 1\n\tb: 2").rfind("a.yaml: not valid YAML: line 2 begins with a tab", 0), 0u);
+  EXPECT_EQ(parseError("a: 1\n\tb: 2").rfind("a.yaml: not valid YAML: line 2 begins with a tab", 0),
+            0u);
   EXPECT_EQ(parseError("a: [1\x01").rfind("a.yaml: is not a text", 0), 0u);
 }
 
@@ -108,7 +120,8 @@ TEST(YamlText, ATreeThatContainsItselfIsRefusedWhoeverHasMadeIt) {
     for (int i = 0; i < 10; ++i) above["k" + std::to_string(i)] = bomb;
     bomb = above;
   }
-  EXPECT_NE(errorOf([&] { configurationFromYaml(bomb); }).find("more than 100000 keys are given"), std::string::npos);
+  EXPECT_NE(errorOf([&] { configurationFromYaml(bomb); }).find("more than 100000 keys are given"),
+            std::string::npos);
 }
 
 TEST(YamlText, ManyComplaintsAreAFew) {
@@ -116,7 +129,9 @@ TEST(YamlText, ManyComplaintsAreAFew) {
   for (int i = 0; i < 20000; ++i) twice += "a: 1\n";
   EXPECT_LT(errorOf([&] { configurationFromYaml(parseYaml(twice, "a")); }).size(), 20000u);
   const std::string long_key(500000, 'k');
-  EXPECT_LT(errorOf([&] { configurationFromYaml(parseYaml(long_key + ": {a: 1, b: 1}", "a")); }).size(), 20000u);
+  EXPECT_LT(
+      errorOf([&] { configurationFromYaml(parseYaml(long_key + ": {a: 1, b: 1}", "a")); }).size(),
+      20000u);
 }
 
 }  // namespace

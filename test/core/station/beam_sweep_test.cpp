@@ -31,12 +31,14 @@ HeightMap rough() {
 
 LoadSweepRequest upTo(double voltage, int count, double load = 0.0) {
   LoadSweepRequest request;
-  for (int i = 0; i < count; ++i) request.voltages.push_back(count > 1 ? voltage * i / (count - 1) : voltage);
+  for (int i = 0; i < count; ++i)
+    request.voltages.push_back(count > 1 ? voltage * i / (count - 1) : voltage);
   request.mechanical_loads = {load};
   return request;
 }
 
-/// A beam with a pad of the scan's area that pulls with `force`, above an electrode along half of it.
+/// A beam with a pad of the scan's area that pulls with `force`, above an electrode along half of
+/// it.
 DeviceOptions beamFor(const HeightMap& scan, BeamType type, double force) {
   DeviceOptions device;
   device.beam_type = type;
@@ -55,11 +57,13 @@ DeviceOptions beamFor(const HeightMap& scan, BeamType type, double force) {
 TEST(BeamSweep, landsAtItsPullInAndIsHeldByAdhesionAndField) {
   const HeightMap scan = rough();
   const Options options = insulated();
-  const double adhesion = sweepLoads(options, scan, upTo(0.0, 1), DeviceOptions(), {}, {}).rows[0].pull_off_force;
+  const double adhesion =
+      sweepLoads(options, scan, upTo(0.0, 1), DeviceOptions(), {}, {}).rows[0].pull_off_force;
   for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
     const DeviceOptions device = beamFor(scan, type, 4.0 * adhesion);
     const double pull_in = closingVoltage(device, options.interface);
-    const LoadSweepResult result = sweepLoads(options, scan, upTo(1.2 * pull_in, 25), device, {}, {});
+    const LoadSweepResult result =
+        sweepLoads(options, scan, upTo(1.2 * pull_in, 25), device, {}, {});
     EXPECT_EQ(result.pull_in_voltage, pull_in);
     EXPECT_EQ(result.pull_in_reason, "");
     const double opening = result.summaries[0].opening_voltage;
@@ -69,7 +73,8 @@ TEST(BeamSweep, landsAtItsPullInAndIsHeldByAdhesionAndField) {
     for (const LoadSweepRow& row : result.rows) {
       const bool is_up = row.direction == SweepDirection::kUp;
       EXPECT_EQ(row.is_open, !is_up && row.voltage <= opening) << row.voltage;
-      EXPECT_EQ(row.lands == Lands::kYes, is_up ? row.voltage >= pull_in : row.voltage > opening) << row.voltage;
+      EXPECT_EQ(row.lands == Lands::kYes, is_up ? row.voltage >= pull_in : row.voltage > opening)
+          << row.voltage;
       EXPECT_NE(row.lands, Lands::kUnknown);
       if (row.is_open) continue;
       EXPECT_FALSE(row.is_peeled);
@@ -78,8 +83,10 @@ TEST(BeamSweep, landsAtItsPullInAndIsHeldByAdhesionAndField) {
       at_voltage.load.voltage = is_up ? row.voltage : 1.2 * pull_in;
       const double mean_gap = AdhesionModel(at_voltage).predict(scan).mean_gap;
       const double field =
-          fieldHold(device.beam(), *electrodeOf(device, options.interface), row.voltage, mean_gap).force;
-      EXPECT_NEAR(row.holding_margin, device.restoringForce() / (row.pull_off_force + field), 1e-9) << row.voltage;
+          fieldHold(device.beam(), *electrodeOf(device, options.interface), row.voltage, mean_gap)
+              .force;
+      EXPECT_NEAR(row.holding_margin, device.restoringForce() / (row.pull_off_force + field), 1e-9)
+          << row.voltage;
       if (is_up) continue;
       EXPECT_GE(row.holding_margin, before);
       before = row.holding_margin;
@@ -97,7 +104,8 @@ TEST(BeamSweep, withoutAPadIsJudgedAndHeldByPeeling) {
     for (const double peel_number : {2.0, 0.5}) {
       device.apparent_work_of_adhesion = own_work / peel_number;
       const double pull_in = closingVoltage(device, options.interface);
-      const LoadSweepResult result = sweepLoads(options, scan, upTo(1.2 * pull_in, 13), device, {}, {});
+      const LoadSweepResult result =
+          sweepLoads(options, scan, upTo(1.2 * pull_in, 13), device, {}, {});
       const LoadSweepSummary& summary = result.summaries[0];
       EXPECT_EQ(std::isnan(summary.highest_releasing_voltage), peel_number < 1.0);
       EXPECT_EQ(std::isnan(summary.lowest_sticking_voltage), peel_number > 1.0);
@@ -129,11 +137,14 @@ TEST(BeamSweep, saysWhatItsLandingLacks) {
   const LoadSweepRow& row = result.rows[1];
   EXPECT_EQ(row.lands, Lands::kUnknown);
   // as of a spring without an electrode: the scan's field and load, which have the size of the pad
-  EXPECT_NEAR(row.holding_margin * (row.pull_off_force + row.electrostatic_force + 1e-7) / device.restoringForce(), 1.0,
-              1e-9);
+  EXPECT_NEAR(row.holding_margin * (row.pull_off_force + row.electrostatic_force + 1e-7) /
+                  device.restoringForce(),
+              1.0, 1e-9);
   device.contact_area = 0.0;
-  const LoadSweepResult by_work = sweepLoads(insulated(), scan, upTo(20.0, 3, 1e-7), device, {}, {});
-  EXPECT_TRUE(std::isnan(by_work.rows[1].holding_margin)) << "a load in newtons on a beam whose contact has no area";
+  const LoadSweepResult by_work =
+      sweepLoads(insulated(), scan, upTo(20.0, 3, 1e-7), device, {}, {});
+  EXPECT_TRUE(std::isnan(by_work.rows[1].holding_margin))
+      << "a load in newtons on a beam whose contact has no area";
   EXPECT_FALSE(std::isnan(by_work.rows[1].peel_number));
 }
 

@@ -57,8 +57,10 @@ TEST(ContactCycles, firstContactIsThePrediction) {
   const ContactCyclesResult result = cycled(options, rough(), 1);
   EXPECT_EQ(result.cycles[0].pull_off_force, prediction.pull_off_force);
   EXPECT_EQ(result.cycles[0].contact_area, prediction.contact_area);
-  EXPECT_EQ(cv::norm(result.surfaces.lower.heights(), prediction.deformed_lower, cv::NORM_INF), 0.0);
-  EXPECT_EQ(cv::norm(result.surfaces.upper.heights(), prediction.deformed_upper, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(result.surfaces.lower.heights(), prediction.deformed_lower, cv::NORM_INF),
+            0.0);
+  EXPECT_EQ(cv::norm(result.surfaces.upper.heights(), prediction.deformed_upper, cv::NORM_INF),
+            0.0);
 }
 
 TEST(ContactCycles, eachStartsFromTheSurfacesThatTheLastOneLeft) {
@@ -68,7 +70,8 @@ TEST(ContactCycles, eachStartsFromTheSurfacesThatTheLastOneLeft) {
   const ContactCyclesResult next = cycleContacts(options, one.surfaces, 1, DeviceOptions(), {}, {});
   EXPECT_EQ(two.cycles[1].pull_off_force, next.cycles[0].pull_off_force);
   EXPECT_EQ(two.cycles[1].rms_height, next.cycles[0].rms_height);
-  EXPECT_EQ(cv::norm(two.surfaces.lower.heights(), next.surfaces.lower.heights(), cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(two.surfaces.lower.heights(), next.surfaces.lower.heights(), cv::NORM_INF),
+            0.0);
 }
 
 TEST(ContactCycles, softSurfacesFlattenHoldMoreAndShakeDown) {
@@ -96,7 +99,8 @@ TEST(ContactCycles, namesTheFirstThatSticks) {
   DeviceOptions device;
   device.travel = 1e-6;
   device.contact_area = scan.cellArea() * scan.rows() * scan.cols();
-  device.spring_stiffness = 1e6 * cycled(options, scan, 1).cycles[0].pull_off_force;  // margin 1 in the first contact
+  device.spring_stiffness =
+      1e6 * cycled(options, scan, 1).cycles[0].pull_off_force;  // margin 1 in the first contact
   const ContactCyclesResult close = cycled(options, scan, 2, device);
   EXPECT_NEAR(close.cycles[0].margin, 1.0, 1e-9);
   EXPECT_EQ(close.cycles[0].sticks, Sticks::kMarginal);
@@ -142,13 +146,16 @@ TEST(ContactCycles, reportsProgressAndStopsWhenToldTo) {
     EXPECT_EQ(total, 10);
     cancel = done == 3;
   };
-  const ContactCyclesResult result = cycleContacts(pressed(3e9), rough(), 10, DeviceOptions(), {}, control);
+  const ContactCyclesResult result =
+      cycleContacts(pressed(3e9), rough(), 10, DeviceOptions(), {}, control);
   EXPECT_FALSE(result.is_complete);
   EXPECT_EQ(result.cycles.size(), 3u);
   EXPECT_FALSE(result.surfaces.lower.empty());
 }
 
-TEST(ContactCycles, refusesACountBelowOne) { EXPECT_THROW(cycled(pressed(3e9), rough(), 0), OptionsError); }
+TEST(ContactCycles, refusesACountBelowOne) {
+  EXPECT_THROW(cycled(pressed(3e9), rough(), 0), OptionsError);
+}
 
 }  // namespace
 }  // namespace mems_stiction

@@ -57,14 +57,16 @@ TEST(RemainingContact, elasticContactFollowsJkrDown) {
     const RemainingState state = remaining.advance(0.0, load);
     EXPECT_FALSE(state.is_searched);
     EXPECT_EQ(state.normal_load, load);
-    const double a =
-        jkr::equilibriumContactRadius(load * std::cos(asperity.tilt), 0.05, asperity.composite_radius, modulus);
+    const double a = jkr::equilibriumContactRadius(load * std::cos(asperity.tilt), 0.05,
+                                                   asperity.composite_radius, modulus);
     EXPECT_NEAR(state.contact_area_jkr, kPi * a * a, kRoundOff * kPi * a * a);
-    // a search from first touch at this load finds the same contact: JKR has no hysteresis while it presses
+    // a search from first touch at this load finds the same contact: JKR has no hysteresis while it
+    // presses
     Options at_load = options;
     at_load.load.mechanical_load = load;
     const Prediction searched = AdhesionModel(at_load).predict(sphere());
-    EXPECT_NEAR(state.contact_area_jkr, searched.contact_area_jkr, 0.05 * searched.contact_area_jkr);  // 20 pixels
+    EXPECT_NEAR(state.contact_area_jkr, searched.contact_area_jkr,
+                0.05 * searched.contact_area_jkr);  // 20 pixels
   }
 }
 
@@ -76,7 +78,8 @@ TEST(RemainingContact, flattenedContactKeepsItsArea) {
   const RemainingState largest = remaining.advance(0.0, 1e-5);
   ASSERT_EQ(remaining.contact().plastic_count, 1);
   const RemainingState back = remaining.advance(0.0, 1e-7);
-  EXPECT_NEAR(back.contact_area_jkr, largest.contact_area_jkr, kRoundOff * largest.contact_area_jkr);
+  EXPECT_NEAR(back.contact_area_jkr, largest.contact_area_jkr,
+              kRoundOff * largest.contact_area_jkr);
 }
 
 TEST(RemainingContact, fieldFollowsTheSquareOfTheVoltage) {
@@ -85,7 +88,8 @@ TEST(RemainingContact, fieldFollowsTheSquareOfTheVoltage) {
   const RemainingState at_four = remaining.advance(4.0, 0.0);
   EXPECT_TRUE(at_ten.is_searched);
   EXPECT_FALSE(at_four.is_searched);
-  EXPECT_NEAR(at_four.electrostatic_force, 0.16 * at_ten.electrostatic_force, kRoundOff * at_ten.electrostatic_force);
+  EXPECT_NEAR(at_four.electrostatic_force, 0.16 * at_ten.electrostatic_force,
+              kRoundOff * at_ten.electrostatic_force);
   EXPECT_EQ(remaining.advance(0.0, 0.0).electrostatic_force, 0.0);
 }
 
@@ -107,7 +111,8 @@ TEST(RemainingContact, aSmallerContactDoesNotReplaceALargerOne) {
   RemainingContact remaining(insulated(), rough());
   remaining.advance(0.0, 1e-4);
   const double pull_off = remaining.contact().pull_off_force;
-  const RemainingState state = remaining.advance(1.0, 0.0);  // a voltage not seen before, but far weaker
+  const RemainingState state =
+      remaining.advance(1.0, 0.0);  // a voltage not seen before, but far weaker
   EXPECT_FALSE(state.is_searched);
   EXPECT_EQ(remaining.contact().pull_off_force, pull_off);
   EXPECT_GT(state.electrostatic_force, 0.0);
@@ -115,7 +120,8 @@ TEST(RemainingContact, aSmallerContactDoesNotReplaceALargerOne) {
 
 LoadSweepRequest upTo(double voltage, int count, std::vector<double> loads = {0.0}) {
   LoadSweepRequest request;
-  for (int i = 0; i < count; ++i) request.voltages.push_back(count > 1 ? voltage * i / (count - 1) : voltage);
+  for (int i = 0; i < count; ++i)
+    request.voltages.push_back(count > 1 ? voltage * i / (count - 1) : voltage);
   request.mechanical_loads = std::move(loads);
   return request;
 }
@@ -131,14 +137,16 @@ TEST(LoadSweep, contactFractionIsThatOfThePredictionToTheBit) {
         Options one = options;
         one.load.voltage = row.voltage;
         one.load.mechanical_load = load;
-        EXPECT_EQ(row.contact_fraction, AdhesionModel(one).predict(rough()).contact_fraction) << formulation << load;
+        EXPECT_EQ(row.contact_fraction, AdhesionModel(one).predict(rough()).contact_fraction)
+            << formulation << load;
       }
     }
   }
 }
 
 TEST(LoadSweep, showsHysteresisOnARoughSurface) {
-  const LoadSweepResult result = sweepLoads(insulated(), rough(), upTo(40.0, 5, {0.0, 1e-6}), DeviceOptions(), {}, {});
+  const LoadSweepResult result =
+      sweepLoads(insulated(), rough(), upTo(40.0, 5, {0.0, 1e-6}), DeviceOptions(), {}, {});
   ASSERT_TRUE(result.is_complete);
   ASSERT_EQ(result.rows.size(), 18u);
   ASSERT_EQ(result.summaries.size(), 2u);
@@ -154,7 +162,8 @@ TEST(LoadSweep, showsHysteresisOnARoughSurface) {
       EXPECT_GT(down.pull_off_force, up.pull_off_force);
       EXPECT_GT(down.contact_area_jkr, up.contact_area_jkr);
       EXPECT_EQ(down.pull_off_force, result.rows[begin + 4].pull_off_force);
-      EXPECT_LT(down.contact_area_jkr, result.rows[begin + 9 - 1 - i - 1].contact_area_jkr);  // the row before it
+      EXPECT_LT(down.contact_area_jkr,
+                result.rows[begin + 9 - 1 - i - 1].contact_area_jkr);  // the row before it
     }
   }
   EXPECT_TRUE(std::isnan(result.rows[0].margin));  // no device
@@ -164,14 +173,16 @@ TEST(LoadSweep, showsHysteresisOnARoughSurface) {
 
 TEST(LoadSweep, findsTheHighestVoltageThatReleases) {
   const HeightMap scan = rough();
-  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(40.0, 5), DeviceOptions(), {}, {});
+  const LoadSweepResult plain =
+      sweepLoads(insulated(), scan, upTo(40.0, 5), DeviceOptions(), {}, {});
   const double between = 0.5 * (plain.rows[2].pull_off_force + plain.rows[3].pull_off_force);
   DeviceOptions device = deviceFor(scan, between);
   device.electrode_area = 1e-8;
   const LoadSweepResult result = sweepLoads(insulated(), scan, upTo(40.0, 5), device, {}, {});
   EXPECT_EQ(result.summaries[0].highest_releasing_voltage, 20.0);
   EXPECT_EQ(result.summaries[0].lowest_sticking_voltage, 30.0);
-  EXPECT_FALSE(result.summaries[0].highest_safe_voltage > 20.0);  // NaN or lower: the interval is wider
+  EXPECT_FALSE(result.summaries[0].highest_safe_voltage >
+               20.0);  // NaN or lower: the interval is wider
   EXPECT_NEAR(result.rows[2].margin, between / plain.rows[2].pull_off_force, 1e-9);
   EXPECT_EQ(result.pull_in_voltage, closingVoltage(device, insulated().interface));
 }
@@ -183,7 +194,8 @@ TEST(LoadSweep, theSummaryFollowsFromTheVerdictsOfItsRows) {
     double highest_safe;
     double lowest_safe;
   };
-  const Sticks no = Sticks::kNo, marginal = Sticks::kMarginal, unknown = Sticks::kUnknown, yes = Sticks::kYes;
+  const Sticks no = Sticks::kNo, marginal = Sticks::kMarginal, unknown = Sticks::kUnknown,
+               yes = Sticks::kYes;
   for (const Case& one : {Case{{no, no, no}, 20.0, 0.0},
                           {{no, no, unknown}, 10.0, 0.0},
                           {{no, unknown, no}, 0.0, 0.0},
@@ -216,28 +228,34 @@ TEST(LoadSweep, theSummaryFollowsFromTheVerdictsOfItsRows) {
 
 TEST(LoadSweep, theForceHasItsIntervalWithADeviceAndWithout) {
   const HeightMap scan = rough();
-  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
-  const LoadSweepResult judged = sweepLoads(insulated(), scan, upTo(20.0, 2), deviceFor(scan, 1e-5), {}, {});
+  const LoadSweepResult plain =
+      sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
+  const LoadSweepResult judged =
+      sweepLoads(insulated(), scan, upTo(20.0, 2), deviceFor(scan, 1e-5), {}, {});
   for (std::size_t i = 0; i < plain.rows.size(); ++i) {
     const LoadSweepRow& row = judged.rows[i];
     if (row.is_open) continue;
     EXPECT_LT(row.pull_off_interval.lower, row.pull_off_force);
     EXPECT_GT(row.pull_off_interval.upper, row.pull_off_force);
     EXPECT_EQ(row.pull_off_interval.upper, plain.rows[i].pull_off_interval.upper);
-    // the margin is the restoring force over the pull-off force: their intervals are each other's inverse
+    // the margin is the restoring force over the pull-off force: their intervals are each other's
+    // inverse
     EXPECT_NEAR(row.margin_upper / row.margin, row.pull_off_force / row.pull_off_interval.lower,
                 kRoundOff * row.margin_upper);
-    EXPECT_NEAR(row.margin_lower / row.margin, row.pull_off_force / row.pull_off_interval.upper, kRoundOff);
+    EXPECT_NEAR(row.margin_lower / row.margin, row.pull_off_force / row.pull_off_interval.upper,
+                kRoundOff);
   }
 }
 
 TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
   const HeightMap scan = sphere();
-  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(20.0, 11), DeviceOptions(), {}, {});
+  const LoadSweepResult plain =
+      sweepLoads(insulated(), scan, upTo(20.0, 11), DeviceOptions(), {}, {});
   const LoadSweepRow& top = plain.rows[10];
   // pull-off and the field of 9 V: opens at the next lower voltage of the grid, 8 V
   const double force = top.pull_off_force + top.electrostatic_force * 81.0 / 400.0;
-  const LoadSweepResult result = sweepLoads(insulated(), scan, upTo(20.0, 11), deviceFor(scan, force), {}, {});
+  const LoadSweepResult result =
+      sweepLoads(insulated(), scan, upTo(20.0, 11), deviceFor(scan, force), {}, {});
   EXPECT_EQ(result.summaries[0].opening_voltage, 8.0);
   for (const LoadSweepRow& row : result.rows) {
     const bool opens = row.direction == SweepDirection::kDown && row.voltage <= 8.0;
@@ -248,10 +266,11 @@ TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
 
 TEST(LoadSweep, mechanicalLoadHoldsTheDeviceToo) {
   const HeightMap scan = sphere();
-  const LoadSweepResult plain = sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}), DeviceOptions(), {}, {});
+  const LoadSweepResult plain =
+      sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}), DeviceOptions(), {}, {});
   const double pull_off = plain.rows[0].pull_off_force;
-  const LoadSweepResult result =
-      sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}), deviceFor(scan, pull_off + 1e-6), {}, {});
+  const LoadSweepResult result = sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}),
+                                            deviceFor(scan, pull_off + 1e-6), {}, {});
   EXPECT_NEAR(result.rows[0].holding_margin, 1.0, kRoundOff);
   EXPECT_NEAR(result.rows[0].margin, (pull_off + 1e-6) / pull_off, 1e-9);
 }
@@ -288,17 +307,21 @@ TEST(LoadSweep, fieldOfAStatedElectrodeHoldsTheDevice) {
   Options at_ten = insulated();
   at_ten.load.voltage = 10.0;
   const double mean_gap = AdhesionModel(at_ten).predict(scan).mean_gap;
-  const double field = 1e-9 * surface_forces::electrostaticPressure(0.5e-6 + mean_gap, 10.0, 50 * kNm, 3.9);
+  const double field =
+      1e-9 * surface_forces::electrostaticPressure(0.5e-6 + mean_gap, 10.0, 50 * kNm, 3.9);
   EXPECT_NEAR(row.holding_margin, 1e-6 / (row.pull_off_force + field), 1e-9 * row.holding_margin);
 }
 
 TEST(LoadSweep, takesACounterSurface) {
   const HeightMap scan = rough();
   const HeightMap plane = analytic::flat(256, 256, scan.pitchX(), scan.pitchY(), 1e-6);
-  const LoadSweepResult flat = sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
-  const LoadSweepResult measured = sweepLoads(insulated(), {scan, plane}, upTo(20.0, 2), DeviceOptions(), {}, {});
+  const LoadSweepResult flat =
+      sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
+  const LoadSweepResult measured =
+      sweepLoads(insulated(), {scan, plane}, upTo(20.0, 2), DeviceOptions(), {}, {});
   // the same surfaces on another level: gaps differ by the round-off of heights of 1 um
-  EXPECT_NEAR(measured.rows[1].pull_off_force, flat.rows[1].pull_off_force, 1e-3 * flat.rows[1].pull_off_force);
+  EXPECT_NEAR(measured.rows[1].pull_off_force, flat.rows[1].pull_off_force,
+              1e-3 * flat.rows[1].pull_off_force);
 }
 
 TEST(LoadSweep, reportsProgressAndStopsWhenToldTo) {
@@ -311,7 +334,8 @@ TEST(LoadSweep, reportsProgressAndStopsWhenToldTo) {
     done.push_back(now);
     if (now == 4) cancel = true;
   };
-  const LoadSweepResult result = sweepLoads(insulated(), sphere(), upTo(20.0, 5), DeviceOptions(), {}, control);
+  const LoadSweepResult result =
+      sweepLoads(insulated(), sphere(), upTo(20.0, 5), DeviceOptions(), {}, control);
   EXPECT_FALSE(result.is_complete);
   EXPECT_EQ(result.rows.size(), 4u);
   EXPECT_TRUE(result.summaries.empty());
@@ -319,7 +343,8 @@ TEST(LoadSweep, reportsProgressAndStopsWhenToldTo) {
 }
 
 TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
-  const auto violations = [](std::vector<double> voltages, std::vector<double> loads, const Options& options) {
+  const auto violations = [](std::vector<double> voltages, std::vector<double> loads,
+                             const Options& options) {
     LoadSweepRequest request;
     request.voltages = std::move(voltages);
     request.mechanical_loads = std::move(loads);
@@ -336,9 +361,11 @@ TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
   const std::string of_many = violations(std::vector<double>(1000000, 5.0), {0.0}, insulated());
   EXPECT_EQ(of_many, "voltages: 5 V after 5 V is not allowed, must ascend (and 999998 more)");
   EXPECT_LT(violations(std::vector<double>(1000000, -5.0), {0.0}, insulated()).size(), 200U);
-  EXPECT_NE(violations({0.0}, {std::nan("")}, insulated()).find("mechanical_loads: nan"), std::string::npos);
+  EXPECT_NE(violations({0.0}, {std::nan("")}, insulated()).find("mechanical_loads: nan"),
+            std::string::npos);
   EXPECT_NE(violations({2000.0}, {0.0}, insulated()).find("load/voltage: 2000"), std::string::npos);
-  EXPECT_NE(violations({5.0}, {0.0}, paperOptions()).find("interface/insulator_thickness"), std::string::npos);
+  EXPECT_NE(violations({5.0}, {0.0}, paperOptions()).find("interface/insulator_thickness"),
+            std::string::npos);
 }
 
 TEST(LoadSweep, RefusesGridsWhoseRowsNoIntegerCounts) {

@@ -28,7 +28,8 @@ TEST(RemainingContact, onASlopeFollowsJkrOfTheLoadAlongItsAxis) {
   const Asperity& asperity = remaining.contact().asperities[0];
   const double modulus = ContactPair(Material(), Material()).contact_modulus;
   // cos(0.5) = 0.878; the tilt is measured within 0.2 degrees
-  const double a = jkr::equilibriumContactRadius(1e-6 * std::cos(0.5), kWork, asperity.composite_radius, modulus);
+  const double a = jkr::equilibriumContactRadius(1e-6 * std::cos(0.5), kWork,
+                                                 asperity.composite_radius, modulus);
   EXPECT_NEAR(released.contact_area_jkr, kPi * a * a, 2e-3 * kPi * a * a);
   EXPECT_NEAR(asperity.tilt, 0.5, 0.0035);
 }

@@ -75,7 +75,8 @@ TEST(Alignment, paraboloidsComeBackOffGridTurnedAndOnAnotherPitch) {
   const double y = 30e-9 * std::sin(0.4) - 20e-9 * std::cos(0.4) - 17e-9;
   const HeightMap expected = analytic::paraboloid(40, 50, 7e-9, 9e-9, 1e-6, x, y);
   EXPECT_GT(heightStatistics(found).valid_count, 1500);
-  EXPECT_LT(largestDifference(found.heights(), expected.heights()), 1e-11);  // linear within a pixel of the border
+  EXPECT_LT(largestDifference(found.heights(), expected.heights()),
+            1e-11);  // linear within a pixel of the border
   EXPECT_NEAR(found.height(20, 25), expected.height(20, 25), 1e-21);
   EXPECT_EQ(found.pitchX(), 7e-9);
 }
@@ -90,7 +91,8 @@ TEST(Alignment, thereAndBackIsTheSameSurface) {
   SurfacePose back;
   back.rotation = -0.3;
   const HeightMap found = alignedTo(surface, alignedTo(surface, surface, there), back);
-  EXPECT_LT(largestDifference(found.heights()(cv::Rect(50, 50, 60, 60)), surface.heights()(cv::Rect(50, 50, 60, 60))),
+  EXPECT_LT(largestDifference(found.heights()(cv::Rect(50, 50, 60, 60)),
+                              surface.heights()(cv::Rect(50, 50, 60, 60))),
             0.01 * options.rms_height);
 }
 
@@ -100,7 +102,8 @@ TEST(Alignment, tiltLiftsTheSideOfLargerColumnsAndRows) {
   pose.tilt_x = 0.02;
   pose.tilt_y = -0.01;
   const HeightMap tilted = alignedTo(scan, scan, pose);
-  const HeightMap expected = analytic::tiltedPlane(20, 31, 5e-9, 8e-9, std::tan(0.02), -std::tan(0.01));
+  const HeightMap expected =
+      analytic::tiltedPlane(20, 31, 5e-9, 8e-9, std::tan(0.02), -std::tan(0.01));
   EXPECT_LT(largestDifference(tilted.heights(), expected.heights()), 1e-22);
   EXPECT_LT(largestDifference(tiltedFlat(scan, 0.02, -0.01).heights(), expected.heights()), 1e-22);
   EXPECT_GT(tilted.height(0, 30), tilted.height(0, 0));

@@ -19,7 +19,8 @@ double bandGain(double wave_x, double wave_y, double power) {
 }
 
 /// The cells (row, col) to (row + size - 1, col + size - 1), block by block.
-std::vector<float> cells(const BlockConvolution& convolution, std::int64_t row, std::int64_t col, std::int64_t size) {
+std::vector<float> cells(const BlockConvolution& convolution, std::int64_t row, std::int64_t col,
+                         std::int64_t size) {
   NumberedNoise noise(11, 0);
   ConvolutionMemory memory;
   const std::int64_t rows = convolution.block().rows;
@@ -29,8 +30,10 @@ std::vector<float> cells(const BlockConvolution& convolution, std::int64_t row, 
   for (std::int64_t i = row / rows; i * rows < row + size; ++i) {
     for (std::int64_t j = col / cols; j * cols < col + size; ++j) {
       convolution.make(noise, i, j, memory, block.data());
-      for (std::int64_t y = std::max(row, i * rows); y < std::min(row + size, (i + 1) * rows); ++y) {
-        for (std::int64_t x = std::max(col, j * cols); x < std::min(col + size, (j + 1) * cols); ++x) {
+      for (std::int64_t y = std::max(row, i * rows); y < std::min(row + size, (i + 1) * rows);
+           ++y) {
+        for (std::int64_t x = std::max(col, j * cols); x < std::min(col + size, (j + 1) * cols);
+             ++x) {
           values[static_cast<std::size_t>((y - row) * size + x - col)] =
               block[static_cast<std::size_t>((y - i * rows) * cols + x - j * cols)];
         }
@@ -53,7 +56,8 @@ TEST(BlockConvolution, makesTheSameInBlocksOfAnySize) {
   const std::vector<float> a = cells(one, 100, 1000, 900);
   const std::vector<float> b = cells(other, 100, 1000, 900);
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::fabs(static_cast<double>(a[i]) - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::fabs(static_cast<double>(a[i]) - b[i]));
   // the kernel is sampled at other waves: what wraps around a transform is 1e-4 of it
   EXPECT_LT(largest, 1e-3 * std::sqrt(one.variance()));
 }
@@ -70,7 +74,8 @@ TEST(BlockConvolution, neglectsLessThanAThousandthOfTheRmsHeight) {
 }
 
 TEST(BlockConvolution, takesNoLargerMarginThanAKernelNeeds) {
-  const BlockConvolution convolution([](double x, double y) { return std::exp(-(x * x + y * y) * 4.0); }, {});
+  const BlockConvolution convolution(
+      [](double x, double y) { return std::exp(-(x * x + y * y) * 4.0); }, {});
   EXPECT_EQ(convolution.block().cols, 2 * convolution.block().rows);
   EXPECT_GE(convolution.block().rows, 7 * 512 / 8);
   EXPECT_LT(convolution.neglected(), 1e-12);
@@ -82,7 +87,8 @@ TEST(BlockConvolution, cutsAFarReachingKernelOffEarlierThanThatItWouldNotFit) {
   EXPECT_FALSE(BlockConvolution::fits(30.0, 30.0));
   BlockLayout layout;
   layout.reach_cols = 30.0;
-  const BlockConvolution convolution([](double x, double y) { return bandGain(30.0 * x, y, 1.8); }, layout);
+  const BlockConvolution convolution([](double x, double y) { return bandGain(30.0 * x, y, 1.8); },
+                                     layout);
   EXPECT_GE(convolution.block().rows, 64);
   EXPECT_GE(convolution.block().cols, 512);
   EXPECT_LT(std::sqrt(convolution.neglected()), 1e-2);

@@ -21,7 +21,8 @@ double autocorrelation(const HeightMap& surface, int row_lag, int col_lag) {
     for (int col = 0; col < heights.cols; ++col) {
       const double height = heights.at<double>(row, col);
       squares += height * height;
-      products += height * heights.at<double>((row + row_lag) % heights.rows, (col + col_lag) % heights.cols);
+      products += height * heights.at<double>((row + row_lag) % heights.rows,
+                                              (col + col_lag) % heights.cols);
     }
   }
   return products / squares;
@@ -50,17 +51,20 @@ TEST(GaussianSurface, hasTheSizeRmsHeightAndMeanThatWereAskedFor) {
   EXPECT_EQ(surface.heights().type(), CV_64FC1);
   const HeightStatistics statistics = heightStatistics(surface);
   EXPECT_EQ(statistics.valid_count, options.rows * options.cols);
-  EXPECT_NEAR(statistics.rms_height, options.rms_height, 1e-12 * options.rms_height);  // rescaled: round-off
+  EXPECT_NEAR(statistics.rms_height, options.rms_height,
+              1e-12 * options.rms_height);  // rescaled: round-off
   EXPECT_NEAR(statistics.mean, 0.0, 1e-12 * options.rms_height);
 }
 
 TEST(GaussianSurface, autocorrelationFallsToOneOverEAtTheCorrelationLengths) {
   const GaussianSurfaceOptions options = anisotropic();
   const HeightMap surface = gaussianSurface(options);
-  // standard deviation of one sample's autocorrelation: sqrt(pi lx ly (1 + e^-2)/(2 area)) = 0.022; 3 of them
+  // standard deviation of one sample's autocorrelation: sqrt(pi lx ly (1 + e^-2)/(2 area)) = 0.022;
+  // 3 of them
   const double area = options.rows * options.cols * surface.cellArea();
-  const double scatter = std::sqrt(kPi * options.correlation_length_x * options.correlation_length_y *
-                                   (1.0 + std::exp(-2.0)) / (2.0 * area));
+  const double scatter =
+      std::sqrt(kPi * options.correlation_length_x * options.correlation_length_y *
+                (1.0 + std::exp(-2.0)) / (2.0 * area));
   EXPECT_LT(scatter, 0.025);
   EXPECT_NEAR(autocorrelation(surface, 0, 10), std::exp(-1.0), 3.0 * scatter);
   EXPECT_NEAR(autocorrelation(surface, 12, 0), std::exp(-1.0), 3.0 * scatter);
@@ -78,30 +82,35 @@ TEST(GaussianSurface, autocorrelationOfManySeedsConvergesOnTheFormula) {
   for (options.seed = 0; options.seed < seeds; ++options.seed) {
     mean += autocorrelation(gaussianSurface(options), 0, 5) / seeds;
   }
-  // one sample scatters by 0.052, sixty by 0.0067, 3 of them; taking the mean off lowers it by pi l^2/area = 0.005
+  // one sample scatters by 0.052, sixty by 0.0067, 3 of them; taking the mean off lowers it by pi
+  // l^2/area = 0.005
   EXPECT_NEAR(mean, std::exp(-1.0), 0.025);
 }
 
 TEST(GaussianSurface, rmsSlopeIsThatOfItsAutocorrelation) {
   // <|grad z|^2> = 2 sigma^2 (1/lx^2 + 1/ly^2)
   const GaussianSurfaceOptions options = anisotropic();
-  const double expected = options.rms_height * std::sqrt(2.0 / std::pow(options.correlation_length_x, 2) +
-                                                         2.0 / std::pow(options.correlation_length_y, 2));
-  // central differences lose pitch^2/l^2 = 1 %, half of it in the root at most; the sample scatters by about 1 %
+  const double expected =
+      options.rms_height * std::sqrt(2.0 / std::pow(options.correlation_length_x, 2) +
+                                     2.0 / std::pow(options.correlation_length_y, 2));
+  // central differences lose pitch^2/l^2 = 1 %, half of it in the root at most; the sample scatters
+  // by about 1 %
   EXPECT_NEAR(arealParameters(gaussianSurface(options)).sdq, expected, 0.03 * expected);
 }
 
 TEST(GaussianSurface, heightsAreGaussian) {
   const ArealParameters found = arealParameters(gaussianSurface(anisotropic()));
-  // about 900 independent patches pi lx ly/2: skewness scatters by sqrt(6/900)/2, kurtosis by sqrt(24/900)/2; 4 of them
+  // about 900 independent patches pi lx ly/2: skewness scatters by sqrt(6/900)/2, kurtosis by
+  // sqrt(24/900)/2; 4 of them
   EXPECT_NEAR(found.ssk, 0.0, 0.17);
   EXPECT_NEAR(found.sku, 3.0, 0.33);
 }
 
 TEST(GaussianSurface, isPeriodic) {
   const HeightMap surface = gaussianSurface(anisotropic());
-  // rms step between neighbouring columns, sigma sqrt(2 (1 - exp(-1/100))) = 0.141 sigma, also across the seam: with 540
-  // rows in 45 independent stretches the estimate scatters by 1/sqrt(90); 4 of them
+  // rms step between neighbouring columns, sigma sqrt(2 (1 - exp(-1/100))) = 0.141 sigma, also
+  // across the seam: with 540 rows in 45 independent stretches the estimate scatters by 1/sqrt(90);
+  // 4 of them
   double squares = 0.0;
   for (int row = 0; row < surface.rows(); ++row) {
     squares += std::pow(surface.height(row, 0) - surface.height(row, surface.cols() - 1), 2);
@@ -150,7 +159,8 @@ TEST(GaussianSurface, refusesOptionsOutOfRangeAndNamesEach) {
     FAIL() << "no error";
   } catch (const OptionsError& error) {
     const std::string text = error.what();
-    for (const char* key : {"gaussian/rows", "gaussian/pitch_x", "gaussian/rms_height", "gaussian/seed"}) {
+    for (const char* key :
+         {"gaussian/rows", "gaussian/pitch_x", "gaussian/rms_height", "gaussian/seed"}) {
       EXPECT_NE(text.find(key), std::string::npos) << text;
     }
   }

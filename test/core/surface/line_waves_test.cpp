@@ -26,11 +26,14 @@ TEST(LineWaves, areTheSumsOfTheirDefinitionInTheOrderThatTheyState) {
     for (std::size_t place = 0; place < length; ++place) {
       std::complex<double> sum = 0.0;
       for (std::size_t j = 0; j < length; ++j) {
-        const double turns = static_cast<double>(j * transform.order()[place] % length) / static_cast<double>(length);
+        const double turns = static_cast<double>(j * transform.order()[place] % length) /
+                             static_cast<double>(length);
         sum += std::complex<double>(line[j].re, line[j].im) * std::polar(1.0, -2.0 * kPi * turns);
       }
-      EXPECT_NEAR(waves[place].re, sum.real(), 1e-12 * static_cast<double>(length)) << length << ", " << place;
-      EXPECT_NEAR(waves[place].im, sum.imag(), 1e-12 * static_cast<double>(length)) << length << ", " << place;
+      EXPECT_NEAR(waves[place].re, sum.real(), 1e-12 * static_cast<double>(length))
+          << length << ", " << place;
+      EXPECT_NEAR(waves[place].im, sum.imag(), 1e-12 * static_cast<double>(length))
+          << length << ", " << place;
     }
   }
 }

@@ -22,11 +22,12 @@ TEST(NumberedNoise, isBoxAndMullersFormulaOnPhiloxOfTheCellsNumber) {
   std::vector<float> values(kCount);
   noise.fill(-3, -2048, kCount, values.data());
   for (int i = 0; i < kCount; i += 4) {
-    const auto bits =
-        r123::Philox4x32()({{static_cast<std::uint32_t>((i - 2048) / 4), static_cast<std::uint32_t>(-3), 5, 0}},
-                           {{0x89abcdefU, 0x01234567U}});
+    const auto bits = r123::Philox4x32()(
+        {{static_cast<std::uint32_t>((i - 2048) / 4), static_cast<std::uint32_t>(-3), 5, 0}},
+        {{0x89abcdefU, 0x01234567U}});
     for (int pair = 0; pair < 2; ++pair) {
-      const double radius = std::sqrt(-2.0 * std::log((bits[static_cast<std::size_t>(2 * pair)] + 0.5) * 0x1p-32));
+      const double radius =
+          std::sqrt(-2.0 * std::log((bits[static_cast<std::size_t>(2 * pair)] + 0.5) * 0x1p-32));
       const double angle = 2.0 * kPi * bits[static_cast<std::size_t>(2 * pair + 1)] * 0x1p-32;
       const auto index = static_cast<std::size_t>(i + 2 * pair);
       EXPECT_FLOAT_EQ(values[index], static_cast<float>(radius * std::cos(angle)));
@@ -35,7 +36,8 @@ TEST(NumberedNoise, isBoxAndMullersFormulaOnPhiloxOfTheCellsNumber) {
   }
 }
 
-// Machines that share a surface must agree: a processor or compiler that rounds otherwise would show here.
+// Machines that share a surface must agree: a processor or compiler that rounds otherwise would
+// show here.
 TEST(NumberedNoise, hasTheSameBitsOnEveryMachine) {
   NumberedNoise noise(20, 3);
   std::vector<float> values(1 << 16);
@@ -87,7 +89,8 @@ TEST(NumberedNoise, isNormalAndIndependentOfItsNeighboursLayersAndSeeds) {
     }
   }
   const double count = moments[0];
-  const double error = 1.0 / std::sqrt(count);  // of a mean of variance 1; four of them come about once in 16000
+  const double error =
+      1.0 / std::sqrt(count);  // of a mean of variance 1; four of them come about once in 16000
   EXPECT_NEAR(moments[1] / count, 0.0, 4.0 * error);
   EXPECT_NEAR(moments[2] / count, 1.0, 4.0 * error * std::sqrt(2.0));
   EXPECT_NEAR(moments[3] / count, 0.0, 4.0 * error * std::sqrt(15.0));

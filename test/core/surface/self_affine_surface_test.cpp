@@ -35,7 +35,8 @@ TEST(SelfAffineSurface, isFlatInItsSpectrumBeforeTheRollOffAndEmptyBeyondTheCutO
   for (const SpectrumRing& ring : spectrum.rings) {
     if (ring.wave_number > 2.0 * kPi / (options.cutoff_wavelength * 0.98)) {
       EXPECT_LT(ring.density, 1e-12 * plateau);
-    } else if (ring.count > 20 && ring.wave_number < 2.0 * kPi / (options.rolloff_wavelength * 1.1)) {
+    } else if (ring.count > 20 &&
+               ring.wave_number < 2.0 * kPi / (options.rolloff_wavelength * 1.1)) {
       EXPECT_NEAR(ring.density / plateau, 1.0, 1.5);  // few waves
     }
   }
@@ -50,7 +51,8 @@ TEST(SelfAffineSurface, rmsHeightOrSlopeAreExact) {
   options.rms_slope = 0.07;
   options.cutoff_wavelength = 200e-9;  // 20 pixels: central differences see the slope
   const HeightMap surface = selfAffineSurface(options);
-  EXPECT_NEAR(std::sqrt(2.0 * powerSpectrum(surface, SpectrumWindow::kNone).moments.m2), 0.07, 1e-12);
+  EXPECT_NEAR(std::sqrt(2.0 * powerSpectrum(surface, SpectrumWindow::kNone).moments.m2), 0.07,
+              1e-12);
   EXPECT_NEAR(arealParameters(surface).sdq, 0.07, 0.01 * 0.07 * 2.0);
 }
 

@@ -62,7 +62,8 @@ TEST(SplineRefinement, coefficientsMakeTheSameCurve) {
   const std::vector<float> fine = refined(SplineRefinement::kCoefficients, coarse);
   for (double y = 2.0; y < kRows - 3.0; y += 0.37) {
     for (double x = 2.0; x < kCols - 3.0; x += 0.41) {
-      EXPECT_NEAR(curve(fine, kCols, y, x), curve(coarse, kCoarseCols, 1.0 + y / 4.0, 1.0 + x / 4.0), 1e-6);
+      EXPECT_NEAR(curve(fine, kCols, y, x),
+                  curve(coarse, kCoarseCols, 1.0 + y / 4.0, 1.0 + x / 4.0), 1e-6);
     }
   }
 }

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kPitch = 10e-9;
 
-/// Flat for waves longer than `longest` pixels, then C ~ q^-3.6 to waves of `shortest`; rms height 3 nm.
+/// Flat for waves longer than `longest` pixels, then C ~ q^-3.6 to waves of `shortest`; rms height
+/// 3 nm.
 SurfaceSpectrum selfAffine(double longest, double shortest = 1.0) {
   SurfaceSpectrum spectrum;
   spectrum.wave_number = {2.0 * kPi / (longest * kPitch), 2.0 * kPi / (shortest * kPitch)};
@@ -35,12 +36,14 @@ SurfaceSpectrum gaussian(double correlation_length) {
   SurfaceSpectrum spectrum;
   for (double x = 0.05; x < 8.0; x *= 1.02) {  // l q; beyond 8 there is 1e-7 of the variance
     spectrum.wave_number.push_back(x / correlation_length);
-    spectrum.density.push_back(kPi * correlation_length * correlation_length * 1e-18 * std::exp(-0.25 * x * x));
+    spectrum.density.push_back(kPi * correlation_length * correlation_length * 1e-18 *
+                               std::exp(-0.25 * x * x));
   }
   return spectrum;
 }
 
-cv::Mat part(TiledSurface& surface, std::int64_t row, std::int64_t col, int rows, int cols, int type = CV_64FC1) {
+cv::Mat part(TiledSurface& surface, std::int64_t row, std::int64_t col, int rows, int cols,
+             int type = CV_64FC1) {
   cv::Mat tile(rows, cols, type);
   surface.heights(row, col, tile);
   return tile;
@@ -149,13 +152,14 @@ TEST(TiledSurface, hasTheRadialSpectrumThatWasAskedFor) {
   const SurfaceSpectrum spectrum = selfAffine(128.0);
   constexpr std::uint64_t kRealisations = 12;
   constexpr int kSide = 1024;
-  constexpr std::array<double, 8> kEnds = {20, 30, 45, 68, 102, 153, 230, 345};  // waves along the side
+  constexpr std::array<double, 8> kEnds = {20,  30,  45,  68,
+                                           102, 153, 230, 345};  // waves along the side
   std::array<std::vector<double>, kEnds.size() - 1> ratios;
   TiledSurface surface(spectrum, kSide, kSide, kPitch, kPitch, 0);
   for (std::uint64_t seed = 0; seed < kRealisations; ++seed) {
     surface.reseed(seed);
-    const PowerSpectrum found =
-        powerSpectrum(HeightMap(part(surface, 0, 0, kSide, kSide), kPitch, kPitch), SpectrumWindow::kHann);
+    const PowerSpectrum found = powerSpectrum(
+        HeightMap(part(surface, 0, 0, kSide, kSide), kPitch, kPitch), SpectrumWindow::kHann);
     for (std::size_t band = 0; band < ratios.size(); ++band) {
       double sum = 0.0;
       double count = 0.0;
@@ -176,19 +180,24 @@ TEST(TiledSurface, hasTheRadialSpectrumThatWasAskedFor) {
   }
 }
 
-// Wavelengths from 2048 pixels to 2: the longer ones of means over 16 x 16 pixels, the shorter ones of parts.
+// Wavelengths from 2048 pixels to 2: the longer ones of means over 16 x 16 pixels, the shorter ones
+// of parts.
 TEST(TiledSurfaceEvidence, hasTheSpectrumOverThreeDecades) {
   constexpr int kSide = 8192;
   constexpr int kCell = 16;
   const SurfaceSpectrum spectrum = selfAffine(kSide / 4.0, 2.0);
-  const auto bandMean = [&](const cv::Mat& heights, double pitch, double shortest, double longest, bool of_cells) {
+  const auto bandMean = [&](const cv::Mat& heights, double pitch, double shortest, double longest,
+                            bool of_cells) {
     double sum = 0.0;
     double count = 0.0;
-    for (const SpectrumRing& ring : powerSpectrum(HeightMap(heights, pitch, pitch), SpectrumWindow::kHann).rings) {
+    for (const SpectrumRing& ring :
+         powerSpectrum(HeightMap(heights, pitch, pitch), SpectrumWindow::kHann).rings) {
       const double length = 2.0 * kPi / (ring.wave_number * kPitch);
       if (length < shortest || length >= longest) continue;
-      // a mean over a square leaves sinc^2 along each axis; to fourth order in q that is exp(-(q a)^2/24)^2 in every direction
-      const double smoothed = of_cells ? std::exp(-std::pow(ring.wave_number * pitch, 2.0) / 12.0) : 1.0;
+      // a mean over a square leaves sinc^2 along each axis; to fourth order in q that is exp(-(q
+      // a)^2/24)^2 in every direction
+      const double smoothed =
+          of_cells ? std::exp(-std::pow(ring.wave_number * pitch, 2.0) / 12.0) : 1.0;
       sum += ring.count * ring.density / (smoothed * spectrum.densityAt(ring.wave_number));
       count += ring.count;
     }
@@ -205,11 +214,12 @@ TEST(TiledSurfaceEvidence, hasTheSpectrumOverThreeDecades) {
     double square = 0.0;
     for (int row = 0; row < kSide; row += block.height) {
       for (int col = 0; col < kSide; col += block.width) {
-        const cv::Mat tile =
-            part(surface, row, col, std::min(block.height, kSide - row), std::min(block.width, kSide - col));
+        const cv::Mat tile = part(surface, row, col, std::min(block.height, kSide - row),
+                                  std::min(block.width, kSide - col));
         for (int y = 0; y < tile.rows; ++y) {
           double* const line = means.ptr<double>((row + y) / kCell);
-          for (int x = 0; x < tile.cols; ++x) line[(col + x) / kCell] += tile.at<double>(y, x) / (kCell * kCell);
+          for (int x = 0; x < tile.cols; ++x)
+            line[(col + x) / kCell] += tile.at<double>(y, x) / (kCell * kCell);
         }
         square += tile.dot(tile) / (static_cast<double>(kSide) * kSide);
       }
@@ -224,7 +234,8 @@ TEST(TiledSurfaceEvidence, hasTheSpectrumOverThreeDecades) {
       ratios[4].push_back(bandMean(square_part, kPitch, 2.1, 8.0, false));
     }
   }
-  // 500 waves in the first band, more in the others; in the mean square the longest count most, some 50 of them
+  // 500 waves in the first band, more in the others; in the mean square the longest count most,
+  // some 50 of them
   for (std::size_t band = 0; band < ratios.size(); ++band)
     EXPECT_NEAR(meanOf(ratios[band]).value, 1.0, band == 0 ? 0.1 : 0.05) << band;
   EXPECT_NEAR(meanOf(squares).value, 1.0, 0.45);
@@ -235,7 +246,8 @@ TEST(TiledSurface, hasTheVarianceAndTheAutocorrelationThatWereAskedFor) {
   constexpr double kLength = 30.0;  // pixels: over levels 0, 1 and 2
   const SurfaceSpectrum spectrum = gaussian(kLength * kPitch);
   constexpr std::uint64_t kRealisations = 12;
-  const std::array<std::pair<int, int>, 7> lags = {{{0, 0}, {0, 10}, {10, 0}, {20, 20}, {20, -20}, {0, 40}, {60, 0}}};
+  const std::array<std::pair<int, int>, 7> lags = {
+      {{0, 0}, {0, 10}, {10, 0}, {20, 20}, {20, -20}, {0, 40}, {60, 0}}};
   std::array<std::vector<double>, lags.size()> found;
   TiledSurface surface(spectrum, kSide, kSide, kPitch, kPitch, 0);
   EXPECT_NEAR(surface.variance() / 1e-18, 1.0, 1e-3);
@@ -279,7 +291,8 @@ TEST(TiledSurface, isStretchedAlongItsDirectionOnPixelsOfAnyShape) {
     const double y = lags[i].first * kPitchY;
     const double along = x * std::cos(0.6) + y * std::sin(0.6);
     const double across = y * std::cos(0.6) - x * std::sin(0.6);
-    const double wanted = std::exp(-(along * along / 3.0 + across * across * 3.0) / (kLength * kLength));
+    const double wanted =
+        std::exp(-(along * along / 3.0 + across * across * 3.0) / (kLength * kLength));
     const Mean mean = meanOf(found[i]);
     EXPECT_NEAR(mean.value, wanted, 4.0 * mean.error + 1e-3) << x << ", " << y;
     EXPECT_LT(mean.error, 0.02);
@@ -294,7 +307,8 @@ TEST(TiledSurface, isNormal) {
     surface.reseed(seed);
     const cv::Mat heights = part(surface, 0, 0, 1024, 1024);
     const double variance = surface.variance();
-    skewness.push_back(pairMean(heights, 0, 0, [&](double z, double) { return z * z * z; }) / std::pow(variance, 1.5));
+    skewness.push_back(pairMean(heights, 0, 0, [&](double z, double) { return z * z * z; }) /
+                       std::pow(variance, 1.5));
     kurtosis.push_back(pairMean(heights, 0, 0, [&](double z, double) { return z * z * z * z; }) /
                        (variance * variance));
   }
@@ -303,7 +317,8 @@ TEST(TiledSurface, isNormal) {
   EXPECT_LT(meanOf(kurtosis).error, 0.02);
 }
 
-// A step, a kink or a change of the statistics where blocks meet would show in the differences across.
+// A step, a kink or a change of the statistics where blocks meet would show in the differences
+// across.
 TEST(TiledSurface, hasNoSeamWhereBlocksMeet) {
   const SurfaceSpectrum spectrum = selfAffine(2000.0);
   TiledSurface surface(spectrum, 20000, 20000, kPitch, kPitch, 3);
@@ -311,14 +326,16 @@ TEST(TiledSurface, hasNoSeamWhereBlocksMeet) {
   const int rows = surface.tile().height;
   constexpr int kAround = 48;
   constexpr int kLength = 4096;
-  // columns around four seams, across which blocks lie side by side; the same for rows; and the middles, where the halves meet
+  // columns around four seams, across which blocks lie side by side; the same for rows; and the
+  // middles, where the halves meet
   for (const bool along_rows : {false, true}) {
     for (const int order : {1, 2}) {
       std::vector<double> elsewhere;
       std::vector<double> at_seams;
       for (int seam = 1; seam <= 4; ++seam) {
         for (const int middle :
-             {seam * (along_rows ? rows : cols), seam * (along_rows ? rows : cols) - (along_rows ? rows : cols) / 2}) {
+             {seam * (along_rows ? rows : cols),
+              seam * (along_rows ? rows : cols) - (along_rows ? rows : cols) / 2}) {
           cv::Mat strip = along_rows ? part(surface, middle - kAround, 0, 2 * kAround, kLength).t()
                                      : part(surface, 0, middle - kAround, kLength, 2 * kAround);
           for (int col = order; col < 2 * kAround; ++col) {
@@ -334,8 +351,10 @@ TEST(TiledSurface, hasNoSeamWhereBlocksMeet) {
       }
       const Mean rest = meanOf(elsewhere);
       const double deviation = rest.error * std::sqrt(static_cast<double>(elsewhere.size()));
-      const double error = deviation / std::sqrt(8.0);  // eight places, whose neighbouring columns are alike
-      EXPECT_NEAR(meanOf(at_seams).value / rest.value, 1.0, 4.0 * error / rest.value) << along_rows << ", " << order;
+      const double error =
+          deviation / std::sqrt(8.0);  // eight places, whose neighbouring columns are alike
+      EXPECT_NEAR(meanOf(at_seams).value / rest.value, 1.0, 4.0 * error / rest.value)
+          << along_rows << ", " << order;
       EXPECT_LT(error / rest.value, 0.05);
     }
   }
@@ -353,11 +372,13 @@ TEST(TiledSurface, hasTheDistributionOfItsTranslation) {
     surface.reseed(seed);
     const cv::Mat heights = part(surface, 0, 0, 1024, 1024);
     for (std::size_t i = 0; i < quantiles.size(); ++i) {
-      below[i].push_back(cv::countNonZero(heights < 3e-9 * johnson(quantiles[i])) / (1024.0 * 1024.0));
+      below[i].push_back(cv::countNonZero(heights < 3e-9 * johnson(quantiles[i])) /
+                         (1024.0 * 1024.0));
     }
   }
   for (std::size_t i = 0; i < quantiles.size(); ++i) {
-    EXPECT_NEAR(meanOf(below[i]).value, 0.5 * std::erfc(-quantiles[i] / std::sqrt(2.0)), 4.0 * meanOf(below[i]).error);
+    EXPECT_NEAR(meanOf(below[i]).value, 0.5 * std::erfc(-quantiles[i] / std::sqrt(2.0)),
+                4.0 * meanOf(below[i]).error);
     EXPECT_LT(meanOf(below[i]).error, 1e-3);
   }
 }
@@ -370,8 +391,8 @@ TEST(TiledSurface, translatesEachHeightByItself) {
   const cv::Mat z = part(plain, 0, 0, 100, 100);
   const cv::Mat found = part(translated, 0, 0, 100, 100);
   for (int i = 0; i < 100; ++i) {
-    EXPECT_NEAR(found.at<double>(i, 99 - i), 1e-9 * std::exp(z.at<double>(i, 99 - i) / std::sqrt(plain.variance())),
-                1e-14);
+    EXPECT_NEAR(found.at<double>(i, 99 - i),
+                1e-9 * std::exp(z.at<double>(i, 99 - i) / std::sqrt(plain.variance())), 1e-14);
   }
 }
 
@@ -403,14 +424,17 @@ TEST(TiledSurface, namesEachValueThatItRefuses) {
   SurfaceSpectrum spectrum = selfAffine(300.0);
   spectrum.stretch = 0.0;
   EXPECT_EQ(refusals([&] { TiledSurface(spectrum, 0, 2000000000, -1.0, NAN, 1); }),
-            (std::vector<std::string>{
-                "spectrum/stretch: 0 is not allowed; must be >= 1", "rows: 0 is not allowed; must be in [1, 1e+09]",
-                "cols: 2000000000 is not allowed; must be in [1, 1e+09]", "pitch_x: -1 is not allowed; must be > 0",
-                "pitch_y: nan is not allowed; must be > 0"}));
+            (std::vector<std::string>{"spectrum/stretch: 0 is not allowed; must be >= 1",
+                                      "rows: 0 is not allowed; must be in [1, 1e+09]",
+                                      "cols: 2000000000 is not allowed; must be in [1, 1e+09]",
+                                      "pitch_x: -1 is not allowed; must be > 0",
+                                      "pitch_y: nan is not allowed; must be > 0"}));
   spectrum.stretch = 200.0;
-  std::vector<std::string> lines = refusals([&] { TiledSurface(spectrum, 10, 10, kPitch, kPitch, 1); });
+  std::vector<std::string> lines =
+      refusals([&] { TiledSurface(spectrum, 10, 10, kPitch, kPitch, 1); });
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].find("spectrum/stretch: 200 with pixels of 1e-08 m by 1e-08 m is not allowed"), 0u);
+  EXPECT_EQ(lines[0].find("spectrum/stretch: 200 with pixels of 1e-08 m by 1e-08 m is not allowed"),
+            0u);
   spectrum.stretch = 1.0;
   spectrum.wave_number[0] = 1e-12;
   lines = refusals([&] { TiledSurface(spectrum, 10, 10, kPitch, kPitch, 1); });
@@ -427,9 +451,10 @@ TEST(TiledSurface, refusesTilesThatAreNotOfTheSurface) {
   };
   EXPECT_TRUE(asked(0, 0, 100, 200, CV_64FC1).empty());
   EXPECT_EQ(asked(-1, 150, 50, 51, CV_8UC1),
-            (std::vector<std::string>{"tile: its type is CV_8UC1; must be CV_32FC1 or CV_64FC1",
-                                      "tile: rows -1 to 48 are not all of the surface; must be in [0, 99]",
-                                      "tile: columns 150 to 200 are not all of the surface; must be in [0, 199]"}));
+            (std::vector<std::string>{
+                "tile: its type is CV_8UC1; must be CV_32FC1 or CV_64FC1",
+                "tile: rows -1 to 48 are not all of the surface; must be in [0, 99]",
+                "tile: columns 150 to 200 are not all of the surface; must be in [0, 199]"}));
   EXPECT_EQ(asked(60, 0, 41, 10, CV_32FC1).size(), 1u);
 }
 
@@ -437,9 +462,10 @@ TEST(HeightTranslation, namesWhatItRefuses) {
   EXPECT_EQ(refusals([] {
               HeightTranslation(1.0, 1.0, {0.0, 2.0, 1.0, NAN});
             }),
-            (std::vector<std::string>{"translation/highest: 1 is not allowed; must be above lowest, 1",
-                                      "translation/heights[2]: 1 is not allowed; must be at least the one before it, 2",
-                                      "translation/heights[3]: nan is not allowed; must be any finite number"}));
+            (std::vector<std::string>{
+                "translation/highest: 1 is not allowed; must be above lowest, 1",
+                "translation/heights[2]: 1 is not allowed; must be at least the one before it, 2",
+                "translation/heights[3]: nan is not allowed; must be any finite number"}));
   EXPECT_EQ(refusals([] { HeightTranslation(0.0, 1.0, {0.0}); }),
             (std::vector<std::string>{"translation/heights: has 1 values; must have at least 2"}));
 }

@@ -30,7 +30,8 @@ const std::vector<Shape> kShapes = {
     {1.5, 3.6},     // close to two levels
 };
 
-/// Central moments of the translation over a fine grid of normal quantities: another quadrature than its own.
+/// Central moments of the translation over a fine grid of normal quantities: another quadrature
+/// than its own.
 Shape momentsOf(const JohnsonTranslation& translation) {
   const double step = 0.0037;
   double moments[5] = {};
@@ -53,7 +54,8 @@ TEST(JohnsonTranslation, hasTheSkewnessAndKurtosisThatWereAskedFor) {
   for (const Shape& shape : kShapes) {
     const Shape found = momentsOf(JohnsonTranslation(shape.skewness, shape.kurtosis));
     EXPECT_NEAR(found.skewness, shape.skewness, 2e-3 * (1.0 + std::fabs(shape.skewness)));
-    EXPECT_NEAR(found.kurtosis, shape.kurtosis, 5e-3 * shape.kurtosis) << shape.skewness << ", " << shape.kurtosis;
+    EXPECT_NEAR(found.kurtosis, shape.kurtosis, 5e-3 * shape.kurtosis)
+        << shape.skewness << ", " << shape.kurtosis;
   }
 }
 
@@ -81,7 +83,8 @@ TEST(TranslatedGaussianSurface, hasHeightsSkewnessAndKurtosis) {
     options.kurtosis = shape.kurtosis;
     const ArealParameters found = arealParameters(translatedGaussianSurface(options));
     EXPECT_NEAR(found.sq, 4e-9, 1e-19);
-    // about 10^4 independent patches; moments of higher order than the fourth make heavy tails scatter more
+    // about 10^4 independent patches; moments of higher order than the fourth make heavy tails
+    // scatter more
     EXPECT_NEAR(found.ssk, shape.skewness, 0.15);
     EXPECT_NEAR(found.sku, shape.kurtosis, 0.12 * shape.kurtosis);
   }

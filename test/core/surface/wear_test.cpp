@@ -64,7 +64,8 @@ TEST(Wear, pixelsThatOneScanLacksKeepTheirHeightsInLongRowsToo) {
 
 TEST(Wear, anotherSizeIsAnotherSurface) {
   Wear wear;
-  wear.add({mapOf(cv::Mat::ones(2, 2, CV_64FC1))}, cv::Mat::zeros(2, 2, CV_64FC1), cv::Mat::zeros(2, 2, CV_64FC1));
+  wear.add({mapOf(cv::Mat::ones(2, 2, CV_64FC1))}, cv::Mat::zeros(2, 2, CV_64FC1),
+           cv::Mat::zeros(2, 2, CV_64FC1));
   EXPECT_EQ(wear.on({mapOf(cv::Mat::ones(3, 3, CV_32FC1))}).lower.height(0, 0), 1.0);
 }
 

@@ -47,9 +47,12 @@ Moments momentsOf(TiledSurface& surface, int count) {
 }
 
 TEST(WholeFrame, hasTheVarianceAndTheStepsOfSurfacesMadeInBlocks) {
-  TiledSurface whole(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kWhole);
-  TiledSurface blocks(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kSmall);
-  EXPECT_NEAR(whole.variance() / selfAffine().variance(), 1.0, 0.02) << "sampled at the waves of the frame";
+  TiledSurface whole(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt,
+                     BlockChoice::kWhole);
+  TiledSurface blocks(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt,
+                      BlockChoice::kSmall);
+  EXPECT_NEAR(whole.variance() / selfAffine().variance(), 1.0, 0.02)
+      << "sampled at the waves of the frame";
   const int count = 40;
   const Moments of_whole = momentsOf(whole, count);
   // some four independent places a surface: 40 of them tell a variance to some 13 %
@@ -58,7 +61,8 @@ TEST(WholeFrame, hasTheVarianceAndTheStepsOfSurfacesMadeInBlocks) {
 }
 
 TEST(WholeFrame, isTheSameForASeedWhateverIsAskedOfIt) {
-  TiledSurface surface(selfAffine(), kSide, kSide, kPitch, kPitch, 7, std::nullopt, BlockChoice::kWhole);
+  TiledSurface surface(selfAffine(), kSide, kSide, kPitch, kPitch, 7, std::nullopt,
+                       BlockChoice::kWhole);
   const cv::Mat first = made(surface);
   surface.reseed(8);
   EXPECT_GT(cv::norm(made(surface), first, cv::NORM_INF), 0.0);
@@ -69,7 +73,8 @@ TEST(WholeFrame, isTheSameForASeedWhateverIsAskedOfIt) {
 }
 
 TEST(WholeFrame, doesNotMeetItselfAtItsEdges) {
-  TiledSurface surface(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt, BlockChoice::kWhole);
+  TiledSurface surface(selfAffine(), kSide, kSide, kPitch, kPitch, 1, std::nullopt,
+                       BlockChoice::kWhole);
   double product = 0.0;
   const int count = 80;
   for (int seed = 1; seed <= count; ++seed) {
@@ -77,7 +82,8 @@ TEST(WholeFrame, doesNotMeetItselfAtItsEdges) {
     const cv::Mat heights = made(surface);
     product += cv::mean(heights.col(0).mul(heights.col(kSide - 1)))[0] / count;
   }
-  EXPECT_LT(std::abs(product), 0.4 * surface.variance()) << "neighbours would have nearly all of it";
+  EXPECT_LT(std::abs(product), 0.4 * surface.variance())
+      << "neighbours would have nearly all of it";
 }
 
 TEST(WholeFrame, ofAnEvenSpectrumIsTheSameByHalfOfIt) {
@@ -89,7 +95,8 @@ TEST(WholeFrame, ofAnEvenSpectrumIsTheSameByHalfOfIt) {
     whole.make(NumberedNoise(5, 0));
     half.make(NumberedNoise(5, 0));
     // means over cells of waves are summed the other way round
-    EXPECT_LT(cv::norm(whole.heights(), half.heights(), cv::NORM_INF), 1e-6 * cv::norm(whole.heights(), cv::NORM_INF));
+    EXPECT_LT(cv::norm(whole.heights(), half.heights(), cv::NORM_INF),
+              1e-6 * cv::norm(whole.heights(), cv::NORM_INF));
   }
 }
 

@@ -1,5 +1,6 @@
-/// What the tools leave behind: nothing when they are interrupted, no file of somebody else's replaced, no text of a
-/// file in the place of a line of their own, and an error where an output is not whole.
+/// What the tools leave behind: nothing when they are interrupted, no file of somebody else's
+/// replaced, no text of a file in the place of a line of their own, and an error where an output is
+/// not whole.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -27,9 +28,11 @@ namespace fs = std::filesystem;
 class ImportOutputs : public ::testing::Test {
  protected:
   /// @return the exit status; output and errors go to the files "out" and "err"
-  int run(const std::string& program, const std::string& arguments, const std::string& output = "") const {
-    const std::string command = program + " " + arguments + " >" + (output.empty() ? folder_.file("out") : output) +
-                                " 2>" + folder_.file("err");
+  int run(const std::string& program, const std::string& arguments,
+          const std::string& output = "") const {
+    const std::string command = program + " " + arguments + " >" +
+                                (output.empty() ? folder_.file("out") : output) + " 2>" +
+                                folder_.file("err");
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -44,7 +47,8 @@ class ImportOutputs : public ::testing::Test {
   std::string grid(const std::string& name = "grid.txt") const {
     return folder_.write(name, "# Value units: nm\n1.5 2.5\n0.5 3.5\n");
   }
-  /// A folder where the core's library finds this script as its reader of makers' files; none where the script is empty.
+  /// A folder where the core's library finds this script as its reader of makers' files; none where
+  /// the script is empty.
   std::string coreBeside(const std::string& script) const {
     fs::create_directories(folder_.file("lib"));
     const fs::path core = MEMS_STICTION_CORE;
@@ -67,8 +71,9 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
     fs::create_directories(folder_.file("tmp"));
     const std::string told = folder_.file("group");
     fs::remove(told);
-    const std::string libraries = coreBeside("#!/bin/sh\nsleep 600 &\nhead -c 100000 /dev/zero > \"$2\"\necho $$ > " +
-                                             told + ".part\nmv " + told + ".part " + told + "\nsleep 600\n");
+    const std::string libraries =
+        coreBeside("#!/bin/sh\nsleep 600 &\nhead -c 100000 /dev/zero > \"$2\"\necho $$ > " + told +
+                   ".part\nmv " + told + ".part " + told + "\nsleep 600\n");
     const std::string scan = folder_.write("scan.di", "not really");
     const pid_t tool = fork();
     ASSERT_GE(tool, 0);
@@ -76,7 +81,8 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
       setenv("TMPDIR", folder_.file("tmp").c_str(), 1);
       setenv("LD_LIBRARY_PATH", libraries.c_str(), 1);
       signal(number, SIG_DFL);  // a test that runs in the background ignores some
-      execl(MEMS_STICTION_IMPORT_SCAN, "import_scan", "-o", folder_.file("o").c_str(), scan.c_str(), nullptr);
+      execl(MEMS_STICTION_IMPORT_SCAN, "import_scan", "-o", folder_.file("o").c_str(), scan.c_str(),
+            nullptr);
       _exit(127);
     }
     for (int tenth = 0; tenth < 600 && !fs::exists(told); ++tenth)
@@ -87,7 +93,8 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
     kill(tool, number);
     int status = 0;
     waitpid(tool, &status, 0);
-    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << "the caller must see the signal";
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number)
+        << "the caller must see the signal";
     for (int tenth = 0; tenth < 600 && isAlive(group); ++tenth)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_FALSE(isAlive(group));
@@ -97,9 +104,11 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
 
 TEST_F(ImportOutputs, WithoutGwyddionItSaysWhatToInstallAndReadsItsOwnFormats) {
   const std::string environment = "LD_LIBRARY_PATH=" + coreBeside("") + " ";
-  const std::string arguments = "-o " + folder_.file("o") + " " + folder_.write("scan.al3d", "AliconaImaging");
+  const std::string arguments =
+      "-o " + folder_.file("o") + " " + folder_.write("scan.al3d", "AliconaImaging");
   EXPECT_EQ(run(environment + MEMS_STICTION_IMPORT_SCAN, arguments + " -p 1e-9 " + grid()), 2);
-  EXPECT_NE(errors().find("scan.al3d: needs Gwyddion's libraries to be read"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("scan.al3d: needs Gwyddion's libraries to be read"), std::string::npos)
+      << errors();
   EXPECT_NE(errors().find("libgwyddion20-dev"), std::string::npos) << errors();
   EXPECT_EQ(errors().find("scan.al3d"), errors().rfind("scan.al3d")) << "one line";
   EXPECT_TRUE(fs::exists(folder_.file("o/grid.tiff")));
@@ -109,10 +118,13 @@ TEST_F(ImportOutputs, AReaderThatCrashesCostsOneSentenceAndTheNextFileIsRead) {
   const std::string script = "#!/bin/sh\ncase $1 in *bad*) kill -SEGV $$ ;; esac\ncp " +
                              folder_.write("made.gwy", gwy_bytes::example()) + " \"$2\"\n";
   const std::string environment = "LD_LIBRARY_PATH=" + coreBeside(script) + " ";
-  const std::string scans = folder_.write("bad.di", "damaged") + " " + folder_.write("good.di", "whole");
-  EXPECT_EQ(run(environment + MEMS_STICTION_IMPORT_SCAN, "-o " + folder_.file("o") + " " + scans), 2);
-  EXPECT_NE(errors().find("bad.di: gwyddion crashed on this file (Segmentation fault): it is damaged"),
-            std::string::npos);
+  const std::string scans =
+      folder_.write("bad.di", "damaged") + " " + folder_.write("good.di", "whole");
+  EXPECT_EQ(run(environment + MEMS_STICTION_IMPORT_SCAN, "-o " + folder_.file("o") + " " + scans),
+            2);
+  EXPECT_NE(
+      errors().find("bad.di: gwyddion crashed on this file (Segmentation fault): it is damaged"),
+      std::string::npos);
   EXPECT_EQ(errors().find("bad.di"), errors().rfind("bad.di")) << "one line: " << errors();
   EXPECT_TRUE(fs::exists(folder_.file("o/good.tiff")));
 }
@@ -123,7 +135,8 @@ TEST_F(ImportOutputs, FilesThatImportScanDidNotWriteAreNotReplaced) {
   folder_.write("o/grid.tiff", "a photograph");
   EXPECT_EQ(importScan("-p 1e-9 -o " + folder_.file("o") + " " + scan), 2);
   EXPECT_EQ(ScratchFolder::read(folder_.file("o/grid.tiff")), "a photograph");
-  EXPECT_NE(errors().find("remove both, or choose another --output"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("remove both, or choose another --output"), std::string::npos)
+      << errors();
   EXPECT_EQ(errorLines(), 1u);
   fs::remove(folder_.file("o/grid.tiff"));
   folder_.write("o/grid.tiff.yaml", "pitch_x: 1e-9\n");
@@ -135,7 +148,8 @@ TEST_F(ImportOutputs, WhatImportScanWroteMayBeWrittenAgainUntilSomebodyChangesIt
   EXPECT_EQ(importScan(call), 0);
   EXPECT_EQ(importScan(call), 0) << errors();
   EXPECT_DOUBLE_EQ(readScanFile(folder_.file("o/grid.tiff")).height(1, 1), 3.5e-9);
-  folder_.write("o/grid.tiff.yaml", ScratchFolder::read(folder_.file("o/grid.tiff.yaml")) + "# my remark\n");
+  folder_.write("o/grid.tiff.yaml",
+                ScratchFolder::read(folder_.file("o/grid.tiff.yaml")) + "# my remark\n");
   EXPECT_EQ(importScan(call), 2);
 }
 
@@ -169,7 +183,9 @@ TEST_F(ImportOutputs, AFullStandardOutputIsAnError) {
 
 TEST_F(ImportOutputs, AFullDiskUnderTheDeformedSurfaceIsAnError) {
   EXPECT_EQ(run(MEMS_STICTION_PREDICT_SCAN, "-p 1e-8 -d /dev/full " + grid()), 2);
-  EXPECT_NE(errors().find("/dev/full: cannot be written: No space left on device"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("/dev/full: cannot be written: No space left on device"),
+            std::string::npos)
+      << errors();
   EXPECT_EQ(errorLines(), 2u) << errors();  // the other warns that the scan is small
 }
 

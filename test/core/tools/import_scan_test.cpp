@@ -1,5 +1,6 @@
-/// Scans from the instrument's file to the prediction, as users call it: the real executables, their output, their exit
-/// status. Vendor files are those of the folder in the environment variable MEMS_STICTION_SCANS.
+/// Scans from the instrument's file to the prediction, as users call it: the real executables,
+/// their output, their exit status. Vendor files are those of the folder in the environment
+/// variable MEMS_STICTION_SCANS.
 
 #include <gtest/gtest.h>
 
@@ -53,13 +54,17 @@ class ImportScan : public ::testing::Test {
 };
 
 TEST_F(ImportScan, WritesTiffAndPitchThatReadBackToTheLastBit) {
-  const std::string text = folder_.write("grid.csv", "1e-9,2.123456789012e-9,nan\n3e-9,4e-9,5e-9\n");
-  const Outcome outcome = importScan("--pitch 1.3e-9,2.7e-9 -o " + folder_.file("new/folder") + " " + text);
+  const std::string text =
+      folder_.write("grid.csv", "1e-9,2.123456789012e-9,nan\n3e-9,4e-9,5e-9\n");
+  const Outcome outcome =
+      importScan("--pitch 1.3e-9,2.7e-9 -o " + folder_.file("new/folder") + " " + text);
   ASSERT_EQ(outcome.status, 0);
   ASSERT_EQ(outcome.errors.size(), 1u);
-  EXPECT_NE(outcome.errors[0].find("warning: a frame of 3 x 2 pixels says nothing about roughness"), std::string::npos)
+  EXPECT_NE(outcome.errors[0].find("warning: a frame of 3 x 2 pixels says nothing about roughness"),
+            std::string::npos)
       << outcome.errors[0];
-  EXPECT_NE(outcome.output.find("3 x 2 pixels of 1.3e-09 x 2.7e-09 m, 16.7 % missing"), std::string::npos)
+  EXPECT_NE(outcome.output.find("3 x 2 pixels of 1.3e-09 x 2.7e-09 m, 16.7 % missing"),
+            std::string::npos)
       << outcome.output;
   ScanOptions pitch;
   pitch.pitch_x = 1.3e-9;
@@ -79,7 +84,8 @@ TEST_F(ImportScan, Float32StaysFloat32AndDoubleKeepsItsDigits) {
 TEST_F(ImportScan, WhatIsStatedOfTheScanGoesWithIt) {
   const std::string text = folder_.write("grid.csv", "1e-9,2e-9,nan\n3e-9,4e-9,5e-9\n");
   folder_.write("grid.csv.yaml",
-                "pitch_x: 1e-9\npitch_y: 1e-9\nwafer_id: 'W \"3\": #4'\nserial_id: 0012\nsite_x: -5e-3\nsite_y: 0\n"
+                "pitch_x: 1e-9\npitch_y: 1e-9\nwafer_id: 'W \"3\": #4'\nserial_id: 0012\nsite_x: "
+                "-5e-3\nsite_y: 0\n"
                 "operator_name: ann\nacquisition_time: 2026-03-01\n");
   const Outcome outcome = importScan("-o " + folder_.file("o") + " " + text);
   ASSERT_EQ(outcome.status, 0);
@@ -107,9 +113,10 @@ TEST_F(ImportScan, NeverWritesOverAScanOrTwiceToOneFile) {
   const Outcome onto_itself = importScan("-o " + folder_.file("") + " " + folder_.file("a.tiff"));
   EXPECT_EQ(onto_itself.status, 2);
   ASSERT_EQ(onto_itself.errors.size(), 1u);
-  EXPECT_NE(onto_itself.errors[0].find("choose another --output"), std::string::npos) << onto_itself.errors[0];
-  const Outcome twice = importScan("-p 1e-6 -o " + folder_.file("out_folder") + " " + folder_.file("a.tiff") + " " +
-                                   folder_.file("a.csv"));
+  EXPECT_NE(onto_itself.errors[0].find("choose another --output"), std::string::npos)
+      << onto_itself.errors[0];
+  const Outcome twice = importScan("-p 1e-6 -o " + folder_.file("out_folder") + " " +
+                                   folder_.file("a.tiff") + " " + folder_.file("a.csv"));
   EXPECT_EQ(twice.status, 2);
   ASSERT_EQ(twice.errors.size(), 1u);
   EXPECT_NE(twice.errors[0].find("a.csv"), std::string::npos) << twice.errors[0];
@@ -119,8 +126,8 @@ TEST_F(ImportScan, NeverWritesOverAScanOrTwiceToOneFile) {
 TEST_F(ImportScan, BadInputIsOneLineAndTheOthersAreImported) {
   const std::string good = folder_.write("good.csv", "1e-9,2e-9\n3e-9,4e-9\n");
   const std::string bad = folder_.write("bad.csv", "1e-9,2e-9\n3e-9\n");
-  const Outcome outcome =
-      importScan("-p 1e-6 -o " + folder_.file("o") + " " + bad + " " + good + " " + folder_.file("none.di"));
+  const Outcome outcome = importScan("-p 1e-6 -o " + folder_.file("o") + " " + bad + " " + good +
+                                     " " + folder_.file("none.di"));
   EXPECT_EQ(outcome.status, 2);
   ASSERT_EQ(outcome.errors.size(), 3u);
   EXPECT_NE(outcome.errors[0].find(bad), std::string::npos);
@@ -137,7 +144,8 @@ TEST_F(ImportScan, ListShowsSizePitchAndUnit) {
   writeScan(folder_.file("a.tiff"), analytic::paraboloid(21, 31, 20e-9, 30e-9, 2e-6), "a");
   const Outcome outcome = importScan("--list " + folder_.file("a.tiff"));
   ASSERT_EQ(outcome.status, 0);
-  for (const char* part : {"* (single channel)", "31 x 21 pixels", "pitch 2e-08 x 3e-08 m", "heights in m"}) {
+  for (const char* part :
+       {"* (single channel)", "31 x 21 pixels", "pitch 2e-08 x 3e-08 m", "heights in m"}) {
     EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " in " << outcome.output;
   }
 }
@@ -150,9 +158,11 @@ class VendorImport : public ImportScan {
       GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
     }
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.is_regular_file() && entry.path().extension() != ".md") scans_.push_back(entry.path());
+      if (entry.is_regular_file() && entry.path().extension() != ".md")
+        scans_.push_back(entry.path());
     }
-    for (const auto& entry : fs::directory_iterator(std::string(folder) + "/bad")) bad_.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(std::string(folder) + "/bad"))
+      bad_.push_back(entry.path());
   }
 
   static std::string joined(const std::vector<fs::path>& paths) {
@@ -171,19 +181,21 @@ TEST_F(VendorImport, EveryScanIsImportedToTheLastBitAndPredictedAlike) {
   EXPECT_EQ(imported.status, 2);
   EXPECT_EQ(imported.errors.size(), bad_.size());
 
-  const std::string cleaning =
-      folder_.write("c.yaml", "preprocessing: {offset: {enabled: true}, fill: {enabled: true}, level: plane}\n");
+  const std::string cleaning = folder_.write(
+      "c.yaml", "preprocessing: {offset: {enabled: true}, fill: {enabled: true}, level: plane}\n");
   std::vector<fs::path> tiffs;
   for (const fs::path& scan : scans_) {
     const fs::path tiff = folder_.file("tiff/" + scan.stem().string() + ".tiff");
     expectSame(readScanFile(tiff.string()), readScanFile(scan.string()));
     tiffs.push_back(tiff);
   }
-  const Outcome from_vendor = predictScan("--json -l 1e-6 -c " + cleaning + joined(scans_) + joined(bad_));
+  const Outcome from_vendor =
+      predictScan("--json -l 1e-6 -c " + cleaning + joined(scans_) + joined(bad_));
   EXPECT_EQ(from_vendor.status, 2);
   std::vector<std::string> errors;
-  std::copy_if(from_vendor.errors.begin(), from_vendor.errors.end(), std::back_inserter(errors),
-               [](const std::string& line) { return line.find(": warning: ") == std::string::npos; });
+  std::copy_if(
+      from_vendor.errors.begin(), from_vendor.errors.end(), std::back_inserter(errors),
+      [](const std::string& line) { return line.find(": warning: ") == std::string::npos; });
   ASSERT_EQ(errors.size(), bad_.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_NE(errors[i].find(bad_[i].string()), std::string::npos) << errors[i];
@@ -217,12 +229,15 @@ TEST_F(VendorImport, ListMarksTheChannelThatIsTaken) {
   EXPECT_NE(outcome.output.find("  3: Height"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("256 x 256 pixels"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("heights in V"), std::string::npos) << outcome.output;
-  ASSERT_EQ(importScan("--channel Height -o " + folder_.file("h") + " " + folder + "/di-3.di").status, 0);
-  EXPECT_NEAR(heightStatistics(readScanFile(folder_.file("h/di-3.tiff"))).rms_height, 264.00285276203158e-9, 1e-15);
+  ASSERT_EQ(
+      importScan("--channel Height -o " + folder_.file("h") + " " + folder + "/di-3.di").status, 0);
+  EXPECT_NEAR(heightStatistics(readScanFile(folder_.file("h/di-3.tiff"))).rms_height,
+              264.00285276203158e-9, 1e-15);
 }
 
 TEST_F(VendorImport, TooManyMissingPixelsRefuseTheScanWithTheReason) {
-  const std::string cleaning = folder_.write("c.yaml", "preprocessing: {fill: {enabled: true, max_fraction: 1e-5}}\n");
+  const std::string cleaning =
+      folder_.write("c.yaml", "preprocessing: {fill: {enabled: true, max_fraction: 1e-5}}\n");
   const std::string scan = std::string(std::getenv("MEMS_STICTION_SCANS")) + "/opd-1.opd";
   const Outcome outcome = predictScan("-c " + cleaning + " " + scan);
   EXPECT_EQ(outcome.status, 2);

@@ -30,7 +30,8 @@ class PredictDevice : public ::testing::Test {
     return outcome.status == 0 ? nlohmann::json::parse(outcome.output) : nlohmann::json();
   }
 
-  /// 64 x 64 pixels of a Gaussian surface with an rms height of 2 nm, float32 metres; the file does not state its pitch.
+  /// 64 x 64 pixels of a Gaussian surface with an rms height of 2 nm, float32 metres; the file does
+  /// not state its pitch.
   std::string scan(const std::string& name, int seed, double pitch = 10e-9) const {
     TranslatedGaussianOptions options;
     options.gaussian.rows = options.gaussian.cols = 64;
@@ -72,20 +73,22 @@ TEST_F(PredictDevice, saysForceIntervalAndListsByTheirNames) {
 
 TEST_F(PredictDevice, takesAreaSpringAndSeedFromTheSettings) {
   const std::string settings =
-      "device: {contact_area: 1e-11, spring_stiffness: 100, travel: 1e-6}\ndevice_force: {realisations: 3, max_cells: "
+      "device: {contact_area: 1e-11, spring_stiffness: 100, travel: 1e-6}\ndevice_force: "
+      "{realisations: 3, max_cells: "
       "1e4}\n";
   const std::string path = scan("a.tiff", 1);
   const Outcome first = run("--json --config " + config(settings) + " --pitch 10e-9 " + path);
   ASSERT_EQ(first.status, 0);
-  EXPECT_EQ(run("--json --config " + config(settings) + " --pitch 10e-9 " + path).output, first.output);
+  EXPECT_EQ(run("--json --config " + config(settings) + " --pitch 10e-9 " + path).output,
+            first.output);
   const nlohmann::json device = nlohmann::json::parse(first.output);
   EXPECT_EQ(device["sticks"], "no");
   const std::string yaml = run("--config " + config(settings) + " --pitch 10e-9 " + path).output;
   const std::string reason = device["reason"];
   EXPECT_EQ(yaml.substr(yaml.rfind("\n# ") + 1), "# Does it stick? No: " + reason + ".\n");
   EXPECT_NEAR(device["margin"].get<double>() * device["pull_off_force"].get<double>(), 1e-4, 1e-12);
-  const Outcome other =
-      run("--json --config " + config(settings + "device_force/seed: 2\n") + " --pitch 10e-9 " + path);
+  const Outcome other = run("--json --config " + config(settings + "device_force/seed: 2\n") +
+                            " --pitch 10e-9 " + path);
   ASSERT_EQ(other.status, 0);
   EXPECT_NE(nlohmann::json::parse(other.output)["realisations"], device["realisations"]);
 }
@@ -94,8 +97,8 @@ TEST_F(PredictDevice, writesTheSameAsYaml) {
   const Outcome outcome = run(kQuick + std::string(kArea) + "--pitch 10e-9 " + scan("a.tiff", 1));
   ASSERT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.output.rfind("---\nscans:\n", 0), 0u) << outcome.output;
-  for (const char* name :
-       {"\npull_off_force: ", "\nrealisations:\n", "\nspectrum:\n", "\nparts_of_scans:\n", "\n# Pull-off force of "}) {
+  for (const char* name : {"\npull_off_force: ", "\nrealisations:\n", "\nspectrum:\n",
+                           "\nparts_of_scans:\n", "\n# Pull-off force of "}) {
     EXPECT_NE(outcome.output.find(name), std::string::npos) << name;
   }
 }
@@ -112,7 +115,8 @@ TEST_F(PredictDevice, takesAPitchForEachScan) {
   const Outcome three = run("--pitch 1e-8 --pitch 2e-8 --pitch 3e-8" + std::string(kArea) + scans);
   EXPECT_EQ(three.status, 2);
   ASSERT_EQ(three.errors.size(), 1u);
-  EXPECT_NE(three.errors[0].find("--pitch: 3 are given for 2 scans"), std::string::npos) << three.errors[0];
+  EXPECT_NE(three.errors[0].find("--pitch: 3 are given for 2 scans"), std::string::npos)
+      << three.errors[0];
 }
 
 TEST_F(PredictDevice, needsAnArea) {
@@ -123,12 +127,14 @@ TEST_F(PredictDevice, needsAnArea) {
   const Outcome negative = run("--pitch 10e-9 --area=-1 " + scan("a.tiff", 1));
   EXPECT_EQ(negative.status, 2);
   ASSERT_EQ(negative.errors.size(), 1u);
-  EXPECT_NE(negative.errors[0].find("device/contact_area"), std::string::npos) << negative.errors[0];
+  EXPECT_NE(negative.errors[0].find("device/contact_area"), std::string::npos)
+      << negative.errors[0];
 }
 
 TEST_F(PredictDevice, refusesAllForOneBadScanAndNamesIt) {
   const std::string bad = folder_.write("bad.tiff", "no picture");
-  const Outcome outcome = run(kArea + std::string(kQuick) + "--pitch 10e-9 " + scan("a.tiff", 1) + " " + bad);
+  const Outcome outcome =
+      run(kArea + std::string(kQuick) + "--pitch 10e-9 " + scan("a.tiff", 1) + " " + bad);
   EXPECT_EQ(outcome.status, 2);
   EXPECT_TRUE(outcome.output.empty());
   ASSERT_EQ(outcome.errors.size(), 1u);
@@ -136,13 +142,15 @@ TEST_F(PredictDevice, refusesAllForOneBadScanAndNamesIt) {
 }
 
 TEST_F(PredictDevice, takesACounterSurfaceThatSaysHowItFaces) {
-  const std::string scans = "--pitch 10e-9 --counter-surface " + scan("upper.tiff", 3) + " " + scan("a.tiff", 1);
+  const std::string scans =
+      "--pitch 10e-9 --counter-surface " + scan("upper.tiff", 3) + " " + scan("a.tiff", 1);
   const Outcome unstated = run(kArea + std::string(kQuick) + scans);
   EXPECT_EQ(unstated.status, 2);
   ASSERT_EQ(unstated.errors.size(), 1u);
-  EXPECT_NE(unstated.errors[0].find("counter_surface/facing"), std::string::npos) << unstated.errors[0];
-  const nlohmann::json device =
-      record(kArea + std::string("--config ") + config("counter_surface/facing: up\n") + " " + scans);
+  EXPECT_NE(unstated.errors[0].find("counter_surface/facing"), std::string::npos)
+      << unstated.errors[0];
+  const nlohmann::json device = record(kArea + std::string("--config ") +
+                                       config("counter_surface/facing: up\n") + " " + scans);
   ASSERT_FALSE(device.is_null());
   EXPECT_EQ(device["counter_surface"].size(), 1u);
   EXPECT_EQ(device["scans"].size(), 1u);

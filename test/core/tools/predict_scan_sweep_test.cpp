@@ -1,4 +1,5 @@
-/// predict_scan --sweep-voltage: rows, table, and what it refuses. The figures to the bit: test/python/test_module_runs.py.
+/// predict_scan --sweep-voltage: rows, table, and what it refuses. The figures to the bit:
+/// test/python/test_module_runs.py.
 
 #include <yaml-cpp/yaml.h>
 
@@ -18,14 +19,16 @@ class PredictScanSweep : public PredictScan {
     return folder_.write(
         "beam.yaml",
         "interface: {insulator_thickness: 100e-9}\n"
-        "device: {beam_type: cantilever, beam_length: 300e-6, beam_width: 20e-6, beam_thickness: 2e-6, "
+        "device: {beam_type: cantilever, beam_length: 300e-6, beam_width: 20e-6, beam_thickness: "
+        "2e-6, "
         "beam_gap: 2e-6, beam_modulus: 160e9, contact_area: 4.08e-12, electrode_start: 50e-6, "
         "electrode_length: " +
             electrode_length + more + "}\n");
   }
 
   Outcome sweep(const std::string& arguments) const {
-    return run("--pitch 20e-9 --config " + folder_.file("beam.yaml") + " " + arguments + " " + sphere());
+    return run("--pitch 20e-9 --config " + folder_.file("beam.yaml") + " " + arguments + " " +
+               sphere());
   }
 };
 
@@ -84,14 +87,16 @@ TEST_F(PredictScanSweep, RefusesWhatCannotBeSweptBeforeTheScan) {
            {"--sweep-voltage 0,05", "the decimal sign is a point"},
            {"--sweep-voltage 0,5,", "must be numbers with commas between"},
            {"--sweep-voltage 0:nan:5", "must be numbers with commas between"},
-           {"--sweep-voltage 30:0:1", "nothing lies from 30 up to 0; the way down follows by itself"},
+           {"--sweep-voltage 30:0:1",
+            "nothing lies from 30 up to 0; the way down follows by itself"},
            {"--sweep-voltage 0:30:0", "the step must be > 0"},
            {"--sweep-voltage 0:1:1e-9", "more than 10000 numbers"},
            {"--sweep-voltage 0:1:0.001 --sweep-load 0:1e-6:1e-7",
             "22011 rows, up and down, are not allowed, must be <= 10000"},
            {"--sweep-voltage 5,5", "--sweep-voltage: 5 V after 5 V is not allowed, must ascend"},
            {"--sweep-voltage 0:9000:1000", "--sweep-voltage: 9000 V is not allowed"},
-           {"--sweep-load -1e-6:0:1e-7", "--sweep-load: -1e-06 N is not allowed, must be >= 0 N"}}) {
+           {"--sweep-load -1e-6:0:1e-7",
+            "--sweep-load: -1e-06 N is not allowed, must be >= 0 N"}}) {
     const Outcome outcome = sweep(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     ASSERT_EQ(outcome.errors.size(), 1U) << arguments;
@@ -101,7 +106,8 @@ TEST_F(PredictScanSweep, RefusesWhatCannotBeSweptBeforeTheScan) {
   beam("150e-6", ", electrode_area: 3e-9");
   const Outcome outcome = sweep("--sweep-voltage 0:20:5");
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.errors.at(0).find("device/electrode_area: 3e-09 m^2 is not allowed for a beam without a spring"),
+  EXPECT_NE(outcome.errors.at(0).find(
+                "device/electrode_area: 3e-09 m^2 is not allowed for a beam without a spring"),
             std::string::npos);
 }
 

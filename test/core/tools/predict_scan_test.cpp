@@ -71,24 +71,27 @@ TEST_F(PredictScan, AFolderIsItsScansByName) {
     found.emplace_back(record["scan_name"], record["pitch_x"]);
   }
   EXPECT_EQ(found, (std::vector<std::pair<std::string, double>>{{"a", 20e-9}, {"b", 30e-9}}));
-  const Outcome refused = run("--deformed " + folder_.file("out.tiff") + " " + folder_.file("scans"));
+  const Outcome refused =
+      run("--deformed " + folder_.file("out.tiff") + " " + folder_.file("scans"));
   EXPECT_EQ(refused.status, 2) << "one file cannot hold what belongs to two scans";
 }
 
 TEST_F(PredictScan, TheVersionIsAllThatIsAskedFor) {
   const Outcome outcome = run("--version --no-such-option");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_TRUE(std::regex_match(outcome.output, std::regex("predict_scan of mems_stiction \\d+\\.\\d+\\.\\d+\n")))
+  EXPECT_TRUE(std::regex_match(outcome.output,
+                               std::regex("predict_scan of mems_stiction \\d+\\.\\d+\\.\\d+\n")))
       << outcome.output;
 }
 
 TEST_F(PredictScan, ConfigurationFileAndOptionsMeet) {
-  const std::string configuration = folder_.write(
-      "c.yaml",
-      "interface: {insulator_thickness: 100e-9}\nload: {mechanical_load: 1e-6, voltage: 1}\nscan: {pitch_x: "
-      "20e-9, pitch_y: 20e-9}\n");
-  const YAML::Node record =
-      YAML::Load(run("--config " + configuration + " --voltage -5 --step 0.1e-9 " + sphere()).output);
+  const std::string configuration =
+      folder_.write("c.yaml",
+                    "interface: {insulator_thickness: 100e-9}\nload: {mechanical_load: 1e-6, "
+                    "voltage: 1}\nscan: {pitch_x: "
+                    "20e-9, pitch_y: 20e-9}\n");
+  const YAML::Node record = YAML::Load(
+      run("--config " + configuration + " --voltage -5 --step 0.1e-9 " + sphere()).output);
   EXPECT_EQ(record["voltage"].as<double>(), -5.0) << "the option goes before the file";
   EXPECT_EQ(record["mechanical_load"].as<double>(), 1e-6);
   EXPECT_GT(record["electrostatic_force"].as<double>(), 0.0);
@@ -123,7 +126,8 @@ TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
 
 TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight) {
   const std::string file = folder_.file("curve.csv");
-  const Outcome outcome = run("--json --record-curve --pitch 20e-9 --curve " + file + " " + sphere());
+  const Outcome outcome =
+      run("--json --record-curve --pitch 20e-9 --curve " + file + " " + sphere());
   ASSERT_EQ(outcome.status, 0);
   const nlohmann::json record = nlohmann::json::parse(outcome.output);
   EXPECT_EQ(record["formulation"], "separation_curve");
@@ -141,7 +145,8 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
     EXPECT_EQ(point["is_separation"].get<bool>(), i >= approach.size()) << i;
   }
   EXPECT_EQ(approach.back().first, retraction.front().first) << "the way out begins at rest";
-  EXPECT_NEAR(retraction.front().second - approach.back().second, 0.0, 0.05 * record["pull_off_force"].get<double>());
+  EXPECT_NEAR(retraction.front().second - approach.back().second, 0.0,
+              0.05 * record["pull_off_force"].get<double>());
   double largest = 0.0;
   for (const auto& point : retraction) largest = std::max(largest, point.second);
   // the pull-off force is the summit of a parabola through the highest points
@@ -150,30 +155,36 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
 }
 
 TEST_F(PredictScan, ForceAndMarginAreRoundedForPeopleInACommentAndKeptInTheFields) {
-  const std::string device = folder_.write(
-      "d.yaml",
-      "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.0804e-12}\ndevice_force: {enabled: false}\n");
+  const std::string device =
+      folder_.write("d.yaml",
+                    "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: "
+                    "4.0804e-12}\ndevice_force: {enabled: false}\n");
   const std::string call = "-c " + device + " --pitch 20e-9 " + sphere();
   const std::string text = run(call).output;
   const std::size_t place = text.find("\n# Pull-off force ");
   ASSERT_NE(place, std::string::npos);
   const std::string line = text.substr(place + 1, text.find('\n', place + 1) - place - 1);
   // one contact: its interval is wide, so that two digits are left
-  EXPECT_TRUE(std::regex_match(line, std::regex("# Pull-off force \\d\\.?\\d?e-0\\d N, 95 % within [^;]* N\\.")))
+  EXPECT_TRUE(std::regex_match(
+      line, std::regex("# Pull-off force \\d\\.?\\d?e-0\\d N, 95 % within [^;]* N\\.")))
       << line;
   const std::string sentence = text.substr(text.rfind("\n# ") + 1);
   EXPECT_TRUE(std::regex_match(
-      sentence, std::regex("# Does it stick\\? (No|Marginal|Yes|Not known): margin [^;]*, 95 % within .*\\.\n")))
+      sentence,
+      std::regex(
+          "# Does it stick\\? (No|Marginal|Yes|Not known): margin [^;]*, 95 % within .*\\.\n")))
       << sentence;
 }
 
 TEST_F(PredictScan, ACurveSaysWhereItComesFrom) {
   const std::string file = folder_.file("curve.csv");
-  const std::string part = folder_.write("part.yaml", "part: {id: 'die 12, left', serial: '=A33'}\n");
-  const Outcome outcome =
-      run("--json -c " + part + " --pitch 20e-9 --curve " + file + " '" + sphere("wafer 3.tiff") + "'");
+  const std::string part =
+      folder_.write("part.yaml", "part: {id: 'die 12, left', serial: '=A33'}\n");
+  const Outcome outcome = run("--json -c " + part + " --pitch 20e-9 --curve " + file + " '" +
+                              sphere("wafer 3.tiff") + "'");
   ASSERT_EQ(outcome.status, 0);
-  const std::string hash = nlohmann::json::parse(outcome.output)["settings_hash"].get<std::string>();
+  const std::string hash =
+      nlohmann::json::parse(outcome.output)["settings_hash"].get<std::string>();
   std::istringstream lines(ScratchFolder::read(file));
   std::string line;
   std::getline(lines, line);
@@ -183,14 +194,17 @@ TEST_F(PredictScan, ACurveSaysWhereItComesFrom) {
 }
 
 /// As large as the frame of sphere(), which then stands for it; small surfaces.
-constexpr const char* kDevice = "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.0804e-12}\n";
+constexpr const char* kDevice =
+    "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.0804e-12}\n";
 
 TEST_F(PredictScan, AStatedDeviceIsJudged) {
-  const std::string device = folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
+  const std::string device =
+      folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
   const std::string call = " --pitch 20e-9 " + sphere();
   const YAML::Node record = YAML::Load(run("-c " + device + call).output);
   const double scale = 4.0804e-12 / record["nominal_area"].as<double>();
-  EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / (record["pull_off_force"].as<double>() * scale));
+  EXPECT_DOUBLE_EQ(record["margin"].as<double>(),
+                   1e-6 / (record["pull_off_force"].as<double>() * scale));
   EXPECT_LT(record["margin_lower"].as<double>(), record["margin"].as<double>());
   EXPECT_GT(record["margin_upper"].as<double>(), record["margin"].as<double>());
   EXPECT_FALSE(record["sticks"].as<std::string>().empty());
@@ -203,14 +217,15 @@ TEST_F(PredictScan, AStatedDeviceIsJudged) {
 }
 
 TEST_F(PredictScan, ADeviceIsJudgedByItsOwnForce) {
-  const std::string device =
-      folder_.write("d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n"));
+  const std::string device = folder_.write(
+      "d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n"));
   const YAML::Node record = YAML::Load(run("-c " + device + " --pitch 20e-9 " + sphere()).output);
   const YAML::Node force = record["device_force"];
   ASSERT_TRUE(force.IsMap());
   EXPECT_EQ(record["device_pull_off_force"].as<double>(), force["pull_off_force"].as<double>());
   EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / force["pull_off_force"].as<double>());
-  EXPECT_EQ(record["apparent_work_of_adhesion"].as<double>(), force["apparent_work_of_adhesion"].as<double>());
+  EXPECT_EQ(record["apparent_work_of_adhesion"].as<double>(),
+            force["apparent_work_of_adhesion"].as<double>());
   EXPECT_DOUBLE_EQ(force["area"].as<double>(), 4.0804e-12);
 }
 
@@ -220,14 +235,17 @@ TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
   const YAML::Node record = YAML::Load(outcome.output);
   ASSERT_EQ(record["cleanings"].size(), 9u);
   EXPECT_EQ(record["cleanings"][0]["cleaning"].as<std::string>(), "as configured");
-  EXPECT_EQ(record["cleanings"][0]["pull_off_force"].as<double>(), record["pull_off_force"].as<double>());
+  EXPECT_EQ(record["cleanings"][0]["pull_off_force"].as<double>(),
+            record["pull_off_force"].as<double>());
   EXPECT_GE(record["cleaning_spread"]["pull_off_factor"].as<double>(), 1.0);
   EXPECT_NE(outcome.output.find("# Over "), std::string::npos);
 }
 
 TEST_F(PredictScan, CleaningsWidenTheMargin) {
   const std::string call =
-      "-c " + folder_.write("d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n")) +
+      "-c " +
+      folder_.write("d.yaml",
+                    kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n")) +
       " --pitch 20e-9 " + sphere();
   const YAML::Node plain = YAML::Load(run(call).output);
   const YAML::Node record = YAML::Load(run("--cleanings " + call).output);
@@ -243,8 +261,10 @@ TEST_F(PredictScan, CleaningsWidenTheMargin) {
 
 TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
   const std::string configuration = folder_.write(
-      "c.yaml", "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
-  const YAML::Node record = YAML::Load(run("-c " + configuration + " --pitch 20e-9 " + sphere()).output);
+      "c.yaml",
+      "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
+  const YAML::Node record =
+      YAML::Load(run("-c " + configuration + " --pitch 20e-9 " + sphere()).output);
   ASSERT_EQ(record["preprocessing"].size(), 2u);
   EXPECT_EQ(record["preprocessing"][0]["step"].as<std::string>(), "tip");
   EXPECT_EQ(record["preprocessing"][1]["parameters"].as<std::string>(), "shape=plane robust=false");
@@ -257,35 +277,45 @@ TEST_F(PredictScan, HelpNamesEveryOption) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
   for (const char* option :
-       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "--half-space",
-        "--curve", "--formulation-curve", "--record-curve", "--cleanings", "--half-space-pressure", "--half-space-gap",
-        "--half-space-deformed", "SCAN"}) {
+       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed",
+        "--convergence", "--half-space", "--curve", "--formulation-curve", "--record-curve",
+        "--cleanings", "--half-space-pressure", "--half-space-gap", "--half-space-deformed",
+        "SCAN"}) {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
 }
 
 TEST_F(PredictScan, SphereOnFlatGivesThePullOffOfJkr) {
-  // No van der Waals forces, so that the pull-off is JKR's alone; 25 pixels across the contact radius.
-  const std::string configuration = folder_.write("jkr.yaml",
-                                                  "interface: {hamaker_constant: 0, work_of_adhesion: 0.1}\napproach: "
-                                                  "{formulation: paper, deformation: elastic}\n");
+  // No van der Waals forces, so that the pull-off is JKR's alone; 25 pixels across the contact
+  // radius.
+  const std::string configuration =
+      folder_.write("jkr.yaml",
+                    "interface: {hamaker_constant: 0, work_of_adhesion: 0.1}\napproach: "
+                    "{formulation: paper, deformation: elastic}\n");
   constexpr double kRadius = 2e-6;
   constexpr double kWork = 0.1;
   const double modulus = 4.0 / 3.0 * ContactPair(Material(), Material()).contact_modulus;
   for (const double load : {0.0, 1e-7, 1e-6, 1e-5}) {
     const double adhesion = 3.0 * kPi * kWork * kRadius;
-    const double apparent = load + adhesion + std::sqrt(2.0 * adhesion * load + adhesion * adhesion);
+    const double apparent =
+        load + adhesion + std::sqrt(2.0 * adhesion * load + adhesion * adhesion);
     const double contact_radius = std::cbrt(kRadius * apparent / modulus);
     const double pitch = contact_radius / 25.0;
-    writeHeightTiff(folder_.file("s.tiff"), analytic::paraboloid(201, 201, pitch, pitch, kRadius).heights());
+    writeHeightTiff(folder_.file("s.tiff"),
+                    analytic::paraboloid(201, 201, pitch, pitch, kRadius).heights());
     std::ostringstream arguments;
     arguments << "--config " << configuration << " --pitch " << pitch << " --load " << load << " "
               << folder_.file("s.tiff");
     const YAML::Node record = YAML::Load(run(arguments.str()).output);
     EXPECT_EQ(record["status"].as<std::string>(), "EQUILIBRIUM");
-    EXPECT_NEAR(record["pull_off_force"].as<double>() / (1.5 * kPi * kWork * kRadius), 1.0, 0.03) << load;
-    EXPECT_NEAR(record["contact_area_jkr"].as<double>() / (kPi * contact_radius * contact_radius), 1.0, 0.03) << load;
-    EXPECT_NEAR(record["contact_area"].as<double>() / (kPi * contact_radius * contact_radius), 1.0, 0.06) << load;
+    EXPECT_NEAR(record["pull_off_force"].as<double>() / (1.5 * kPi * kWork * kRadius), 1.0, 0.03)
+        << load;
+    EXPECT_NEAR(record["contact_area_jkr"].as<double>() / (kPi * contact_radius * contact_radius),
+                1.0, 0.03)
+        << load;
+    EXPECT_NEAR(record["contact_area"].as<double>() / (kPi * contact_radius * contact_radius), 1.0,
+                0.06)
+        << load;
   }
 }
 

@@ -1,4 +1,5 @@
-/// Peel numbers and lengths against published numbers, and against the bending energy by a second route.
+/// Peel numbers and lengths against published numbers, and against the bending energy by a second
+/// route.
 
 #include "mems_stiction/verdict/beam_adhesion.hpp"
 
@@ -18,8 +19,8 @@ Beam beamOf(BeamType type, double length, double residual_stress = 0.0) {
   return {type, length, 2 * kUm, 2 * kUm, 169e9, residual_stress};
 }
 
-/// Energy per width of one clamped-guided arm [J/m]: bending and, if held at both ends, stretching, by the trapezoidal
-/// rule over u = h (3 x^2/s^2 - 2 x^3/s^3).
+/// Energy per width of one clamped-guided arm [J/m]: bending and, if held at both ends, stretching,
+/// by the trapezoidal rule over u = h (3 x^2/s^2 - 2 x^3/s^3).
 double armEnergy(const Beam& beam, double length) {
   const int count = 20000;
   double bending = 0.0;
@@ -34,7 +35,8 @@ double armEnergy(const Beam& beam, double length) {
   }
   if (beam.type != BeamType::kDoublyClamped) return bending;
   const double strain = 0.5 * slope_square / length;
-  return bending + beam.thickness * length * strain * (beam.residual_stress + 0.5 * beam.modulus * strain);
+  return bending +
+         beam.thickness * length * strain * (beam.residual_stress + 0.5 * beam.modulus * strain);
 }
 
 TEST(BeamAdhesion, reproducesTheStuckCantileversOfTheReference) {
@@ -45,7 +47,8 @@ TEST(BeamAdhesion, reproducesTheStuckCantileversOfTheReference) {
 
 TEST(BeamAdhesion, cantileverPeelNumberIsThatOfMastrangeloAndHsu) {
   const Beam beam = beamOf(BeamType::kCantilever, 300 * kUm);
-  EXPECT_NEAR(peelNumber(beam, 1e-4), 3.0 * 169e9 * 8e-18 * 4e-12 / (8.0 * 1e-4 * std::pow(300 * kUm, 4)), 1e-12);
+  EXPECT_NEAR(peelNumber(beam, 1e-4),
+              3.0 * 169e9 * 8e-18 * 4e-12 / (8.0 * 1e-4 * std::pow(300 * kUm, 4)), 1e-12);
 }
 
 TEST(BeamAdhesion, doublyClampedPeelNumberIsNearThatOfTheOnePolynomialShape) {
@@ -54,8 +57,10 @@ TEST(BeamAdhesion, doublyClampedPeelNumberIsNearThatOfTheOnePolynomialShape) {
   const double stress = 20e6;
   const double length = 400 * kUm;
   const Beam beam = beamOf(BeamType::kDoublyClamped, length, stress);
-  const double bracket = 1.0 + 2.0 / 21.0 * stress * length * length / (169e9 * 4e-12) + 256.0 / 735.0;
-  const double of_trial_shape = 25.6 * 169e9 * 8e-18 * 4e-12 / (1e-3 * std::pow(length, 4)) * bracket;
+  const double bracket =
+      1.0 + 2.0 / 21.0 * stress * length * length / (169e9 * 4e-12) + 256.0 / 735.0;
+  const double of_trial_shape =
+      25.6 * 169e9 * 8e-18 * 4e-12 / (1e-3 * std::pow(length, 4)) * bracket;
   EXPECT_NEAR(peelNumber(beam, 1e-3), of_trial_shape, 0.07 * of_trial_shape);  // 24 for 25.6: 6.7 %
 }
 
@@ -67,7 +72,8 @@ TEST(BeamAdhesion, workIsMinusTheDerivativeOfTheArmsEnergy) {
       const double s = 170 * kUm;
       const double step = 1e-4 * s;
       const double slope = (armEnergy(beam, s - step) - armEnergy(beam, s + step)) / (2.0 * step);
-      EXPECT_NEAR(sShapeWork(beam, s), slope, 1e-6 * slope);  // central difference: 1e-8; trapezoidal rule: 1e-8
+      EXPECT_NEAR(sShapeWork(beam, s), slope,
+                  1e-6 * slope);  // central difference: 1e-8; trapezoidal rule: 1e-8
     }
   }
 }
@@ -120,8 +126,9 @@ TEST(BeamAdhesion, forceIsTheDerivativeOfTheEnergyByTheGap) {
         Beam bent = beam;
         bent.gap = gap;
         // a cantilever touches with its tip alone: a quarter of the energy of an S
-        return type == BeamType::kCantilever ? 0.25 * beam.width * armEnergy(bent, beam.length)
-                                             : 2.0 * beam.width * armEnergy(bent, 0.5 * beam.length);
+        return type == BeamType::kCantilever
+                   ? 0.25 * beam.width * armEnergy(bent, beam.length)
+                   : 2.0 * beam.width * armEnergy(bent, 0.5 * beam.length);
       };
       const double step = 1e-4 * beam.gap;
       const double slope = (energyAt(beam.gap + step) - energyAt(beam.gap - step)) / (2.0 * step);
@@ -132,7 +139,8 @@ TEST(BeamAdhesion, forceIsTheDerivativeOfTheEnergyByTheGap) {
 }
 
 TEST(BeamAdhesion, peelLengthIsWhatTheEndOfABondedBeamCarriesOverItsPressure) {
-  // a long bonded beam, pulled by a line force at its free end, until the foundation there gives way
+  // a long bonded beam, pulled by a line force at its free end, until the foundation there gives
+  // way
   Beam beam = beamOf(BeamType::kCantilever, 400 * kUm);
   beam.width = 20 * kUm;
   const double work = 2e-4;
@@ -142,10 +150,12 @@ TEST(BeamAdhesion, peelLengthIsWhatTheEndOfABondedBeamCarriesOverItsPressure) {
   const double force = 1e-6;
   load(differences.nodes() - 1) = force / (0.5 * differences.step());
   const double stiffness = pressure * pressure / (2.0 * work);
-  const Eigen::VectorXd bent = differences.solve(differences.matrix(0.0, stiffness * beam.width), load);
+  const Eigen::VectorXd bent =
+      differences.solve(differences.matrix(0.0, stiffness * beam.width), load);
   const double range = 2.0 * work / pressure;
   const double force_at_failure = force * range / bent(differences.nodes() - 1);
-  EXPECT_NEAR(force_at_failure / (pressure * beam.width) / peelLength(beam, work, pressure), 1.0, 0.02);
+  EXPECT_NEAR(force_at_failure / (pressure * beam.width) / peelLength(beam, work, pressure), 1.0,
+              0.02);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// The voltage at which beams close, against a beam by finite differences and against published numbers.
+/// The voltage at which beams close, against a beam by finite differences and against published
+/// numbers.
 
 #include "verdict/beam_electrode.hpp"
 #include "verdict/beam_field.hpp"
@@ -19,24 +20,29 @@ namespace {
 constexpr double kMicrometre = 1e-6;
 
 Beam beamOfType(BeamType type, double stress = 0.0) {
-  return {type, 200 * kMicrometre, 2 * kMicrometre, 2 * kMicrometre, 160e9, stress, 20 * kMicrometre};
+  return {type,   200 * kMicrometre, 2 * kMicrometre, 2 * kMicrometre, 160e9,
+          stress, 20 * kMicrometre};
 }
 
 BeamElectrode wholeBelow(const Beam& beam) { return {0.0, beam.length, beam.gap, 0.0}; }
 
 /// The field on each node of a beam that is bent so [N/m].
-Eigen::VectorXd fieldOn(const FiniteDifferenceBeam& differences, const Beam& beam, const BeamElectrode& electrode,
-                        double voltage, const Eigen::VectorXd& bent) {
+Eigen::VectorXd fieldOn(const FiniteDifferenceBeam& differences, const Beam& beam,
+                        const BeamElectrode& electrode, double voltage,
+                        const Eigen::VectorXd& bent) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(differences.nodes());
   for (int node = 1; node <= differences.nodes(); ++node) {
     const double x = differences.place(node);
     const double from = std::max(x - 0.5 * differences.step(), electrode.start);
-    const double to = std::min({x + 0.5 * differences.step(), electrode.start + electrode.length, beam.length});
+    const double to =
+        std::min({x + 0.5 * differences.step(), electrode.start + electrode.length, beam.length});
     if (to <= from) continue;
     const double gap = electrode.gap + electrode.insulator_gap - bent(node - 1);
     // the last node of a free end stands for half a cell, as its equation does
-    const double share = (to - from) / (node == differences.nodes() ? 0.5 * differences.step() : differences.step());
-    load(node - 1) = 0.5 * kVacuumPermittivity * beam.width * voltage * voltage / (gap * gap) * share;
+    const double share =
+        (to - from) / (node == differences.nodes() ? 0.5 * differences.step() : differences.step());
+    load(node - 1) =
+        0.5 * kVacuumPermittivity * beam.width * voltage * voltage / (gap * gap) * share;
   }
   if (beam.type == BeamType::kDoublyClamped) load(differences.nodes() - 1) = 0.0;
   return load;
@@ -50,7 +56,8 @@ double reactionUnder(double voltage, const Beam& beam, const BeamElectrode& elec
   const int touching = (is_cantilever ? cells : cells / 2) - 1;
   const double of_node = is_cantilever ? 0.5 * differences.step() : differences.step();
   const double scale = std::pow(differences.step(), 4) / differences.rigidity();
-  constexpr double kSpring = 10.0;  // of the support, in the units of the matrix: far stiffer than the beam
+  constexpr double kSpring =
+      10.0;  // of the support, in the units of the matrix: far stiffer than the beam
   Eigen::VectorXd bent = Eigen::VectorXd::Zero(differences.nodes());
   double reaction = 0.0;
   for (int round = 0; round < 200; ++round) {
@@ -79,7 +86,8 @@ std::optional<double> restUnder(double voltage, const Beam& beam, const BeamElec
   Eigen::VectorXd bent = Eigen::VectorXd::Zero(differences.nodes());
   for (int round = 0; round < 400; ++round) {
     const Eigen::VectorXd load = fieldOn(differences, beam, electrode, voltage, bent);
-    const Eigen::VectorXd next = differences.solve(differences.matrix(differences.axialForce(bent), 0.0), load);
+    const Eigen::VectorXd next =
+        differences.solve(differences.matrix(differences.axialForce(bent), 0.0), load);
     if (!(next.maxCoeff() < beam.gap)) return std::nullopt;
     const double change = (next - bent).cwiseAbs().maxCoeff();
     bent = beam.type == BeamType::kDoublyClamped ? Eigen::VectorXd(0.5 * (bent + next)) : next;
@@ -120,15 +128,17 @@ TEST(BeamField, holdsWhatABeamByFiniteDifferencesNeedsNoLonger) {
     const Beam beam = beamOfType(type);
     const double unpulled = reactionUnder(0.0, beam, wholeBelow(beam));
     EXPECT_NEAR(unpulled / beamForce(beam), 1.0, 0.05) << static_cast<int>(type);
-    for (const BeamElectrode& electrode : {BeamElectrode{0.0, beam.length, beam.gap, 200e-9},
-                                           BeamElectrode{0.1 * beam.length, 0.4 * beam.length, beam.gap, 50e-9},
-                                           BeamElectrode{0.25 * beam.length, 0.5 * beam.length, 1.5 * beam.gap, 0.0}}) {
+    for (const BeamElectrode& electrode :
+         {BeamElectrode{0.0, beam.length, beam.gap, 200e-9},
+          BeamElectrode{0.1 * beam.length, 0.4 * beam.length, beam.gap, 50e-9},
+          BeamElectrode{0.25 * beam.length, 0.5 * beam.length, 1.5 * beam.gap, 0.0}}) {
       for (const double share : {0.2, 0.5}) {
         const double voltage = share * beamClosingVoltage(beam, electrode);
         const double held = fieldHold(beam, electrode, voltage, 0.0).force;
         const double taken = unpulled - reactionUnder(voltage, beam, electrode);
-        const std::string what = std::to_string(static_cast<int>(type)) + ", from " + std::to_string(electrode.start) +
-                                 " under " + std::to_string(share) + " of the pull-in";
+        const std::string what = std::to_string(static_cast<int>(type)) + ", from " +
+                                 std::to_string(electrode.start) + " under " +
+                                 std::to_string(share) + " of the pull-in";
         if (std::isinf(held)) {
           EXPECT_GT(taken, beamForce(beam)) << what;
         } else {
@@ -154,7 +164,8 @@ double coEnergy(const Beam& beam, const BeamElectrode& electrode, double arm, do
   double sum = 0.0;
   for (int i = 0; i < kCells; ++i) {
     const double x = electrode.start + (i + 0.5) * electrode.length / kCells;
-    const double from_clamp = beam.type == BeamType::kDoublyClamped ? std::min(x, beam.length - x) : x;
+    const double from_clamp =
+        beam.type == BeamType::kDoublyClamped ? std::min(x, beam.length - x) : x;
     const double xi = std::min(from_clamp / arm, 1.0);
     const double phi = beam.type == BeamType::kDoublyClamped ? 3.0 * xi * xi - 2.0 * xi * xi * xi
                                                              : 0.5 * (3.0 * xi * xi - xi * xi * xi);
@@ -168,19 +179,23 @@ TEST(BeamField, itsWorkIsTheCoEnergyThatPeelingCosts) {
     const Beam beam = beamOfType(type);
     const bool is_double = type == BeamType::kDoublyClamped;
     const double arm = is_double ? 0.5 * beam.length : beam.length;
-    for (const BeamElectrode& electrode : {BeamElectrode{0.0, beam.length, beam.gap, 100e-9},
-                                           BeamElectrode{0.2 * beam.length, 0.3 * beam.length, 1.2 * beam.gap, 0.0}}) {
+    for (const BeamElectrode& electrode :
+         {BeamElectrode{0.0, beam.length, beam.gap, 100e-9},
+          BeamElectrode{0.2 * beam.length, 0.3 * beam.length, 1.2 * beam.gap, 0.0}}) {
       const double step = 1e-4 * arm;
-      const double lost = coEnergy(beam, electrode, arm - step, 5e-9) - coEnergy(beam, electrode, arm, 5e-9);
-      EXPECT_NEAR(fieldHold(beam, electrode, 1e-3, 5e-9).work * 1e6 * step * (is_double ? 2.0 : 1.0) / lost, 1.0, 0.01)
+      const double lost =
+          coEnergy(beam, electrode, arm - step, 5e-9) - coEnergy(beam, electrode, arm, 5e-9);
+      EXPECT_NEAR(
+          fieldHold(beam, electrode, 1e-3, 5e-9).work * 1e6 * step * (is_double ? 2.0 : 1.0) / lost,
+          1.0, 0.01)
           << static_cast<int>(type) << ", from " << electrode.start;
     }
   }
 }
 
 TEST(BeamElectrode, agreesWithThePublishedNumberOfACantilever) {
-  // eps0 w V^2 l^4/(2 E I g^3) = 1.68 at pull-in of a cantilever above a whole electrode (Zhang and Zhao, Microsystem
-  // Technologies 12 (2006) 357)
+  // eps0 w V^2 l^4/(2 E I g^3) = 1.68 at pull-in of a cantilever above a whole electrode (Zhang and
+  // Zhao, Microsystem Technologies 12 (2006) 357)
   const Beam beam = beamOfType(BeamType::kCantilever);
   const double voltage = beamClosingVoltage(beam, wholeBelow(beam));
   const double rigidity = beam.modulus * beam.width * std::pow(beam.thickness, 3) / 12.0;

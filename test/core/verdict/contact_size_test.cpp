@@ -66,7 +66,8 @@ TEST(ContactSize, whatItLacksNamesBothAreasAndWhatToDo) {
   for (const char* word : {"1.04e-10", "2.6e-11", "device_force/enabled", "predict_device"}) {
     EXPECT_NE(objection.find(word), std::string::npos) << objection;
   }
-  const std::string later = whatSizeLacks(predicted(), device(1.0, 104e-12, 1), "it is being found");
+  const std::string later =
+      whatSizeLacks(predicted(), device(1.0, 104e-12, 1), "it is being found");
   EXPECT_NE(later.find("has not been found (it is being found)"), std::string::npos) << later;
   EXPECT_EQ(later.find("device_force/enabled"), std::string::npos) << later;
 }
@@ -79,7 +80,8 @@ TEST(ContactSize, beyondItNothingIsScaledByArea) {
     const Verdict larger = verdictFor(device(margin, 10.0 * kArea));
     EXPECT_EQ(larger.sticks, Sticks::kUnknown);
     EXPECT_EQ(larger.reason.find("the device's own force has not been found"), 0U) << larger.reason;
-    EXPECT_TRUE(std::isnan(larger.margin) && std::isnan(larger.margin_lower) && std::isnan(larger.margin_upper));
+    EXPECT_TRUE(std::isnan(larger.margin) && std::isnan(larger.margin_lower) &&
+                std::isnan(larger.margin_upper));
     EXPECT_TRUE(std::isnan(larger.device_pull_off_force));
     EXPECT_GT(larger.restoring_force, 0.0);
     EXPECT_EQ(verdictFor(device(margin, 10.0 * kArea, 10)).sticks, fitting.sticks);
@@ -96,7 +98,9 @@ TEST(ContactSize, holdsForTheHalfSpaceToo) {
   Evidence evidence;
   evidence.half_space = &solution;
   const auto judged = [&](double area) {
-    return verdictOf(predicted(), device(50.0, area), UncertaintyOptions(), Options(), 25e-18, evidence).sticks;
+    return verdictOf(predicted(), device(50.0, area), UncertaintyOptions(), Options(), 25e-18,
+                     evidence)
+        .sticks;
   };
   EXPECT_EQ(judged(kArea), Sticks::kNo);
   EXPECT_EQ(judged(10.0 * kArea), Sticks::kUnknown);
@@ -117,7 +121,8 @@ TEST(ContactSize, holdsForBeamsUnlessTheirWorkIsMeasured) {
   beam.contact_area = 0.0;
   const Verdict without_area = verdictFor(beam);
   EXPECT_EQ(without_area.sticks, Sticks::kYes);
-  EXPECT_NE(without_area.reason.find("by the scan's work of adhesion"), std::string::npos) << without_area.reason;
+  EXPECT_NE(without_area.reason.find("by the scan's work of adhesion"), std::string::npos)
+      << without_area.reason;
 }
 
 TEST(ContactSize, aScanBeyondItDoesNotCountForThePart) {
@@ -125,10 +130,12 @@ TEST(ContactSize, aScanBeyondItDoesNotCountForThePart) {
     return statementOf(name, predicted(), verdictFor(device(50.0, area)));
   };
   EXPECT_EQ(pooledVerdictOf({statement("a", kArea), statement("b", kArea)}).sticks, Sticks::kNo);
-  const PooledVerdict part = pooledVerdictOf({statement("a", 10.0 * kArea), statement("b", 10.0 * kArea)});
+  const PooledVerdict part =
+      pooledVerdictOf({statement("a", 10.0 * kArea), statement("b", 10.0 * kArea)});
   EXPECT_EQ(part.sticks, Sticks::kUnknown);
   EXPECT_EQ(part.counted_scans, 0);
-  EXPECT_NE(part.reason.find("the device's own force has not been found"), std::string::npos) << part.reason;
+  EXPECT_NE(part.reason.find("the device's own force has not been found"), std::string::npos)
+      << part.reason;
 }
 
 }  // namespace

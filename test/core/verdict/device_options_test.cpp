@@ -43,7 +43,8 @@ TEST(ClosingVoltage, joinsWhereTheTravelIsAThirdOfTheElectricalGap) {
   insulated.insulator_thickness = 0.39 * kUm;
   insulated.insulator_relative_permittivity = 3.9;
   const double third = 2.1 * kUm / 3.0;
-  EXPECT_NEAR(closingVoltage(plate(0.999999 * third), insulated), closingVoltage(plate(1.000001 * third), insulated),
+  EXPECT_NEAR(closingVoltage(plate(0.999999 * third), insulated),
+              closingVoltage(plate(1.000001 * third), insulated),
               1e-9);  // the largest voltage: flat to first order
 }
 
@@ -88,8 +89,10 @@ TEST(DeviceOptions, refusesAnElectrodeAreaBelowABeamAlone) {
   const std::vector<std::string> violations = device.validate();
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0],
-            "device/electrode_area: 3e-09 m^2 is not allowed for a beam without a spring, must be 0: its electrode is "
-            "stated by device/electrode_start and device/electrode_length (of the whole device/beam_width it would be "
+            "device/electrode_area: 3e-09 m^2 is not allowed for a beam without a spring, must be "
+            "0: its electrode is "
+            "stated by device/electrode_start and device/electrode_length (of the whole "
+            "device/beam_width it would be "
             "0.00015 m long)");
   device.spring_stiffness = 1.0;
   device.travel = 1 * kUm;

@@ -1,4 +1,5 @@
-/// A device whose own force has been found is judged by that, whatever its area over that of the scan.
+/// A device whose own force has been found is judged by that, whatever its area over that of the
+/// scan.
 
 #include <cmath>
 #include <random>
@@ -16,9 +17,10 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kCell = 25e-18;
-constexpr double kArea = 1e-12;     ///< of the scan [m^2]
-constexpr double kPullOff = 1e-7;   ///< of the scan [N]
-constexpr double kOfDevice = 4e-7;  ///< pull-off force of the device, whose area is 100 times that of the scan [N]
+constexpr double kArea = 1e-12;    ///< of the scan [m^2]
+constexpr double kPullOff = 1e-7;  ///< of the scan [N]
+constexpr double kOfDevice =
+    4e-7;  ///< pull-off force of the device, whose area is 100 times that of the scan [N]
 constexpr double kDeviation = 0.25;
 
 /// @param contacts of 100 pixels each
@@ -26,7 +28,8 @@ Prediction predicted(int contacts = 25) {
   Prediction prediction;
   prediction.status = Status::kEquilibrium;
   prediction.nominal_area = kArea;
-  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = kPullOff;
+  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition =
+      kPullOff;
   prediction.apparent_work_of_adhesion = 0.01;
   prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
   prediction.model.assumes_jkr = false;
@@ -70,12 +73,15 @@ UncertaintyOptions exact() {
   return uncertainty;
 }
 
-Verdict verdictWith(const Evidence& evidence, double margin, const UncertaintyOptions& uncertainty = exact(),
+Verdict verdictWith(const Evidence& evidence, double margin,
+                    const UncertaintyOptions& uncertainty = exact(),
                     const Prediction& prediction = predicted()) {
   return verdictOf(prediction, springOf(margin), uncertainty, Options(), kCell, evidence);
 }
 
-bool says(const Verdict& verdict, const std::string& words) { return verdict.reason.find(words) != std::string::npos; }
+bool says(const Verdict& verdict, const std::string& words) {
+  return verdict.reason.find(words) != std::string::npos;
+}
 
 TEST(DeviceVerdict, marginIsByTheDevicesOwnForce) {
   const Verdict verdict = verdictWith(found(), 5.0);
@@ -90,10 +96,13 @@ TEST(DeviceVerdict, marginIsByTheDevicesOwnForce) {
 TEST(DeviceVerdict, exactConstantsLeaveStudentsInterval) {
   const double student = 2.364624;  // 97.5 % of 7 degrees of freedom
   const Verdict verdict = verdictWith(found(), 5.0);
-  EXPECT_NEAR(std::log(verdict.margin_upper / 5.0), student * kDeviation, 0.03 * student * kDeviation);
-  EXPECT_NEAR(std::log(5.0 / verdict.margin_lower), student * kDeviation, 0.03 * student * kDeviation);
+  EXPECT_NEAR(std::log(verdict.margin_upper / 5.0), student * kDeviation,
+              0.03 * student * kDeviation);
+  EXPECT_NEAR(std::log(5.0 / verdict.margin_lower), student * kDeviation,
+              0.03 * student * kDeviation);
   const Verdict of_three = verdictWith(found(2.0), 5.0);
-  EXPECT_NEAR(std::log(of_three.margin_upper / 5.0), 4.302653 * kDeviation, 0.03 * 4.3 * kDeviation);
+  EXPECT_NEAR(std::log(of_three.margin_upper / 5.0), 4.302653 * kDeviation,
+              0.03 * 4.3 * kDeviation);
   EXPECT_EQ(of_three.sticks, Sticks::kNo);
   EXPECT_EQ(verdictWith(found(2.0), 2.5).sticks, Sticks::kMarginal);
 }
@@ -120,10 +129,13 @@ DeviceOptions beamOf(double margin, BeamType type, double length) {
   return device;
 }
 
-/// Settings at random: margin and force are two faces of one distribution, whoever judges; of beams peel number and work.
+/// Settings at random: margin and force are two faces of one distribution, whoever judges; of beams
+/// peel number and work.
 TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
   std::mt19937_64 engine(20021126);
-  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
   const auto chance = [&] { return draw(0.0, 1.0) < 0.5; };
   SolvedHalfSpace solution;
   solution.status = HalfSpaceStatus::kSolved;
@@ -140,27 +152,38 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
     const bool has_own_force = chance();
     if (has_own_force) evidence = found(draw(2.0, 20.0));
     if (has_own_force && chance()) evidence.device->contacts = 1 + i % 4;
-    if (chance()) evidence.cleaning = CleaningReach{{draw(0.3, 1.0), draw(1.0, 3.0)}, {draw(0.3, 1.0), draw(1.0, 3.0)}};
+    if (chance())
+      evidence.cleaning =
+          CleaningReach{{draw(0.3, 1.0), draw(1.0, 3.0)}, {draw(0.3, 1.0), draw(1.0, 3.0)}};
     solution.pull_off_force = draw(0.5, 2.0) * kPullOff;
     solution.pull_off_uncertainty = draw(0.0, 0.2) * solution.pull_off_force;
     solution.work_of_adhesion = 0.01;
     if (chance()) evidence.half_space = &solution;
     DeviceOptions device = springOf(std::exp(draw(-2.0, 3.0)));
     if (i % 2 == 1) {
-      device = beamOf(std::exp(draw(-2.0, 3.0)), chance() ? BeamType::kCantilever : BeamType::kDoublyClamped,
+      device = beamOf(std::exp(draw(-2.0, 3.0)),
+                      chance() ? BeamType::kCantilever : BeamType::kDoublyClamped,
                       std::exp(draw(-9.5, -7.5)));
     }
     if (!has_own_force) device.contact_area = draw(0.6, 1.8) * kArea;
-    const Verdict verdict = verdictOf(predicted(1 + i % 30), device, uncertainty, Options(), kCell, evidence);
+    const Verdict verdict =
+        verdictOf(predicted(1 + i % 30), device, uncertainty, Options(), kCell, evidence);
     ASSERT_TRUE(std::isfinite(verdict.margin)) << verdict.reason;
     const double round_off = 1e-12;
-    EXPECT_NEAR(verdict.margin * verdict.device_pull_off_force / verdict.restoring_force, 1.0, round_off);
-    EXPECT_NEAR(verdict.margin_lower * verdict.device_pull_off_force_upper / verdict.restoring_force, 1.0, round_off);
-    EXPECT_NEAR(verdict.margin_upper * verdict.device_pull_off_force_lower / verdict.restoring_force, 1.0, round_off);
+    EXPECT_NEAR(verdict.margin * verdict.device_pull_off_force / verdict.restoring_force, 1.0,
+                round_off);
+    EXPECT_NEAR(
+        verdict.margin_lower * verdict.device_pull_off_force_upper / verdict.restoring_force, 1.0,
+        round_off);
+    EXPECT_NEAR(
+        verdict.margin_upper * verdict.device_pull_off_force_lower / verdict.restoring_force, 1.0,
+        round_off);
     if (has_own_force) {
-      const double own_upper = evidence.device->pull_off_force * quantile(evidence.device->force_factors, kUpperShare);
+      const double own_upper =
+          evidence.device->pull_off_force * quantile(evidence.device->force_factors, kUpperShare);
       const double moved = verdict.device_pull_off_force / evidence.device->pull_off_force;
-      EXPECT_GE(verdict.device_pull_off_force_upper, own_upper * moved * (1.0 - round_off)) << "surer than the force";
+      EXPECT_GE(verdict.device_pull_off_force_upper, own_upper * moved * (1.0 - round_off))
+          << "surer than the force";
     }
     const bool is_peeled = verdict.governed_by == kGovernedByPeeling;
     pulled += static_cast<int>(verdict.governed_by == kGovernedByForce);
@@ -168,8 +191,10 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
     EXPECT_EQ(verdict.governed_by.empty(), !device.hasBeam());
     if (device.hasBeam()) {
       const double own_work = peelNumber(device.beam(), 1.0);
-      const AdhesionSpread spread = adhesionSpread(predicted(1 + i % 30), Options(), uncertainty, evidence);
-      EXPECT_NEAR(verdict.peel_number * verdict.apparent_work_of_adhesion / own_work, 1.0, round_off);
+      const AdhesionSpread spread =
+          adhesionSpread(predicted(1 + i % 30), Options(), uncertainty, evidence);
+      EXPECT_NEAR(verdict.peel_number * verdict.apparent_work_of_adhesion / own_work, 1.0,
+                  round_off);
       EXPECT_NEAR(verdict.peel_number_lower * verdict.apparent_work_of_adhesion *
                       quantile(spread.apparent_work, kUpperShare) / own_work,
                   1.0, round_off);
@@ -215,10 +240,12 @@ TEST(DeviceVerdict, fewContactsOfTheScanOrItsBorderDoNotObject) {
   Evidence none;
   DeviceOptions of_scans_size = springOf(5.0);
   of_scans_size.contact_area = kArea;
-  EXPECT_EQ(verdictOf(few, of_scans_size, exact(), Options(), kCell, none).sticks, Sticks::kUnknown);
+  EXPECT_EQ(verdictOf(few, of_scans_size, exact(), Options(), kCell, none).sticks,
+            Sticks::kUnknown);
   Prediction coarse = predicted();
   for (Asperity& asperity : coarse.asperities) asperity.area = kCell;
-  EXPECT_EQ(verdictWith(found(), 5.0, exact(), coarse).sticks, Sticks::kUnknown) << "its pixels are those of the scan";
+  EXPECT_EQ(verdictWith(found(), 5.0, exact(), coarse).sticks, Sticks::kUnknown)
+      << "its pixels are those of the scan";
 }
 
 TEST(DeviceVerdict, saysWhatToMeasureWhereItIsNotPlain) {
@@ -233,7 +260,8 @@ TEST(DeviceVerdict, doesNotNameALinearRuleThatAgrees) {
   evidence.device->linear_pull_off_force = 1.4 * kOfDevice;
   EXPECT_FALSE(says(verdictWith(evidence, 5.0), "by area"));
   evidence.device->linear_pull_off_force = kOfDevice / 1.6;
-  EXPECT_TRUE(says(verdictWith(evidence, 5.0), "the scan's force by area would say margin 8")) << "too weak, too";
+  EXPECT_TRUE(says(verdictWith(evidence, 5.0), "the scan's force by area would say margin 8"))
+      << "too weak, too";
 }
 
 TEST(DeviceVerdict, withoutItsForceItIsUnknown) {
@@ -245,7 +273,8 @@ TEST(DeviceVerdict, withoutItsForceItIsUnknown) {
   Evidence failed = found();
   failed.device->pull_off_force = std::nan("");
   EXPECT_EQ(verdictWith(failed, 5.0).sticks, Sticks::kUnknown);
-  EXPECT_TRUE(says(verdictWith(failed, 5.0), "has not been found (measure a field of at least 40 um)"));
+  EXPECT_TRUE(
+      says(verdictWith(failed, 5.0), "has not been found (measure a field of at least 40 um)"));
 }
 
 TEST(DeviceVerdict, beamsTakeTheDevicesWork) {
@@ -260,7 +289,8 @@ TEST(DeviceVerdict, beamsTakeTheDevicesWork) {
   EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 1e-4);
   EXPECT_NEAR(verdict.peel_number, 16.0, 1e-9);
   EXPECT_NEAR(verdict.detachment_length, 2.0 * beam.beam_length, 1e-9 * beam.beam_length);
-  EXPECT_NEAR(std::log(verdict.peel_number_upper / 16.0), 2.364624 * 0.5 * kDeviation, 0.03 * 1.2 * kDeviation);
+  EXPECT_NEAR(std::log(verdict.peel_number_upper / 16.0), 2.364624 * 0.5 * kDeviation,
+              0.03 * 1.2 * kDeviation);
   EXPECT_EQ(verdict.sticks, Sticks::kNo);
 }
 
@@ -281,7 +311,8 @@ TEST(DeviceVerdict, theHalfSpaceMovesItAsItMovesTheScan) {
 
 TEST(DeviceVerdict, ofAllScansTogetherIsThatOfThePart) {
   const Verdict alone = verdictWith(Evidence(), 5.0);
-  const std::vector<ScanStatement> scans = {statementOf("a", predicted(), alone), statementOf("b", predicted(), alone)};
+  const std::vector<ScanStatement> scans = {statementOf("a", predicted(), alone),
+                                            statementOf("b", predicted(), alone)};
   const Verdict together = verdictWith(found(), 5.0);
   const PooledVerdict part = pooledVerdictOf(scans, together);
   EXPECT_EQ(part.sticks, Sticks::kNo);
@@ -336,9 +367,11 @@ TEST(VerdictSentence, saysTheWordTheReasonAndWhatWouldMakeItSurer) {
     verdict.surface_reach = of_surfaces;
     return verdictSentence(verdict);
   };
-  EXPECT_EQ(sentence(0.6, 1.2), "Does it stick? Marginal: the reason. Surer by more scans of other places.");
+  EXPECT_EQ(sentence(0.6, 1.2),
+            "Does it stick? Marginal: the reason. Surer by more scans of other places.");
   EXPECT_EQ(sentence(0.3, 1.2),
-            "Does it stick? Marginal: the reason. Surer by a work of adhesion that was measured (calibrate).");
+            "Does it stick? Marginal: the reason. Surer by a work of adhesion that was measured "
+            "(calibrate).");
   EXPECT_EQ(sentence(0.6, 4.0), "Does it stick? No: the reason.");
   EXPECT_EQ(verdictSentence(Verdict()).rfind("Does it stick? Not known: ", 0), 0U);
 }
@@ -348,7 +381,8 @@ TEST(VerdictSentence, knowsWhatTheScansLeaveOpenOfADevice) {
   evidence.device->surface_reach = studentQuantile(7.0) * kDeviation;
   const Verdict verdict = verdictWith(evidence, 1.1);
   ASSERT_EQ(verdict.sticks, Sticks::kMarginal);
-  EXPECT_NE(verdictSentence(verdict).find("Surer by more scans"), std::string::npos) << "all else is exact";
+  EXPECT_NE(verdictSentence(verdict).find("Surer by more scans"), std::string::npos)
+      << "all else is exact";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// A half-space that can judges in the prediction's place and says so; one that cannot does not, and the reason says why.
-/// Other cleanings widen the interval.
+/// A half-space that can judges in the prediction's place and says so; one that cannot does not,
+/// and the reason says why. Other cleanings widen the interval.
 
 #include <cmath>
 
@@ -24,7 +24,8 @@ Prediction predicted() {
   Prediction prediction;
   prediction.status = Status::kEquilibrium;
   prediction.nominal_area = kArea;
-  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = kPullOff;
+  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition =
+      kPullOff;
   prediction.apparent_work_of_adhesion = 0.01;
   prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
   prediction.model.error = {0.05, 0.04};
@@ -79,7 +80,9 @@ Verdict verdictWith(const SolvedHalfSpace& solution, const Prediction& predictio
   return verdictWith(evidence, prediction, margin);
 }
 
-bool says(const Verdict& verdict, const std::string& words) { return verdict.reason.find(words) != std::string::npos; }
+bool says(const Verdict& verdict, const std::string& words) {
+  return verdict.reason.find(words) != std::string::npos;
+}
 
 TEST(HalfSpaceVerdict, JudgesYesWhereTheCurveSaysNo) {
   const Verdict by_curve = verdictWith(Evidence(), predicted(), 3.0);
@@ -92,7 +95,8 @@ TEST(HalfSpaceVerdict, JudgesYesWhereTheCurveSaysNo) {
   EXPECT_DOUBLE_EQ(verdict.margin_transition, 0.5);
   EXPECT_DOUBLE_EQ(verdict.device_pull_off_force, 6.0 * kPullOff);
   EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 0.06);
-  EXPECT_EQ(verdict.reason.find("by the half-space: margin 0.5, 95 % within "), 0U) << verdict.reason;
+  EXPECT_EQ(verdict.reason.find("by the half-space: margin 0.5, 95 % within "), 0U)
+      << verdict.reason;
 }
 
 TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) {
@@ -108,15 +112,16 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
   const Verdict by_curve = verdictWith(Evidence(), predicted(), 3.0);
   for (const auto& [solution, why] :
        {std::make_pair(unsolved, "half_space/max_states did not suffice"),
-        std::make_pair(unresolved, "its pixels are too large"), std::make_pair(coarse, "half_space/step"),
-        std::make_pair(unbalanced, "equilibrium"),
+        std::make_pair(unresolved, "its pixels are too large"),
+        std::make_pair(coarse, "half_space/step"), std::make_pair(unbalanced, "equilibrium"),
         std::make_pair(unsolvedHalfSpace("no valid pixel"), "no valid pixel")}) {
     const Verdict verdict = verdictWith(solution, predicted(), 3.0);
     EXPECT_EQ(verdict.sticks, by_curve.sticks);
     EXPECT_EQ(verdict.judge, Judge::kPrediction);
     EXPECT_EQ(verdict.margin, by_curve.margin);
     EXPECT_EQ(verdict.margin_lower, by_curve.margin_lower);
-    EXPECT_EQ(verdict.reason.find(by_curve.reason + "; the half-space does not count: "), 0U) << verdict.reason;
+    EXPECT_EQ(verdict.reason.find(by_curve.reason + "; the half-space does not count: "), 0U)
+        << verdict.reason;
     EXPECT_TRUE(says(verdict, why)) << verdict.reason;
   }
 }
@@ -128,12 +133,14 @@ TEST(HalfSpaceVerdict, WhatFlagsAskedForIsSaid) {
   evidence.why_half_space = "near_bonding";
   const Verdict judged = verdictWith(evidence, predicted(), 3.0);
   EXPECT_EQ(judged.judge, Judge::kHalfSpace);
-  EXPECT_EQ(judged.reason.find("by the half-space, as near_bonding asks for it: margin 0.5"), 0U) << judged.reason;
+  EXPECT_EQ(judged.reason.find("by the half-space, as near_bonding asks for it: margin 0.5"), 0U)
+      << judged.reason;
   const SolvedHalfSpace none = unsolvedHalfSpace("the frame is large");
   evidence.half_space = &none;
   const Verdict by_curve = verdictWith(Evidence(), predicted(), 3.0);
   EXPECT_EQ(verdictWith(evidence, predicted(), 3.0).reason,
-            by_curve.reason + "; near_bonding asks for the half-space, which does not count: the frame is large");
+            by_curve.reason +
+                "; near_bonding asks for the half-space, which does not count: the frame is large");
   evidence.half_space = nullptr;
   evidence.where_half_space = "it follows";
   EXPECT_EQ(verdictWith(evidence, predicted(), 3.0).reason,
@@ -155,7 +162,8 @@ TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   SolvedHalfSpace coarser = solved(1.0);
   coarser.pull_off_uncertainty = 0.015 * kPullOff;
   const Verdict wider = verdictWith(coarser, near_bonding, 1.2);
-  EXPECT_NEAR(std::log(wider.margin / wider.margin_lower), 1.96 * 0.025, 0.03 * 1.96 * 0.025);  // hypot(0.02, 0.015)
+  EXPECT_NEAR(std::log(wider.margin / wider.margin_lower), 1.96 * 0.025,
+              0.03 * 1.96 * 0.025);  // hypot(0.02, 0.015)
 }
 
 TEST(HalfSpaceVerdict, ConstantsMoveItAsTheyMoveThePrediction) {
@@ -166,7 +174,8 @@ TEST(HalfSpaceVerdict, ConstantsMoveItAsTheyMoveThePrediction) {
   evidence.half_space = &solution;
   const Verdict verdict = verdictWith(evidence, predicted(), 3.0, uncertainty);
   const double deviation = std::hypot(std::sqrt(std::log1p(0.09)), 0.02);
-  EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower), 1.96 * deviation, 0.05 * 1.96 * deviation);
+  EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower), 1.96 * deviation,
+              0.05 * 1.96 * deviation);
 }
 
 TEST(HalfSpaceVerdict, AContactOfOnePixelIsNoBetterByTheHalfSpace) {
@@ -182,7 +191,8 @@ TEST(HalfSpaceVerdict, OfContactsThatAreSmallAndFewOneSentenceSaysWhatComesFirst
   Prediction prediction = predicted();
   for (Asperity& asperity : prediction.asperities) asperity.area = kCell;
   const Verdict many = verdictWith(Evidence(), prediction, 5.0);
-  const std::string finer = "scan finer pixels, of at most " + shortNumber(std::sqrt(kCell / 20.0), 2) + " m (now " +
+  const std::string finer = "scan finer pixels, of at most " +
+                            shortNumber(std::sqrt(kCell / 20.0), 2) + " m (now " +
                             shortNumber(std::sqrt(kCell), 2) + " m)";
   EXPECT_TRUE(says(many, finer)) << many.reason;
   EXPECT_FALSE(says(many, "places")) << many.reason;
@@ -194,7 +204,8 @@ TEST(HalfSpaceVerdict, OfContactsThatAreSmallAndFewOneSentenceSaysWhatComesFirst
 
   for (Asperity& asperity : prediction.asperities) asperity.area = 100.0 * kCell;
   const Verdict large = verdictWith(Evidence(), prediction, 5.0);
-  EXPECT_TRUE(says(large, "2 contacts: scan more places, or an area at least 1.5 times as large")) << large.reason;
+  EXPECT_TRUE(says(large, "2 contacts: scan more places, or an area at least 1.5 times as large"))
+      << large.reason;
   EXPECT_FALSE(says(large, "pixels")) << large.reason;
 }
 
@@ -213,7 +224,8 @@ TEST(HalfSpaceVerdict, ThePapersContactsMoveItToo) {
   const SolvedHalfSpace solution = solved(0.1);
   Evidence evidence;
   evidence.half_space = &solution;
-  const Verdict verdict = verdictOf(prediction, springOf(3.0), exact(), paperOptions(), kCell, evidence);
+  const Verdict verdict =
+      verdictOf(prediction, springOf(3.0), exact(), paperOptions(), kCell, evidence);
   EXPECT_NEAR(verdict.margin, 30.0, 1e-9);
   EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower), 1.96 * 0.02, 0.03 * 1.96 * 0.02);
 }
@@ -222,7 +234,8 @@ TEST(HalfSpaceVerdict, WithoutADeviceNobodyJudges) {
   const SolvedHalfSpace solution = solved(1.0);
   Evidence evidence;
   evidence.half_space = &solution;
-  const Verdict verdict = verdictOf(predicted(), DeviceOptions(), exact(), Options(), kCell, evidence);
+  const Verdict verdict =
+      verdictOf(predicted(), DeviceOptions(), exact(), Options(), kCell, evidence);
   EXPECT_EQ(verdict.judge, Judge::kPrediction);
   EXPECT_EQ(verdict.reason.find("the device is not stated"), 0U);
 }
@@ -251,8 +264,10 @@ TEST(CleaningInVerdict, AddsToTheIntervalInQuadrature) {
   EXPECT_EQ(verdict.margin, plain.margin);
   const double model = 1.96 * 0.05;  // of contacts that stay apart
   // two halves of normal numbers, the wider of which reaches somewhat over the middle: 5 %
-  EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin) / std::hypot(model, std::log(2.0)), 1.0, 0.05);
-  EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower) / std::hypot(model, std::log(1.25)), 1.0, 0.05);
+  EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin) / std::hypot(model, std::log(2.0)),
+              1.0, 0.05);
+  EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower) / std::hypot(model, std::log(1.25)),
+              1.0, 0.05);
   EXPECT_TRUE(says(verdict, " (cleaning included): ")) << verdict.reason;
   EXPECT_FALSE(says(plain, "cleaning")) << plain.reason;
 }

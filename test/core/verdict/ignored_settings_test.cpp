@@ -1,5 +1,5 @@
-/// A setting is ignored when no bit of a prediction, or of the intervals of its figures, goes with it: every setting is
-/// changed, for every formulation.
+/// A setting is ignored when no bit of a prediction, or of the intervals of its figures, goes with
+/// it: every setting is changed, for every formulation.
 
 #include "prediction/contact_solvers.hpp"
 
@@ -28,7 +28,8 @@ struct Settings {
   }
 };
 
-/// Every setting bears on something: voltage, water, load, contacts that flow in bodies of nearly the same hardness.
+/// Every setting bears on something: voltage, water, load, contacts that flow in bodies of nearly
+/// the same hardness.
 Settings busy() {
   Settings settings;
   settings.model.lower.hardness = 2.0e9;
@@ -44,15 +45,17 @@ Settings busy() {
   return settings;
 }
 
-/// What may be set, not what is; and loads that are made into mechanical_load before a solver is asked.
-const std::vector<std::string> kNotOfASolver = {"load/max_voltage", "load/max_mechanical_load", "load/pressure",
-                                                "load/device_force", "approach/formulation"};
+/// What may be set, not what is; and loads that are made into mechanical_load before a solver is
+/// asked.
+const std::vector<std::string> kNotOfASolver = {"load/max_voltage", "load/max_mechanical_load",
+                                                "load/pressure", "load/device_force",
+                                                "approach/formulation"};
 
-/// Whether a setting tells what lies behind the surface of a body: the curve asks it whether to doubt itself, the
-/// half-space what the body resists.
+/// Whether a setting tells what lies behind the surface of a body: the curve asks it whether to
+/// doubt itself, the half-space what the body resists.
 bool isOfThickness(const std::string& key) {
-  return key == "lower/thickness" || key == "upper/thickness" || key.find("/backing") != std::string::npos ||
-         key.find("/substrate/") != std::string::npos;
+  return key == "lower/thickness" || key == "upper/thickness" ||
+         key.find("/backing") != std::string::npos || key.find("/substrate/") != std::string::npos;
 }
 
 /// Lists the keys, or changes the setting of one.
@@ -61,7 +64,8 @@ class Change : public OptionVisitor {
   Change() = default;
   explicit Change(std::string key) : changed_(std::move(key)) {}
 
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
+  void number(const std::string& key, double& value, const std::string&, const Range&,
+              const std::string&) override {
     static const std::map<std::string, double> others = {{"paper/step", 0.3e-9},
                                                          {"approach/max_contact_fraction", 1e-3},
                                                          {"interface/hardness_ratio_limit", 0.99},
@@ -70,8 +74,10 @@ class Change : public OptionVisitor {
     if (isChanged(key)) value = other == others.end() ? 1.1 * value : other->second;
   }
   void integer(const std::string& key, int& value, const Range&, const std::string&) override {
-    static const std::map<std::string, int> others = {
-        {"approach/max_steps", 3}, {"approach/connectivity", 8}, {"uncertainty/samples", 9}, {"uncertainty/seed", 2}};
+    static const std::map<std::string, int> others = {{"approach/max_steps", 3},
+                                                      {"approach/connectivity", 8},
+                                                      {"uncertainty/samples", 9},
+                                                      {"uncertainty/seed", 2}};
     if (isChanged(key)) value = others.at(key);
   }
   void flag(const std::string& key, bool& value, const std::string&) override {
@@ -104,21 +110,27 @@ struct Bits {
   void operator()(const Figure& figure, const Value& value) {
     text << figure.name << ' ' << shown(value) << '\n';
   }
-  void add(const cv::Mat& map) { text << map.rows << ' ' << (map.empty() ? 0.0 : cv::norm(map, cv::NORM_L2)) << '\n'; }
+  void add(const cv::Mat& map) {
+    text << map.rows << ' ' << (map.empty() ? 0.0 : cv::norm(map, cv::NORM_L2)) << '\n';
+  }
 };
 
 std::string bitsOf(const Settings& settings) {
-  Prediction prediction = AdhesionModel(settings.model).predict(samples::gaussian(32, 32, 4e-9, 4e-9, 3e-9, 15e-9, 5));
+  Prediction prediction =
+      AdhesionModel(settings.model).predict(samples::gaussian(32, 32, 4e-9, 4e-9, 3e-9, 15e-9, 5));
   prediction.processing_time = 0.0;
   Bits bits;
   visitPredictionFields(prediction, bits);
   visitRoughnessFields(prediction.roughness, bits);
   for (const Asperity& asperity : prediction.asperities) {
-    bits.text << asperity.load << ' ' << asperity.contact_radius << ' ' << asperity.plasticity_index << '\n';
+    bits.text << asperity.load << ' ' << asperity.contact_radius << ' ' << asperity.plasticity_index
+              << '\n';
   }
   bits.text << prediction.energy_curve.size() << '\n';
-  for (const SeparationCurvePoint& point : prediction.curve) visitSeparationPointFields(point, bits);
-  for (const cv::Mat& map : {prediction.contact_map, prediction.deformed_lower, prediction.deformed_upper})
+  for (const SeparationCurvePoint& point : prediction.curve)
+    visitSeparationPointFields(point, bits);
+  for (const cv::Mat& map :
+       {prediction.contact_map, prediction.deformed_lower, prediction.deformed_upper})
     bits.add(map);
   const AdhesionSpread spread = adhesionSpread(prediction, settings.model, settings.uncertainty);
   for (const std::vector<double>& samples : {spread.pull_off, spread.apparent_work}) {
@@ -142,7 +154,8 @@ void expectThatOnlyUsedSettingsChangeBits(Settings settings, const std::string& 
     Change change(key);
     changed.describe(change);
     const bool is_ignored =
-        std::any_of(ignored.begin(), ignored.end(), [&](const IgnoredSetting& setting) { return setting.key == key; });
+        std::any_of(ignored.begin(), ignored.end(),
+                    [&](const IgnoredSetting& setting) { return setting.key == key; });
     if (!is_ignored && isOfThickness(key) && skillsOf(formulation).doubts_thin_bodies) continue;
     EXPECT_EQ(bitsOf(changed) == before, is_ignored) << key << " with " << formulation;
   }
@@ -154,8 +167,8 @@ TEST(IgnoredSettings, areThoseThatChangeNoBit) {
     Settings dry = busy();
     dry.model.capillary.relative_humidity = 0.0;
     const std::vector<IgnoredSetting> ignored = ignoredSettings(formulation, dry.model);
-    for (const char* of_water :
-         {"interface/surface_tension", "interface/contact_angle", "interface/temperature", "interface/molar_volume"}) {
+    for (const char* of_water : {"interface/surface_tension", "interface/contact_angle",
+                                 "interface/temperature", "interface/molar_volume"}) {
       Settings changed = dry;
       changed.model.formulation = dry.model.formulation = formulation;
       Change change(of_water);
@@ -175,7 +188,8 @@ TEST(IgnoredSettings, countAgainWhereNothingTakesTheirPlace) {
   Settings changed = settings;
   changed.model.interface.equilibrium_distance *= 1.1;
   EXPECT_TRUE(bitsOf(changed) != bitsOf(settings));
-  for (const IgnoredSetting& setting : ignored) EXPECT_NE(std::string(setting.key), "interface/equilibrium_distance");
+  for (const IgnoredSetting& setting : ignored)
+    EXPECT_NE(std::string(setting.key), "interface/equilibrium_distance");
 }
 
 }  // namespace

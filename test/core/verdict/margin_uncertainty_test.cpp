@@ -50,7 +50,8 @@ Prediction equalContacts(int count, const Options& options, double load = 1e-3) 
 /// Standard deviation of the logarithm.
 double logDeviation(const std::vector<double>& samples) {
   double mean = 0.0;
-  for (const double sample : samples) mean += std::log(sample) / static_cast<double>(samples.size());
+  for (const double sample : samples)
+    mean += std::log(sample) / static_cast<double>(samples.size());
   double variance = 0.0;
   for (const double sample : samples) {
     variance += std::pow(std::log(sample) - mean, 2) / static_cast<double>(samples.size());
@@ -75,7 +76,8 @@ TEST(AdhesionSpread, workOfAdhesionActsInProportionWhenTheLoadRules) {
   const AdhesionSpread spread = adhesionSpread(equalContacts(50, options), options, uncertainty);
   // adhesion is 3 % of the demand here, and so is its share in the growth; 20000 samples: 0.5 %
   EXPECT_NEAR(logDeviation(spread.pull_off), lognormal(0.2), 0.05 * lognormal(0.2));
-  EXPECT_NEAR(logDeviation(spread.apparent_work), 5.0 / 3.0 * lognormal(0.2), 0.05 * lognormal(0.2));
+  EXPECT_NEAR(logDeviation(spread.apparent_work), 5.0 / 3.0 * lognormal(0.2),
+              0.05 * lognormal(0.2));
   EXPECT_NEAR(quantile(spread.pull_off, 0.5), 1.0, 0.01);
 }
 
@@ -85,21 +87,23 @@ TEST(AdhesionSpread, stiffElasticContactsAreFewer) {
   uncertainty.youngs_modulus = 0.1;
   uncertainty.samples = 20000;
   // same load, each contact carries E times as much: pull-off ~ 1/E
-  EXPECT_NEAR(logDeviation(adhesionSpread(equalContacts(50, options), options, uncertainty).pull_off), lognormal(0.1),
-              0.02 * lognormal(0.1));
+  EXPECT_NEAR(
+      logDeviation(adhesionSpread(equalContacts(50, options), options, uncertainty).pull_off),
+      lognormal(0.1), 0.02 * lognormal(0.1));
 }
 
 TEST(AdhesionSpread, hardnessActsOnContactsThatFlowOnly) {
   Options options;
-  options.lower.hardness = options.upper.hardness = 0.1e9;  // far below what the elastic contact would press
+  options.lower.hardness = options.upper.hardness =
+      0.1e9;  // far below what the elastic contact would press
   UncertaintyOptions uncertainty = exact();
   uncertainty.hardness = 0.1;
   uncertainty.samples = 20000;
   Prediction prediction = equalContacts(50, options);
   EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off), 0.0, 1e-12);
   for (Asperity& asperity : prediction.asperities) asperity.plasticity_index = 3.0;
-  EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off), lognormal(0.1),
-              0.02 * lognormal(0.1));
+  EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off),
+              lognormal(0.1), 0.02 * lognormal(0.1));
   options.deformation = Deformation::kElastic;
   EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off), 0.0, 1e-12);
 }
@@ -110,8 +114,9 @@ TEST(AdhesionSpread, pitchChangesLoadPerContact) {
   uncertainty.pitch = 0.05;
   uncertainty.samples = 20000;
   // R ~ x^2, A0 ~ x^2, P1 ~ x: elastic contacts under a given load ~ 1/x
-  EXPECT_NEAR(logDeviation(adhesionSpread(equalContacts(50, options), options, uncertainty).pull_off), lognormal(0.05),
-              0.05 * lognormal(0.05));
+  EXPECT_NEAR(
+      logDeviation(adhesionSpread(equalContacts(50, options), options, uncertainty).pull_off),
+      lognormal(0.05), 0.05 * lognormal(0.05));
 }
 
 TEST(AdhesionSpread, cutoffMovesTheNearPartOfVanDerWaals) {
@@ -120,11 +125,11 @@ TEST(AdhesionSpread, cutoffMovesTheNearPartOfVanDerWaals) {
   uncertainty.cutoff_distance = 0.1;
   uncertainty.samples = 20000;
   Prediction prediction = equalContacts(1, options, 1.0);  // the load rules
-  prediction.van_der_waals_force = 1e-4;                   // and adhesion is nearly all van der Waals
+  prediction.van_der_waals_force = 1e-4;  // and adhesion is nearly all van der Waals
   prediction.pull_off_force += prediction.van_der_waals_force;
   prediction.mean_gap = 1e-6;
-  EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off), 2.0 * lognormal(0.1),
-              0.05 * lognormal(0.1));
+  EXPECT_NEAR(logDeviation(adhesionSpread(prediction, options, uncertainty).pull_off),
+              2.0 * lognormal(0.1), 0.05 * lognormal(0.1));
 }
 
 TEST(AdhesionSpread, scanSamplingFallsWithTheRootOfTheContacts) {
@@ -134,12 +139,14 @@ TEST(AdhesionSpread, scanSamplingFallsWithTheRootOfTheContacts) {
   uncertainty.samples = 20000;
   for (const int count : {4, 100}) {
     const double expected = lognormal(1.0 / std::sqrt(count));
-    EXPECT_NEAR(logDeviation(adhesionSpread(equalContacts(count, options), options, uncertainty).pull_off), expected,
-                0.02 * expected);
+    EXPECT_NEAR(
+        logDeviation(adhesionSpread(equalContacts(count, options), options, uncertainty).pull_off),
+        expected, 0.02 * expected);
   }
 }
 
-/// Powers with which the pull-off force per nominal area goes with each constant, by searching again with it changed.
+/// Powers with which the pull-off force per nominal area goes with each constant, by searching
+/// again with it changed.
 struct Powers {
   double work, hardness, modulus, pitch, cutoff;
 };
@@ -154,13 +161,14 @@ class SearchedAgain {
     surface_ = gaussianSurface(rough);
     options_.lower.hardness = options_.upper.hardness = hardness;
     options_.load.mechanical_load = 5e-3;
-    options_.output.deformed_surfaces = options_.output.contact_map = options_.output.roughness = false;
+    options_.output.deformed_surfaces = options_.output.contact_map = options_.output.roughness =
+        false;
   }
 
   const Options& options() const { return options_; }
   Prediction predict(const Options& options, double pitch_factor = 1.0) const {
-    return AdhesionModel(options).predict(
-        HeightMap(surface_.heights(), surface_.pitchX() * pitch_factor, surface_.pitchY() * pitch_factor));
+    return AdhesionModel(options).predict(HeightMap(
+        surface_.heights(), surface_.pitchX() * pitch_factor, surface_.pitchY() * pitch_factor));
   }
 
   /// @param change (Options&, double& pitch factor, double factor)
@@ -188,8 +196,11 @@ class SearchedAgain {
       options.lower.youngs_modulus *= factor;
       options.upper.youngs_modulus *= factor;
     };
-    return {power([](Options& options, double&, double factor) { options.interface.work_of_adhesion *= factor; }),
-            power(ofHardness), power(ofModulus), power([](Options&, double& pitch, double factor) { pitch = factor; }),
+    return {power([](Options& options, double&, double factor) {
+              options.interface.work_of_adhesion *= factor;
+            }),
+            power(ofHardness), power(ofModulus),
+            power([](Options&, double& pitch, double factor) { pitch = factor; }),
             power([](Options& options, double&, double factor) {
               options.solver.of<PaperOptions>().cutoff_distance *= factor;
             })};
@@ -201,7 +212,8 @@ class SearchedAgain {
 };
 
 TEST(AdhesionSpread, agreesWithSearchingAgainWhereContactsAreMany) {
-  for (const double hardness : {50e9, 25e9}) {  // contacts that flow grow by more than a first order
+  for (const double hardness :
+       {50e9, 25e9}) {  // contacts that flow grow by more than a first order
     const SearchedAgain searched(hardness);
     const Powers powers = searched.powers();
     const Prediction prediction = searched.predict(searched.options());
@@ -209,14 +221,19 @@ TEST(AdhesionSpread, agreesWithSearchingAgainWhereContactsAreMany) {
       UncertaintyOptions uncertainty = exact();
       uncertainty.*constant = 0.1;
       uncertainty.samples = 2000;
-      return logDeviation(adhesionSpread(prediction, searched.options(), uncertainty).pull_off) / lognormal(0.1);
+      return logDeviation(adhesionSpread(prediction, searched.options(), uncertainty).pull_off) /
+             lognormal(0.1);
     };
     // first order, and the search's contact count has steps: a quarter of a power
-    EXPECT_NEAR(firstOrder(&UncertaintyOptions::work_of_adhesion), std::abs(powers.work), 0.25) << hardness;
-    EXPECT_NEAR(firstOrder(&UncertaintyOptions::hardness), std::abs(powers.hardness), 0.25) << hardness;
-    EXPECT_NEAR(firstOrder(&UncertaintyOptions::youngs_modulus), std::abs(powers.modulus), 0.25) << hardness;
+    EXPECT_NEAR(firstOrder(&UncertaintyOptions::work_of_adhesion), std::abs(powers.work), 0.25)
+        << hardness;
+    EXPECT_NEAR(firstOrder(&UncertaintyOptions::hardness), std::abs(powers.hardness), 0.25)
+        << hardness;
+    EXPECT_NEAR(firstOrder(&UncertaintyOptions::youngs_modulus), std::abs(powers.modulus), 0.25)
+        << hardness;
     EXPECT_NEAR(firstOrder(&UncertaintyOptions::pitch), std::abs(powers.pitch), 0.25) << hardness;
-    EXPECT_NEAR(firstOrder(&UncertaintyOptions::cutoff_distance), std::abs(powers.cutoff), 0.25) << hardness;
+    EXPECT_NEAR(firstOrder(&UncertaintyOptions::cutoff_distance), std::abs(powers.cutoff), 0.25)
+        << hardness;
   }
 }
 
@@ -246,7 +263,8 @@ TEST(AdhesionSpread, isCheap) {
   for (int run = 0; run < 20; ++run) {
     const auto start = std::chrono::steady_clock::now();
     adhesionSpread(prediction, options, UncertaintyOptions());
-    fastest = std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    fastest = std::min(
+        fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   RecordProperty("microseconds", static_cast<int>(1e6 * fastest));
   EXPECT_LT(fastest, 25e-3);  // 1 ms is meant; room for slow and busy machines
@@ -256,7 +274,8 @@ TEST(ApparentWork, ofOneSphereIsJkrsEnergy) {
   const Options options;
   const double work = options.interface.work_of_adhesion;
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
-  // second route: at no load a^3 = 6 pi w R^2/K, and U = -(pi w a^2)(1 - 2/5 ...): integrate P dd from the first touch
+  // second route: at no load a^3 = 6 pi w R^2/K, and U = -(pi w a^2)(1 - 2/5 ...): integrate P dd
+  // from the first touch
   const double contact = jkr::equilibriumContactRadius(0.0, work, 1e-6, modulus);
   const int count = 200000;
   double energy = 0.0;
@@ -266,7 +285,8 @@ TEST(ApparentWork, ofOneSphereIsJkrsEnergy) {
     energy += jkr::load(0.5 * (from + to), work, 1e-6, modulus) *
               (jkr::approach(to, work, 1e-6, modulus) - jkr::approach(from, work, 1e-6, modulus));
   }
-  EXPECT_NEAR(apparentWorkOfAdhesion(equalContacts(1, options), options), -energy / 1e-10, 1e-5 * -energy / 1e-10);
+  EXPECT_NEAR(apparentWorkOfAdhesion(equalContacts(1, options), options), -energy / 1e-10,
+              1e-5 * -energy / 1e-10);
 }
 
 TEST(Quantile, isLinearBetweenSamples) {

@@ -24,7 +24,8 @@ UnresolvedWaves wavesOf(double rms_height, double pitch = 10e-9, double hurst = 
 TEST(MissingScan, isOneThatShowsWavesWhichAdhesionDoesNotBridge) {
   const Options options;
   const double range = forceRange(options.interface);
-  EXPECT_DOUBLE_EQ(shortWaves(wavesOf(0.1e-9), options).limit, range);  // at 20 nm flattening costs too much
+  EXPECT_DOUBLE_EQ(shortWaves(wavesOf(0.1e-9), options).limit,
+                   range);  // at 20 nm flattening costs too much
   EXPECT_FALSE(shortWaves(wavesOf(0.99 * range), options).areUnresolved());
   EXPECT_TRUE(shortWaves(wavesOf(1.01 * range), options).areUnresolved());
   EXPECT_FALSE(shortWaves(UnresolvedWaves(), options).areUnresolved());  // nobody has looked
@@ -45,7 +46,8 @@ TEST(MissingScan, isNoneWhereWaterFillsOrAdhesionFlattensTheWaves) {
   // a half-space with a wave of this rms height: E' q h^2/4 per area
   const double modulus = ContactPair(soft.lower, soft.upper).contact_modulus;
   const double wave_number = 2.0 * M_PI / waves.shortest_shown;
-  EXPECT_NEAR(0.25 * modulus * wave_number * limit * limit, 0.25 * soft.interface.work_of_adhesion, 1e-12);
+  EXPECT_NEAR(0.25 * modulus * wave_number * limit * limit, 0.25 * soft.interface.work_of_adhesion,
+              1e-12);
 
   Options none;
   none.interface.work_of_adhesion = 0.0;
@@ -64,8 +66,10 @@ TEST(MissingScan, hasPixelsThatLeaveOutNoMoreThanAdhesionBridges) {
         const double left = height * std::pow(found.needed_pitch / pitch, hurst);
         EXPECT_FALSE(shortWaves(wavesOf(left, found.needed_pitch, hurst), options).areUnresolved())
             << hurst << " " << pitch << " " << height;
-        const double digit = found.needed_pitch / std::pow(10.0, std::floor(std::log10(1.0001 * found.needed_pitch)));
-        EXPECT_TRUE(std::abs(digit - 1.0) < 1e-9 || std::abs(digit - 2.0) < 1e-9 || std::abs(digit - 5.0) < 1e-9);
+        const double digit = found.needed_pitch /
+                             std::pow(10.0, std::floor(std::log10(1.0001 * found.needed_pitch)));
+        EXPECT_TRUE(std::abs(digit - 1.0) < 1e-9 || std::abs(digit - 2.0) < 1e-9 ||
+                    std::abs(digit - 5.0) < 1e-9);
       }
     }
   }
@@ -73,17 +77,23 @@ TEST(MissingScan, hasPixelsThatLeaveOutNoMoreThanAdhesionBridges) {
 
 TEST(MissingScan, isNamedWithItsWidthAndPixels) {
   const Options options;
-  const std::string white_light = whatIsMissing(shortWaves(wavesOf(0.75e-9, 197e-9), options), kTheScan);
-  EXPECT_EQ(white_light.find("the scan does not show what holds: waves shorter than two pixels of 197 nm have an "
-                             "rms height of some 0.75 nm"),
-            0U)
+  const std::string white_light =
+      whatIsMissing(shortWaves(wavesOf(0.75e-9, 197e-9), options), kTheScan);
+  EXPECT_EQ(
+      white_light.find(
+          "the scan does not show what holds: waves shorter than two pixels of 197 nm have an "
+          "rms height of some 0.75 nm"),
+      0U)
       << white_light;
-  EXPECT_NE(white_light.find("missing is AFM, 2 um to 10 um wide, pixels of 20 nm or less"), std::string::npos)
+  EXPECT_NE(white_light.find("missing is AFM, 2 um to 10 um wide, pixels of 20 nm or less"),
+            std::string::npos)
       << white_light;
   UnresolvedWaves blunt = wavesOf(0.5e-9);
   blunt.shortest_shown = 80e-9;
   const std::string by_tip = whatIsMissing(shortWaves(blunt, options), kNoScan);
-  EXPECT_EQ(by_tip.find("no scan shows what holds: waves shorter than 80 nm, which are the tip's,"), 0U) << by_tip;
+  EXPECT_EQ(by_tip.find("no scan shows what holds: waves shorter than 80 nm, which are the tip's,"),
+            0U)
+      << by_tip;
   EXPECT_NE(by_tip.find("AFM with a sharper tip"), std::string::npos) << by_tip;
   EXPECT_EQ(whatIsMissing(shortWaves(wavesOf(0.01e-9), options), kTheScan), "");
 }
@@ -96,7 +106,8 @@ struct StatedDevice {
   StatedDevice() {
     prediction.status = Status::kEquilibrium;
     prediction.nominal_area = device.contact_area = 1e-12;
-    prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = 1e-7;
+    prediction.pull_off_force = prediction.pull_off_force_jkr =
+        prediction.pull_off_force_transition = 1e-7;
     prediction.apparent_work_of_adhesion = 0.01;
     prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
     prediction.model.assumes_jkr = false;
@@ -125,7 +136,8 @@ TEST(MissingScan, makesTheVerdictUnknownWhateverItWouldBe) {
     EXPECT_EQ(verdict.reason, whatIsMissing(stated.prediction.short_waves, kTheScan));
     EXPECT_TRUE(std::isnan(verdict.margin));
     EXPECT_NE(verdict.regime_flags & kUnresolvedFlag, 0U);
-    EXPECT_EQ(flagsForHalfSpace(verdict.regime_flags | kNearBondingFlag), 0U);  // its pixels are the same
+    EXPECT_EQ(flagsForHalfSpace(verdict.regime_flags | kNearBondingFlag),
+              0U);  // its pixels are the same
   }
 }
 
@@ -166,7 +178,8 @@ TEST(MissingScan, leavesAPartToTheScansThatShowWhatHolds) {
     Prediction prediction = stated.prediction;
     prediction.status = status;
     prediction.short_waves = shortWaves(wavesOf(height), Options());
-    return statementOf(name, prediction, verdictOf(prediction, stated.device, {}, Options(), 25e-18));
+    return statementOf(name, prediction,
+                       verdictOf(prediction, stated.device, {}, Options(), 25e-18));
   };
   const ScanStatement fine = statement("fine", 0.05e-9, Status::kEquilibrium);
   const ScanStatement wide = statement("wide", 1e-9, Status::kBonded);

@@ -16,14 +16,17 @@ namespace {
 
 constexpr double kTo = 1.959963985;  // standard deviations to the 97.5 % quantile
 
-/// A scan of fifty contacts whose verdict follows from its margin and the two parts of its uncertainty.
+/// A scan of fifty contacts whose verdict follows from its margin and the two parts of its
+/// uncertainty.
 ScanStatement scanOf(const std::string& name, double margin, double common, double place) {
   ScanStatement scan;
   const double reach = kTo * std::hypot(common, place);
   scan.scan_name = name;
   scan.margin = {margin, margin * std::exp(-reach), margin * std::exp(reach)};
   scan.place_deviation = place;
-  scan.sticks = scan.margin.lower > 1.0 ? Sticks::kNo : scan.margin.upper < 1.0 ? Sticks::kYes : Sticks::kMarginal;
+  scan.sticks = scan.margin.lower > 1.0   ? Sticks::kNo
+                : scan.margin.upper < 1.0 ? Sticks::kYes
+                                          : Sticks::kMarginal;
   scan.reason = "of " + name;
   scan.contacts = 50;
   return scan;
@@ -51,7 +54,8 @@ TEST(PartVerdict, ofOneScanIsItsOwn) {
 
 TEST(PartVerdict, ofEqualScansShrinksInThePartOfThePlaceOnly) {
   for (const int count : {2, 5, 100}) {
-    const std::vector<ScanStatement> scans(static_cast<std::size_t>(count), scanOf("a", 3.0, 0.3, 0.2));
+    const std::vector<ScanStatement> scans(static_cast<std::size_t>(count),
+                                           scanOf("a", 3.0, 0.3, 0.2));
     const PooledRatio margin = pooledVerdictOf(scans).margin;
     const double reach = kTo * std::hypot(0.3, 0.2 / std::sqrt(count));
     EXPECT_NEAR(margin.value, 3.0, 1e-12);
@@ -63,11 +67,13 @@ TEST(PartVerdict, ofEqualScansShrinksInThePartOfThePlaceOnly) {
 }
 
 TEST(PartVerdict, isTheGeometricMeanAndKnowsTheWorstScan) {
-  const PooledVerdict part = pooledVerdictOf({scanOf("a", 8.0, 0.1, 0.5), scanOf("b", 2.0, 0.1, 0.5)});
+  const PooledVerdict part =
+      pooledVerdictOf({scanOf("a", 8.0, 0.1, 0.5), scanOf("b", 2.0, 0.1, 0.5)});
   EXPECT_NEAR(part.margin.value, 4.0, 1e-12);
   EXPECT_EQ(part.margin.worst, 2.0);
   EXPECT_EQ(part.margin.worst_scan, "b");
-  EXPECT_NE(part.reason.find("2 scans, the lowest margin 2 of b"), std::string::npos) << part.reason;
+  EXPECT_NE(part.reason.find("2 scans, the lowest margin 2 of b"), std::string::npos)
+      << part.reason;
 }
 
 TEST(PartVerdict, withoutAnythingCommonIsStudentsInterval) {
@@ -85,9 +91,12 @@ TEST(PartVerdict, withoutAnythingCommonIsStudentsInterval) {
 TEST(PartVerdict, scatterThatContactsExplainCountsOnce) {
   // s = 0.1 of two scans at 0 and 0.1414, below p = 0.2
   const PooledRatio margin =
-      pooledVerdictOf({scanOf("a", 3.0, 0.3, 0.2), scanOf("b", 3.0 * std::exp(0.1 * std::sqrt(2.0)), 0.3, 0.2)}).margin;
+      pooledVerdictOf(
+          {scanOf("a", 3.0, 0.3, 0.2), scanOf("b", 3.0 * std::exp(0.1 * std::sqrt(2.0)), 0.3, 0.2)})
+          .margin;
   EXPECT_NEAR(margin.spread, 0.1, 1e-12);
-  EXPECT_NEAR(std::log(margin.upper / margin.value), kTo * std::hypot(0.3, 0.2 / std::sqrt(2.0)), 1e-9);
+  EXPECT_NEAR(std::log(margin.upper / margin.value), kTo * std::hypot(0.3, 0.2 / std::sqrt(2.0)),
+              1e-9);
 }
 
 TEST(PartVerdict, oneOutlierWidensTheIntervalAndTakesThePlainWord) {
@@ -96,7 +105,8 @@ TEST(PartVerdict, oneOutlierWidensTheIntervalAndTakesThePlainWord) {
   const PooledRatio before = pooledVerdictOf(scans).margin;
   scans.push_back(scanOf("odd", 0.9, 0.2, 0.1));  // by itself marginal
   const PooledVerdict part = pooledVerdictOf(scans);
-  EXPECT_GT(std::log(part.margin.value / part.margin.lower), 2.0 * std::log(before.value / before.lower));
+  EXPECT_GT(std::log(part.margin.value / part.margin.lower),
+            2.0 * std::log(before.value / before.lower));
   EXPECT_EQ(part.sticks, Sticks::kMarginal);
   EXPECT_EQ(part.margin.worst_scan, "odd");
 }
@@ -111,12 +121,13 @@ TEST(PartVerdict, isNoPlainNoWhileAScanByItselfSticks) {
 }
 
 TEST(PartVerdict, sticksWhereAllScansDo) {
-  EXPECT_EQ(pooledVerdictOf({scanOf("a", 0.2, 0.1, 0.1), scanOf("b", 0.3, 0.1, 0.1)}).sticks, Sticks::kYes);
+  EXPECT_EQ(pooledVerdictOf({scanOf("a", 0.2, 0.1, 0.1), scanOf("b", 0.3, 0.1, 0.1)}).sticks,
+            Sticks::kYes);
 }
 
 TEST(PartVerdict, sayThatScansDoNotCount) {
-  const PooledVerdict part =
-      pooledVerdictOf({scanOf("a", 3.0, 0.2, 0.1), scanOf("b", 3.0, 0.2, 0.1), silentScan("c", kOnePixelFlag)});
+  const PooledVerdict part = pooledVerdictOf(
+      {scanOf("a", 3.0, 0.2, 0.1), scanOf("b", 3.0, 0.2, 0.1), silentScan("c", kOnePixelFlag)});
   EXPECT_EQ(part.sticks, Sticks::kNo);
   EXPECT_EQ(part.scan_count, 3);
   EXPECT_EQ(part.counted_scans, 2);
@@ -138,7 +149,8 @@ TEST(PartVerdict, isUnknownWhereTheSilentScansMayHoldMore) {
 }
 
 TEST(PartVerdict, isUnknownWithoutAScanThatCounts) {
-  const PooledVerdict none = pooledVerdictOf({silentScan("a", kBondedFlag), silentScan("b", kBondedFlag)});
+  const PooledVerdict none =
+      pooledVerdictOf({silentScan("a", kBondedFlag), silentScan("b", kBondedFlag)});
   EXPECT_EQ(none.sticks, Sticks::kUnknown);
   EXPECT_EQ(none.reason, "no scan makes a statement; of b");
   EXPECT_TRUE(std::isnan(none.margin.value));
@@ -183,7 +195,8 @@ TEST(PartVerdict, countsThePrefactorsOfTheTransition) {
 
 TEST(PartVerdict, leavesScansWithoutAdhesionOutOfTheMean) {
   ScanStatement free = scanOf("free", 1.0, 0.0, 0.0);
-  free.margin.value = free.margin.lower = free.margin.upper = std::numeric_limits<double>::infinity();
+  free.margin.value = free.margin.lower = free.margin.upper =
+      std::numeric_limits<double>::infinity();
   free.sticks = Sticks::kNo;
   free.contacts = 0;
   EXPECT_EQ(pooledVerdictOf({free, free}).sticks, Sticks::kNo);
@@ -225,11 +238,14 @@ TEST(PartVerdict, takesItsPartOfThePlaceFromTheContacts) {
   const Verdict common = verdictOf(prediction, device, uncertainty, options, surface.cellArea());
   EXPECT_EQ(common.place_deviation, 0.0);
   // quantiles of 20000 samples are known to 2 %
-  EXPECT_NEAR(std::log(many.value / many.lower), std::log(common.margin / common.margin_lower), 0.02);
-  EXPECT_NEAR(std::log(many.upper / many.value), std::log(common.margin_upper / common.margin), 0.02);
+  EXPECT_NEAR(std::log(many.value / many.lower), std::log(common.margin / common.margin_lower),
+              0.02);
+  EXPECT_NEAR(std::log(many.upper / many.value), std::log(common.margin_upper / common.margin),
+              0.02);
 }
 
-/// Share of simulated parts whose interval holds the truth, ln M = 1: what is common is drawn once for each part.
+/// Share of simulated parts whose interval holds the truth, ln M = 1: what is common is drawn once
+/// for each part.
 double coverage(int scan_count, double common, double place, double between) {
   constexpr int kParts = 4000;
   std::mt19937_64 engine(7);
@@ -249,7 +265,8 @@ double coverage(int scan_count, double common, double place, double between) {
 }
 
 TEST(PartVerdict, coversTheTruthInNinetyFiveOfAHundredParts) {
-  // 4000 parts tell a share of 0.95 to 0.0034: three of these, and one hundredth that the method is off
+  // 4000 parts tell a share of 0.95 to 0.0034: three of these, and one hundredth that the method is
+  // off
   EXPECT_NEAR(coverage(2, 0.3, 0.3, 0.0), 0.95, 0.02);
   EXPECT_NEAR(coverage(3, 0.3, 0.3, 0.3), 0.95, 0.02);
   EXPECT_NEAR(coverage(5, 0.3, 0.3, 0.3), 0.95, 0.02);

@@ -68,7 +68,8 @@ TEST(RegimeFlags, areThoseOfTheContactsThatHoldAtThePullOff) {
   holding.area = kCell;
   holding.is_at_border = true;
   prediction.pull_off_contacts = {holding};
-  EXPECT_EQ(regimeFlagNames(regimeFlags(prediction, kCell)), "resolution, few_contacts, border, one_pixel");
+  EXPECT_EQ(regimeFlagNames(regimeFlags(prediction, kCell)),
+            "resolution, few_contacts, border, one_pixel");
 }
 
 TEST(RegimeFlags, surfacesThatALoadPressesTogetherNearlyEverywhereAreNotBonded) {

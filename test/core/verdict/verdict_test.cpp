@@ -53,12 +53,14 @@ Verdict verdictFor(const Spheres& spheres, const DeviceOptions& device,
 
 TEST(Verdict, takesTheScansForceForEachContactOfItsSize) {
   const Spheres spheres;
-  DeviceOptions device = springOf(2.0 * 3.0 * spheres.pullOff(), 3.0 * spheres.prediction.nominal_area);
+  DeviceOptions device =
+      springOf(2.0 * 3.0 * spheres.pullOff(), 3.0 * spheres.prediction.nominal_area);
   device.contacts = 3;  // each of the scan's size
   const Verdict verdict = verdictFor(spheres, device);
   EXPECT_NEAR(verdict.restoring_force, 6.0 * spheres.pullOff(), 1e-12 * verdict.restoring_force);
   // composite radius of a cap cut at pixels: 3 %
-  EXPECT_NEAR(verdict.device_pull_off_force, 3.0 * spheres.pullOff(), 0.03 * verdict.device_pull_off_force);
+  EXPECT_NEAR(verdict.device_pull_off_force, 3.0 * spheres.pullOff(),
+              0.03 * verdict.device_pull_off_force);
   EXPECT_NEAR(verdict.margin, 2.0, 0.06);
   EXPECT_LT(verdict.margin_lower, verdict.margin);
   EXPECT_GT(verdict.margin_upper, verdict.margin);
@@ -70,7 +72,8 @@ TEST(Verdict, answersNoMarginalAndYes) {
   const Spheres spheres;
   const double area = spheres.prediction.nominal_area;
   EXPECT_EQ(verdictFor(spheres, springOf(10.0 * spheres.pullOff(), area)).sticks, Sticks::kNo);
-  EXPECT_EQ(verdictFor(spheres, springOf(1.05 * spheres.pullOff(), area)).sticks, Sticks::kMarginal);
+  EXPECT_EQ(verdictFor(spheres, springOf(1.05 * spheres.pullOff(), area)).sticks,
+            Sticks::kMarginal);
   const Verdict stuck = verdictFor(spheres, springOf(0.1 * spheres.pullOff(), area));
   EXPECT_EQ(stuck.sticks, Sticks::kYes);
   EXPECT_NE(stuck.reason.find("margin 0.1"), std::string::npos);
@@ -86,7 +89,8 @@ TEST(Verdict, saysWhatPressedTheContactsIfTheyFlowed) {
     const Prediction prediction = AdhesionModel(options).predict(surface);
     return verdictOf(prediction, springOf(1e-6, area), UncertaintyOptions(), options, kCell).reason;
   };
-  EXPECT_NE(reasonUnder(30e6).find("; after 30 MPa, under which contacts have flowed"), std::string::npos);
+  EXPECT_NE(reasonUnder(30e6).find("; after 30 MPa, under which contacts have flowed"),
+            std::string::npos);
   EXPECT_EQ(reasonUnder(0.0).find("after"), std::string::npos);
   options.lower.hardness = options.upper.hardness = 1e12;
   EXPECT_EQ(reasonUnder(30e6).find("after"), std::string::npos);
@@ -96,7 +100,9 @@ TEST(Verdict, writesNumbersForPeople) {
   const Spheres spheres;
   const double area = spheres.prediction.nominal_area;
   const double held = spheres.prediction.pull_off_force;
-  const auto reasonFor = [&](double margin) { return verdictFor(spheres, springOf(margin * held, area)).reason; };
+  const auto reasonFor = [&](double margin) {
+    return verdictFor(spheres, springOf(margin * held, area)).reason;
+  };
   EXPECT_EQ(reasonFor(12.34).find("margin 12.3, 95 % within "), 0U);
   EXPECT_EQ(reasonFor(999.96).find("margin 1000, 95 % within "), 0U);
   EXPECT_EQ(reasonFor(136468.0).find("margin 136000, 95 % within "), 0U);
@@ -106,11 +112,14 @@ TEST(Verdict, writesNumbersForPeople) {
 TEST(Verdict, exactConstantsStillLeaveTheTheoriesApart) {
   const Spheres spheres;
   UncertaintyOptions exact;
-  exact.work_of_adhesion = exact.hardness = exact.youngs_modulus = exact.pitch = exact.cutoff_distance = 0.0;
+  exact.work_of_adhesion = exact.hardness = exact.youngs_modulus = exact.pitch =
+      exact.cutoff_distance = 0.0;
   exact.hamaker_constant = 0.0;
   exact.scan_sampling = false;
-  const double between = 0.5 * (spheres.prediction.pull_off_force_transition + spheres.prediction.pull_off_force);
-  const Verdict verdict = verdictFor(spheres, springOf(between, spheres.prediction.nominal_area), exact);
+  const double between =
+      0.5 * (spheres.prediction.pull_off_force_transition + spheres.prediction.pull_off_force);
+  const Verdict verdict =
+      verdictFor(spheres, springOf(between, spheres.prediction.nominal_area), exact);
   EXPECT_EQ(verdict.sticks, Sticks::kMarginal);
   EXPECT_GT(verdict.margin_lower, 1.0);
   EXPECT_NEAR(verdict.margin_uncertainty, 0.0, 1e-12);
@@ -120,16 +129,20 @@ TEST(Verdict, exactConstantsStillLeaveTheTheoriesApart) {
 TEST(Verdict, intervalHoldsNinetyFivePercentOfTheMargins) {
   const Spheres spheres;
   UncertaintyOptions uncertainty;
-  uncertainty.hardness = uncertainty.youngs_modulus = uncertainty.pitch = uncertainty.cutoff_distance = 0.0;
+  uncertainty.hardness = uncertainty.youngs_modulus = uncertainty.pitch =
+      uncertainty.cutoff_distance = 0.0;
   uncertainty.scan_sampling = false;
   uncertainty.work_of_adhesion = 0.1;
   uncertainty.samples = 20000;
-  const Verdict verdict =
-      verdictFor(spheres, springOf(spheres.pullOff(), spheres.prediction.nominal_area), uncertainty);
-  // no load, no van der Waals: the demand is all adhesion, growth ~ w, pull-off ~ w^2; margins lognormal
+  const Verdict verdict = verdictFor(
+      spheres, springOf(spheres.pullOff(), spheres.prediction.nominal_area), uncertainty);
+  // no load, no van der Waals: the demand is all adhesion, growth ~ w, pull-off ~ w^2; margins
+  // lognormal
   const double deviation = 2.0 * std::sqrt(std::log1p(0.01));
-  EXPECT_NEAR(std::log(verdict.margin_lower / verdict.margin), -1.96 * deviation, 0.05 * 1.96 * deviation);
-  EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin), 1.96 * deviation, 0.05 * 1.96 * deviation);
+  EXPECT_NEAR(std::log(verdict.margin_lower / verdict.margin), -1.96 * deviation,
+              0.05 * 1.96 * deviation);
+  EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin), 1.96 * deviation,
+              0.05 * 1.96 * deviation);
   EXPECT_NEAR(verdict.margin_uncertainty / verdict.margin, std::sinh(deviation), 0.05 * deviation);
 }
 
@@ -142,7 +155,8 @@ TEST(Verdict, isUnknownWithItsReasonWhenTheDeviceIsNotStated) {
   EXPECT_EQ(verdict.restoring_force, 1e-3);
   EXPECT_TRUE(std::isnan(verdict.margin));
   EXPECT_TRUE(std::isnan(verdict.peel_number));
-  EXPECT_TRUE(std::isnan(verdict.apparent_work_of_adhesion)) << "nobody asks for what the paper's formulation lacks";
+  EXPECT_TRUE(std::isnan(verdict.apparent_work_of_adhesion))
+      << "nobody asks for what the paper's formulation lacks";
 }
 
 TEST(Verdict, bondedSurfacesCanSayYesButNotNo) {
@@ -240,8 +254,10 @@ TEST(Verdict, judgesABeamByItsPeelNumber) {
 TEST(Verdict, takesTheContactsEnergyForABeamUnlessStated) {
   const Spheres spheres;
   const Verdict verdict = verdictFor(spheres, cantilever(100e-6));
-  EXPECT_NEAR(verdict.apparent_work_of_adhesion, apparentWorkOfAdhesion(spheres.prediction, spheres.options), 0.0);
-  EXPECT_NEAR(verdict.peel_number, peelNumber(cantilever(100e-6).beam(), verdict.apparent_work_of_adhesion), 1e-12);
+  EXPECT_NEAR(verdict.apparent_work_of_adhesion,
+              apparentWorkOfAdhesion(spheres.prediction, spheres.options), 0.0);
+  EXPECT_NEAR(verdict.peel_number,
+              peelNumber(cantilever(100e-6).beam(), verdict.apparent_work_of_adhesion), 1e-12);
   EXPECT_LT(verdict.peel_number_lower, verdict.peel_number);
   EXPECT_GT(verdict.peel_number_upper, verdict.peel_number);
 }
@@ -270,9 +286,11 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   const Verdict pulled = verdictFor(spheres, device);
   EXPECT_EQ(pulled.governed_by, kGovernedByForce);
   EXPECT_DOUBLE_EQ(pulled.margin, beamForce(device.beam()) / pulled.device_pull_off_force);
-  EXPECT_DOUBLE_EQ(pulled.margin_lower, pulled.restoring_force / pulled.device_pull_off_force_upper);
+  EXPECT_DOUBLE_EQ(pulled.margin_lower,
+                   pulled.restoring_force / pulled.device_pull_off_force_upper);
   EXPECT_EQ(pulled.reason.rfind("margin ", 0), 0U) << pulled.reason;
-  EXPECT_NE(pulled.reason.find("its force decides (peel number "), std::string::npos) << pulled.reason;
+  EXPECT_NE(pulled.reason.find("its force decides (peel number "), std::string::npos)
+      << pulled.reason;
   EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, pulled).peel_number.value));
 
   device.beam_width = device.contact_area / (0.9 * device.beam_length);
@@ -280,7 +298,8 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   EXPECT_EQ(peeled.governed_by, kGovernedByPeeling);
   EXPECT_DOUBLE_EQ(peeled.peel_number, pulled.peel_number) << "per width";
   EXPECT_EQ(peeled.reason.rfind("peel number ", 0), 0U) << peeled.reason;
-  EXPECT_NE(peeled.reason.find("it is peeled (the margin of its force is "), std::string::npos) << peeled.reason;
+  EXPECT_NE(peeled.reason.find("it is peeled (the margin of its force is "), std::string::npos)
+      << peeled.reason;
   EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, peeled).margin.value));
 
   device.beam_width = 0.0;
@@ -289,8 +308,8 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   EXPECT_TRUE(std::isnan(unstated.margin));
 }
 
-/// Widths that take the contact from beyond all lengths over which adhesion may give way to below them: between, no answer is better
-/// than the worse of force and peeling.
+/// Widths that take the contact from beyond all lengths over which adhesion may give way to below
+/// them: between, no answer is better than the worse of force and peeling.
 TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOpen) {
   const Spheres spheres;
   int open = 0;
@@ -306,12 +325,14 @@ TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOp
       const auto wordOf = [](double lower, double upper) {
         return upper < 1.0 ? Sticks::kYes : lower > 1.0 ? Sticks::kNo : Sticks::kMarginal;
       };
-      const Sticks by_force = wordOf(std::min(verdict.margin_lower, verdict.margin_transition), verdict.margin_upper);
+      const Sticks by_force =
+          wordOf(std::min(verdict.margin_lower, verdict.margin_transition), verdict.margin_upper);
       const Sticks by_peeling = wordOf(verdict.peel_number_lower, verdict.peel_number_upper);
       const bool is_force_worse = gravity(by_force) > gravity(by_peeling);
       EXPECT_EQ(verdict.sticks, is_force_worse ? by_force : by_peeling) << verdict.reason;
       if (by_force != by_peeling) {
-        EXPECT_EQ(verdict.governed_by, is_force_worse ? kGovernedByForce : kGovernedByPeeling) << verdict.reason;
+        EXPECT_EQ(verdict.governed_by, is_force_worse ? kGovernedByForce : kGovernedByPeeling)
+            << verdict.reason;
         last = verdict.reason;
       }
     }
@@ -332,9 +353,11 @@ TEST(VerdictFields, showEveryFigureOnce) {
   });
   EXPECT_EQ(names.size(), 20u);
   EXPECT_EQ(places.size(), 20u);
-  // a figure that is added to the struct and not to the list makes this fail: words before, flags after the figures
+  // a figure that is added to the struct and not to the list makes this fail: words before, flags
+  // after the figures
   const auto* first = reinterpret_cast<const char*>(&verdict.restoring_force);
-  EXPECT_EQ(reinterpret_cast<const char*>(&verdict.regime_flags) - first, static_cast<std::ptrdiff_t>(size));
+  EXPECT_EQ(reinterpret_cast<const char*>(&verdict.regime_flags) - first,
+            static_cast<std::ptrdiff_t>(size));
 }
 
 TEST(RegimeFlags, nameWhatLeavesTheModel) {
@@ -342,7 +365,8 @@ TEST(RegimeFlags, nameWhatLeavesTheModel) {
   const std::uint32_t flags = regimeFlags(spheres.prediction, kCell);
   EXPECT_TRUE(flags & kTaborFlag);  // 2 um, 50 mJ/m^2: Tabor's parameter about 0.4
   EXPECT_FALSE(flags & (kBondedFlag | kNoEquilibriumFlag | kResolutionFlag | kFewContactsFlag));
-  EXPECT_TRUE(regimeFlags(spheres.prediction, 1e3 * kCell) & kResolutionFlag);  // the same contacts on coarse pixels
+  EXPECT_TRUE(regimeFlags(spheres.prediction, 1e3 * kCell) &
+              kResolutionFlag);  // the same contacts on coarse pixels
   spheres.prediction.status = Status::kBonded;
   for (Asperity& asperity : spheres.prediction.asperities) asperity.regime = Regime::kPlastic;
   spheres.prediction.pull_off_contact_count = 9;

@@ -34,8 +34,8 @@ TEST(AcquisitionStamp, ATimeWithoutAZoneIsThisMachines) {
 }
 
 TEST(AcquisitionStamp, WhatMakesNoSenseLeavesTheFilesTime) {
-  for (const char* text : {"", "2014-03-01", "1970-01-01T00:00:00", "1980-01-01T00:00:00", "2999-01-01T00:00:00",
-                           "03/11/2011", "2014-03-01T14:05:00 and more"}) {
+  for (const char* text : {"", "2014-03-01", "1970-01-01T00:00:00", "1980-01-01T00:00:00",
+                           "2999-01-01T00:00:00", "03/11/2011", "2014-03-01T14:05:00 and more"}) {
     EXPECT_EQ(acquisitionStamp(text, kFileTime), static_cast<std::uint64_t>(kFileTime)) << text;
   }
   EXPECT_EQ(acquisitionStamp("", -5), 1u);

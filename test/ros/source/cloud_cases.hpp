@@ -1,7 +1,7 @@
 #pragma once
 
-/// Clouds of points as drivers of profilometers send them, from a known surface: a cap on a tilted plane, off the middle, so
-/// that a mirrored or transposed axis shows.
+/// Clouds of points as drivers of profilometers send them, from a known surface: a cap on a tilted
+/// plane, off the middle, so that a mirrored or transposed axis shows.
 
 #include <algorithm>
 #include <cmath>
@@ -62,11 +62,15 @@ struct Layout {
   std::uint32_t row_padding = 0;
 };
 
-inline void putNumber(std::vector<std::uint8_t>& data, std::size_t at, double value, const Layout& layout) {
+inline void putNumber(std::vector<std::uint8_t>& data, std::size_t at, double value,
+                      const Layout& layout) {
   std::uint8_t bytes[8];
   const std::size_t size = layout.is_double ? 8 : 4;
   const auto narrow = static_cast<float>(value);
-  std::memcpy(bytes, layout.is_double ? static_cast<const void*>(&value) : static_cast<const void*>(&narrow), size);
+  std::memcpy(
+      bytes,
+      layout.is_double ? static_cast<const void*>(&value) : static_cast<const void*>(&narrow),
+      size);
   if (layout.is_foreign_order) std::reverse(bytes, bytes + size);
   std::memcpy(data.data() + at, bytes, size);
 }
@@ -83,18 +87,19 @@ inline sensor_msgs::PointCloud2 message(const cv::Mat& points, const Layout& lay
     sensor_msgs::PointField field;
     field.name = std::string(1, static_cast<char>('x' + axis));
     field.offset = layout.first + static_cast<std::uint32_t>(axis) * size;
-    field.datatype = layout.is_double ? sensor_msgs::PointField::FLOAT64 : sensor_msgs::PointField::FLOAT32;
+    field.datatype =
+        layout.is_double ? sensor_msgs::PointField::FLOAT64 : sensor_msgs::PointField::FLOAT32;
     field.count = 1;
     cloud.fields.push_back(field);
   }
   cloud.data.resize(std::size_t{cloud.row_step} * cloud.height, 0xAB);
   for (int row = 0; row < points.rows; ++row) {
     for (int col = 0; col < points.cols; ++col) {
-      const std::size_t at =
-          static_cast<std::size_t>(row) * cloud.row_step + static_cast<std::size_t>(col) * cloud.point_step;
+      const std::size_t at = static_cast<std::size_t>(row) * cloud.row_step +
+                             static_cast<std::size_t>(col) * cloud.point_step;
       for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        putNumber(cloud.data, at + layout.first + axis * size, points.at<cv::Vec3d>(row, col)[static_cast<int>(axis)],
-                  layout);
+        putNumber(cloud.data, at + layout.first + axis * size,
+                  points.at<cv::Vec3d>(row, col)[static_cast<int>(axis)], layout);
       }
     }
   }

@@ -26,7 +26,8 @@ void expectMap(const CloudMap& map, const cv::Mat& expected, double tolerance) {
 TEST(CloudGrid, EveryOrderOfTheAxesGivesOneMap) {
   for (int order = 0; order < 8; ++order) {
     SCOPED_TRACE(order);
-    const cv::Mat points = clouds::orderedPoints((order & 1) != 0, (order & 2) != 0, (order & 4) != 0);
+    const cv::Mat points =
+        clouds::orderedPoints((order & 1) != 0, (order & 2) != 0, (order & 4) != 0);
     const CloudMap map = mapOfPoints(points, {});
     expectMap(map, clouds::expectedMap(), 0.0);
     EXPECT_TRUE(map.notes.empty());
@@ -99,7 +100,8 @@ TEST(CloudGrid, ATiltedPlaneStaysExactWhateverTheCells) {
     for (int col = 0; col + 1 < heights.cols; ++col) {
       const double here = heights.at<double>(row, col);
       if (std::isnan(here)) continue;
-      const double right = heights.at<double>(row, col + 1), below = heights.at<double>(row + 1, col);
+      const double right = heights.at<double>(row, col + 1),
+                   below = heights.at<double>(row + 1, col);
       if (!std::isnan(right)) {
         EXPECT_NEAR(right - here, 0.3 * 20e-6, 1e-14);
       }
@@ -118,7 +120,8 @@ TEST(CloudGrid, UnevenPointsComeOnAGridThatTheyFill) {
   cv::Mat points(60, 80, CV_64FC3);
   for (int row = 0; row < points.rows; ++row) {
     for (int col = 0; col < points.cols; ++col) {
-      const double x = (col + shift(random)) * clouds::kPitchX, y = -(row + shift(random)) * clouds::kPitchY;
+      const double x = (col + shift(random)) * clouds::kPitchX,
+                   y = -(row + shift(random)) * clouds::kPitchY;
       points.at<cv::Vec3d>(row, col) = {x, y, clouds::surfaceAt(x, y)};
     }
   }
@@ -126,7 +129,8 @@ TEST(CloudGrid, UnevenPointsComeOnAGridThatTheyFill) {
   const cv::Mat& heights = map.surface.heights();
   int missing = 0;
   for (int row = 0; row < heights.rows; ++row) {
-    for (int col = 0; col < heights.cols; ++col) missing += std::isnan(heights.at<double>(row, col)) ? 1 : 0;
+    for (int col = 0; col < heights.cols; ++col)
+      missing += std::isnan(heights.at<double>(row, col)) ? 1 : 0;
   }
   EXPECT_LT(missing, 0.02 * heights.total());
   EXPECT_GT(map.surface.pitchX(), clouds::kPitchX);

@@ -12,16 +12,18 @@ namespace {
 TEST(CloudPoints, EveryLayoutGivesThePoints) {
   const cv::Mat points = clouds::orderedPoints(false, true, false);
   // x, y, z alone; PCL's PointXYZ and PointXYZI; double; behind other fields; rows with padding
-  for (const clouds::Layout& layout : {clouds::Layout{false, false, 0, 0, 0}, clouds::Layout{false, false, 0, 16, 0},
-                                       clouds::Layout{false, true, 0, 32, 0}, clouds::Layout{true, false, 0, 0, 0},
-                                       clouds::Layout{true, true, 5, 40, 7}, clouds::Layout{false, false, 3, 16, 13}}) {
+  for (const clouds::Layout& layout :
+       {clouds::Layout{false, false, 0, 0, 0}, clouds::Layout{false, false, 0, 16, 0},
+        clouds::Layout{false, true, 0, 32, 0}, clouds::Layout{true, false, 0, 0, 0},
+        clouds::Layout{true, true, 5, 40, 7}, clouds::Layout{false, false, 3, 16, 13}}) {
     cv::Mat expected = points;
     if (!layout.is_double) {
       points.convertTo(expected, CV_32F);
       expected.convertTo(expected, CV_64F);
     }
     const cv::Mat read = cloudPoints(clouds::message(points, layout));
-    EXPECT_EQ(cv::norm(read, expected, cv::NORM_INF), 0.0) << layout.first << " " << layout.point_step;
+    EXPECT_EQ(cv::norm(read, expected, cv::NORM_INF), 0.0)
+        << layout.first << " " << layout.point_step;
   }
 }
 

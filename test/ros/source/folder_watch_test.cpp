@@ -119,7 +119,8 @@ TEST(FolderWatch, FoldersBelowCountIfAskedForAlsoThoseThatComeLater) {
 TEST(FolderWatch, AFolderThatIsGoneIsSaidAndNothingIsForgotten) {
   const ScratchFolder outer;
   fs::create_directory(outer.file("share"));
-  FolderWatch watch(outer.file("share"), false, kSettle, 0.05, [](const std::string&) { return true; });
+  FolderWatch watch(outer.file("share"), false, kSettle, 0.05,
+                    [](const std::string&) { return true; });
   outer.write("share/a", "1");
   outer.write("share/b", "1");
   ASSERT_EQ(watch.look(), "");

@@ -75,7 +75,8 @@ TEST(LineMap, ALostLineIsNotMeasuredAndCounted) {
   EXPECT_EQ(result.lost, 2u);
   const cv::Mat& heights = result.map.surface.heights();
   ASSERT_EQ(heights.rows, clouds::kRows);
-  for (int row = 0; row < heights.rows; ++row) EXPECT_EQ(std::isnan(heights.at<double>(row, 2)), row == 7 || row == 8);
+  for (int row = 0; row < heights.rows; ++row)
+    EXPECT_EQ(std::isnan(heights.at<double>(row, 2)), row == 7 || row == 8);
 }
 
 TEST(LineMap, UnevenLinesAreInterpolated) {
@@ -98,7 +99,8 @@ TEST(LineMap, UnevenLinesAreInterpolated) {
   const double top = heights.at<double>(0, 0);
   for (int row = 0; row < heights.rows; ++row) {
     for (int col = 0; col < heights.cols; ++col) {
-      EXPECT_NEAR(heights.at<double>(row, col), top - 0.02 * row * clouds::kPitchY - 0.01 * col * clouds::kPitchX,
+      EXPECT_NEAR(heights.at<double>(row, col),
+                  top - 0.02 * row * clouds::kPitchY - 0.01 * col * clouds::kPitchX,
                   2e-3 * 0.02 * clouds::kPitchY);
     }
   }
@@ -112,7 +114,8 @@ TEST(LineMap, PointsThatAreNotMeasuredStaySo) {
   for (int row = 0; row < heights.rows; ++row) {
     for (int col = 0; col < heights.cols; ++col) {
       const int line = clouds::kRows - 1 - row;
-      EXPECT_EQ(std::isnan(heights.at<double>(row, col)), line == 6 || (line == 2 && col == 5)) << row << " " << col;
+      EXPECT_EQ(std::isnan(heights.at<double>(row, col)), line == 6 || (line == 2 && col == 5))
+          << row << " " << col;
     }
   }
 }

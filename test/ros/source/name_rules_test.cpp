@@ -13,8 +13,8 @@ TEST(NameRules, WithoutPatternsAllButHiddenTemporaryAndSettingsAreScans) {
   for (const char* name : {"a.di", "scan.001", "Probe ä 1.spm", "lot/a.txt", "noextension"}) {
     EXPECT_TRUE(rules.isScan(name)) << name;
   }
-  for (const char* name :
-       {".a.di.swp", "a.di.tmp", "a.di.part", "a.di~", "~$a.di", "a.di.yaml", "x/.hidden", "A.TMP"}) {
+  for (const char* name : {".a.di.swp", "a.di.tmp", "a.di.part", "a.di~", "~$a.di", "a.di.yaml",
+                           "x/.hidden", "A.TMP"}) {
     EXPECT_FALSE(rules.isScan(name)) << name;
   }
 }

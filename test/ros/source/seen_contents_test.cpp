@@ -87,7 +87,8 @@ TEST(SeenContents, OneProcessHasItAtATimeAndOtherFilesAreNotWrittenOver) {
   const ScratchFolder folder;
   const SeenContents seen(folder.file("state"));
   EXPECT_THROW(SeenContents(folder.file("state")), FileError);
-  const std::string other = folder.write("notes.txt", "somebody's own words, which are longer than the first line\n");
+  const std::string other =
+      folder.write("notes.txt", "somebody's own words, which are longer than the first line\n");
   EXPECT_THROW(SeenContents{other}, FileError);
   EXPECT_EQ(ScratchFolder::read(other).size(), 59u);
   ASSERT_EQ(symlink(other.c_str(), folder.file("link").c_str()), 0);

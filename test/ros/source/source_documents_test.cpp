@@ -10,8 +10,9 @@ namespace {
 
 TEST(SourceDocuments, ParametersAreThoseOfTheCode) {
   SourceOptions options;
-  documents::expectUpToDate(MEMS_STICTION_SOURCE_DIR "/doc/parameters.md", "source",
-                            documents::parameterTables([&](OptionVisitor& visitor) { options.describe(visitor); }));
+  documents::expectUpToDate(
+      MEMS_STICTION_SOURCE_DIR "/doc/parameters.md", "source",
+      documents::parameterTables([&](OptionVisitor& visitor) { options.describe(visitor); }));
 }
 
 }  // namespace
