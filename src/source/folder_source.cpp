@@ -202,16 +202,19 @@ void FolderSource::publish(const FoundFile& file, const std::string& key, ScanFi
   fillUnstated(options_.identity, scan.identity);
   const std::vector<std::string> complaints = identityComplaints(scan.identity, "");
   if (!complaints.empty()) throw FileError(complaints.front());
-  const std::uint64_t stamp =
-      publisher_.freeStamp(acquisitionStamp(scan.identity.acquisition_time, file.stamp.modified));
+  std::uint64_t stamp = seen_.stampOf(key);
+  if (stamp == 0) {
+    stamp =
+        publisher_.freeStamp(acquisitionStamp(scan.identity.acquisition_time, file.stamp.modified));
+  }
   std::string frame = scan.identity.scan_name;
   std::replace(frame.begin(), frame.end(), '\n', ' ');
+  accounting_.hindered(seen_.noteSending(key, stamp));
   publisher_.publish(scan.surface, scan.identity, frame, stamp);
   seen_.notePublished(key, stamp, placeOf(file), file.stamp);
   keys_[file.name] = key;
   watch_.settle(file, false);
   accounting_.published(file.name);
-  accounting_.hindered(seen_.writeWaiting());
 }
 
 void FolderSource::refuse(const FoundFile& file, const std::string& reason) {

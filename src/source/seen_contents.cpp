@@ -19,9 +19,13 @@ namespace mems_stiction {
 namespace {
 
 constexpr char kHeading[] = "mems_stiction scan_source 1\n";
+constexpr char kSending[] = "sending";
 constexpr char kPublished[] = "published";
 constexpr char kPassed[] = "passed";
 constexpr char kBegun[] = "begun";
+
+/// After which a scan that was published has left this process: subscribers take milliseconds.
+constexpr std::chrono::milliseconds kLeaves{1000};
 
 [[noreturn]] void failOnState(const std::string& path, const std::string& reason) {
   throw FileError("state_file: " + path + ": " + reason);
@@ -78,7 +82,8 @@ SeenContents::SeenContents(const std::string& path) : path_(path) {
 }
 
 SeenContents::~SeenContents() {
-  writeWaiting();
+  for (auto& line : on_their_way_) waiting_ += line.second;
+  write();
   close(descriptor_);
 }
 
@@ -110,7 +115,8 @@ void SeenContents::noteLine(const std::string& line) {
   const std::vector<std::string> words = wordsOf(line, 8);
   std::uint64_t scan_stamp = 0;
   FileStamp stamp;
-  const bool is_known = words[0] == kPublished || words[0] == kPassed || words[0] == kBegun;
+  const bool is_known =
+      words[0] == kSending || words[0] == kPublished || words[0] == kPassed || words[0] == kBegun;
   const bool is_whole = words.size() == 8 && is_known && readInteger(words[2], scan_stamp) &&
                         readInteger(words[4], stamp.size) &&
                         readInteger(words[5], stamp.modified) &&
@@ -118,10 +124,16 @@ void SeenContents::noteLine(const std::string& line) {
   if (!is_whole)
     failOnState(path_, "has a line that is not scan_source's: " +
                            shortened(oneLine(line), kLongestQuotation));
+  if (words[0] == kSending) {
+    sending_[words[1]] = scan_stamp;
+    stamps_.push_back(scan_stamp);
+    return;
+  }
   if (words[0] == kBegun) is_first_start_ = false;
   files_[words[3]] = stamp;
   if (words[0] != kPublished) return;
   keys_.insert(words[1]);
+  sending_.erase(words[1]);
   stamps_.push_back(scan_stamp);
 }
 
@@ -133,29 +145,54 @@ bool SeenContents::knowsFile(const std::string& name, const FileStamp& stamp) co
 void SeenContents::notePublished(const std::string& key, std::uint64_t scan_stamp,
                                  const std::string& name, const FileStamp& stamp) {
   keys_.insert(key);
+  sending_.erase(key);
   stamps_.push_back(scan_stamp);
-  add(kPublished, key, scan_stamp, name, stamp);
+  on_their_way_.emplace_back(std::chrono::steady_clock::now() + kLeaves,
+                             lineOf(kPublished, key, scan_stamp, name, stamp));
+}
+
+std::uint64_t SeenContents::stampOf(const std::string& key) const {
+  const auto found = sending_.find(key);
+  return found == sending_.end() ? 0 : found->second;
+}
+
+std::string SeenContents::noteSending(const std::string& key, std::uint64_t scan_stamp) {
+  if (stampOf(key) != scan_stamp) {
+    sending_[key] = scan_stamp;
+    waiting_ +=
+        std::string(kSending) + " " + key + " " + std::to_string(scan_stamp) + " - 0 0 0 -\n";
+  }
+  return writeWaiting();
 }
 
 void SeenContents::notePassed(const std::string& name, const FileStamp& stamp) {
-  add(kPassed, "-", 0, name, stamp);
+  waiting_ += lineOf(kPassed, "-", 0, name, stamp);
 }
 
 void SeenContents::noteBegun() {
   is_first_start_ = false;
-  add(kBegun, "-", 0, "", {});
+  waiting_ += lineOf(kBegun, "-", 0, "", {});
 }
 
-void SeenContents::add(const std::string& word, const std::string& key, std::uint64_t scan_stamp,
-                       const std::string& name, const FileStamp& stamp) {
+std::string SeenContents::lineOf(const std::string& word, const std::string& key,
+                                 std::uint64_t scan_stamp, const std::string& name,
+                                 const FileStamp& stamp) {
   const std::string place = contentHash(name);
   files_[place] = stamp;
-  waiting_ += word + " " + key + " " + std::to_string(scan_stamp) + " " + place + " " +
-              std::to_string(stamp.size) + " " + std::to_string(stamp.modified) + " " +
-              std::to_string(stamp.changed) + " " + oneLine(name) + "\n";
+  return word + " " + key + " " + std::to_string(scan_stamp) + " " + place + " " +
+         std::to_string(stamp.size) + " " + std::to_string(stamp.modified) + " " +
+         std::to_string(stamp.changed) + " " + oneLine(name) + "\n";
 }
 
 std::string SeenContents::writeWaiting() {
+  const auto now = std::chrono::steady_clock::now();
+  for (; !on_their_way_.empty() && on_their_way_.front().first <= now; on_their_way_.pop_front()) {
+    waiting_ += on_their_way_.front().second;
+  }
+  return write();
+}
+
+std::string SeenContents::write() {
   if (waiting_.empty()) return "";
   // What a full disk has taken of these lines is written over.
   const bool is_written = lseek(descriptor_, static_cast<off_t>(size_), SEEK_SET) >= 0 &&

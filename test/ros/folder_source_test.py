@@ -73,6 +73,9 @@ def slowly(path, content, pieces=10, pause=0.1):
             time.sleep(pause)
 
 
+STARTED = []  # processes
+
+
 class Source:
     """A scan_source of a namespace of its own, with nobody but the test to listen."""
 
@@ -97,6 +100,7 @@ class Source:
         self.process = subprocess.Popen(
             [find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=self._environment
         )
+        STARTED.append(self.process)
         return self
 
     def end(self, number=signal.SIGTERM):
@@ -109,6 +113,10 @@ class Source:
 
 
 class FolderTest(unittest.TestCase):
+    def tearDown(self):
+        while STARTED:  # what a case that failed has left
+            STARTED.pop().kill()
+
     @classmethod
     def setUpClass(cls):
         rospy.init_node("folder_source_test")
@@ -319,7 +327,7 @@ class FolderTest(unittest.TestCase):
             infos.wait(number + 1)
             if number % 4 == 1:
                 wait_until(
-                    lambda: checksum(content) in source.state(home), "the note of the content"
+                    lambda: "published " + checksum(content) in source.state(home), "its note"
                 )
                 source.end(signal.SIGKILL)
                 source.start()

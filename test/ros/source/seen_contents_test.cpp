@@ -61,6 +61,28 @@ TEST(SeenContents, WhateverAKillHasCutOffTheLinesBeforeStay) {
   }
 }
 
+/// What was published a moment ago may not have left when the process is killed.
+TEST(SeenContents, AKillRightAfterPublishingRepeatsTheScanWithItsStamp) {
+  const ScratchFolder folder;
+  std::string left_by_a_kill;
+  {
+    SeenContents seen(folder.file("state"));
+    seen.noteBegun();
+    ASSERT_EQ(seen.noteSending("sha256:ab", 77), "");
+    seen.notePublished("sha256:ab", 77, "a.di", kStamp);
+    EXPECT_TRUE(seen.knows("sha256:ab"));
+    EXPECT_EQ(seen.writeWaiting(), "");
+    left_by_a_kill = ScratchFolder::read(folder.file("state"));
+  }
+  const SeenContents after(folder.write("killed", left_by_a_kill));
+  EXPECT_FALSE(after.knows("sha256:ab"));
+  EXPECT_EQ(after.stampOf("sha256:ab"), 77u);
+  EXPECT_EQ(after.stamps(), std::vector<std::uint64_t>{77});
+  const SeenContents ended(folder.file("state"));
+  EXPECT_TRUE(ended.knows("sha256:ab"));
+  EXPECT_EQ(ended.stampOf("sha256:ab"), 0u);
+}
+
 TEST(SeenContents, AFullDiskIsSaidAndMadeUpForLater) {
   const ScratchFolder folder;
   SeenContents seen(folder.file("state"));
@@ -72,15 +94,14 @@ TEST(SeenContents, AFullDiskIsSaidAndMadeUpForLater) {
   const auto old = std::signal(SIGXFSZ, SIG_IGN);
   const struct rlimit none = {100, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &none);
-  seen.notePublished("sha256:ab", 77, "a.di", kStamp);
-  const std::string failure = seen.writeWaiting();
+  const std::string failure = seen.noteSending("sha256:ab", 77);
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old);
   EXPECT_NE(failure.find("cannot be written"), std::string::npos);
-  EXPECT_TRUE(seen.knows("sha256:ab"));
+  EXPECT_EQ(seen.stampOf("sha256:ab"), 77u);
   EXPECT_EQ(seen.writeWaiting(), "");
   const std::string content = ScratchFolder::read(folder.file("state"));
-  EXPECT_EQ(content.find("published sha256:ab 77"), content.rfind("published"));
+  EXPECT_EQ(content.find("sending sha256:ab 77"), content.rfind("sending"));
 }
 
 TEST(SeenContents, OneProcessHasItAtATimeAndOtherFilesAreNotWrittenOver) {
