@@ -140,7 +140,7 @@ class RosApiTest(unittest.TestCase):
                 self.assertIn("(../%s/%s)" % (folder, path.name), section("Messages"))
 
     def test_settings_that_change_are_whole_sections(self):
-        cfg = set(re.findall(r'^(\w+)\.add\("(\w+)"', source("cfg/Stiction.cfg"), re.MULTILINE))
+        cfg = set(re.findall(r'^(\w+)\.add\(\s*"(\w+)"', source("cfg/Stiction.cfg"), re.MULTILINE))
         keys = re.findall(
             r"^\| `(\w+)/(\w+)` \|",
             (REPOSITORY / "doc" / "parameters.md").read_text(encoding="utf-8"),
@@ -179,7 +179,7 @@ class ValidityTest(unittest.TestCase):
         resolution = source("include/mems_stiction/verdict/resolution.hpp")
         self.assertIn(
             "fewer than %g pixels) and"
-            % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)),
+            % float(re.search(r"min_contact_pixels =\s*([\d.]+)", resolution).group(1)),
             page,
         )
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "source/cloud_cases.hpp"
+#include "ros/source/cloud_cases.hpp"
 #include "source/cloud_grid.hpp"
 #include "source/cloud_source.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "source/cloud_cases.hpp"
+#include "ros/source/cloud_cases.hpp"
 #include "source/cloud_points.hpp"
 
 namespace mems_stiction {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "source/cloud_cases.hpp"
+#include "ros/source/cloud_cases.hpp"
 #include "source/line_map.hpp"
 
 namespace mems_stiction {
