@@ -78,7 +78,13 @@ Registrations::State Registrations::look(const MasterCalls& calls) {
     if (contains(service[1], name)) services.insert(static_cast<std::string>(service[0]));
   }
   // Each process of roscpp offers ~get_loggers from its start to its end.
-  if (services.count(name + "/get_loggers") == 0) return State::kForgotten;
+  if (services.count(name + "/get_loggers") == 0) {
+    // Between both answers another process may have taken the name, and with it all that the master
+    // had of this one: to register again would end that process.
+    if (!calls.hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
+    const bool is_taken = address.valid() && static_cast<std::string>(address) != ownAddress();
+    return is_taken ? State::kTaken : State::kForgotten;
+  }
   services_ = std::move(services);
   return State::kKnown;
 }
