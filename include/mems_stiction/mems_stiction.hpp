@@ -6,10 +6,12 @@
 ///
 ///     const Configuration configuration = loadConfiguration("stiction.yaml");
 ///     ScanPredictor predictor(configuration);
-///     const PreparedScan prepared = predictor.preparer().prepare(readScanFile("scan.tiff",
-///     configuration.scan)); const Prediction prediction = predictor.predict(prepared); const
-///     Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
-///                                       predictor.options(), prepared.surfaces.lower.cellArea());
+///     const PreparedScan prepared =
+///         predictor.preparer().prepare(readScanFile("scan.tiff", configuration.scan));
+///     const Prediction prediction = predictor.predict(prepared);
+///     const Verdict verdict =
+///         verdictOf(prediction, configuration.device, configuration.uncertainty,
+///                   predictor.options(), prepared.surfaces.lower.cellArea());
 ///
 /// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error
 /// (errors/errors.hpp).

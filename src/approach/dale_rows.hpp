@@ -8,7 +8,7 @@
 ///     rows.start(field, dales, 0.0, limit);
 ///     while (rows.next()) {
 ///       for (int i = 0; i < rows.count(); ++i) use(rows.columns()[i],
-///       rows.around().tagOf(rows.columns()[i]));
+///           rows.around().tagOf(rows.columns()[i]));
 ///     }
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 /// Force over height as files and records have it, whichever solver followed it.
 ///
 ///     visitCurvePointFields(point, [&](const Figure& figure, const auto& value) {
-///     print(figure.name, value); });
+///         print(figure.name, value); });
 
 #include "mems_stiction/settings/figure.hpp"
 

@@ -7,8 +7,8 @@
 /// regime:
 ///
 ///     z1' = z1 - c s w,   z2' = z2 + c (1 - s) w                                        (12), (13)
-///     s   = 1/2 + (1/2) ln(H2/H1)/|ln a|     for a H1 <= H2 <= H1/a; else the softer body takes
-///     all c   = 0 for phi <= 0.6, 2 (phi - 0.6) between, 1 for phi >= 1.1
+///     s   = 1/2 + (1/2) ln(H2/H1)/|ln a|    for a H1 <= H2 <= H1/a; else the softer body takes all
+///     c   = 0 for phi <= 0.6, 2 (phi - 0.6) between, 1 for phi >= 1.1
 ///
 /// A fully plastic patch ends with z1' = z2'; an elastic one comes back unchanged.
 

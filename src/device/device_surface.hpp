@@ -7,7 +7,7 @@
 ///
 ///     DeviceSurface surface(laws, pieces, realisationSeed(options, 0));
 ///     surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col,
-///     const cv::Mat& tile) { ... });
+///         const cv::Mat& tile) { ... });
 
 #include <cstdint>
 #include <functional>

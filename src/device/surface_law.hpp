@@ -4,9 +4,8 @@
 /// The law that the scans of a surface say it follows: from which random surfaces they may have
 /// been cut.
 ///
-///     z = T(g)                       g a Gaussian field: where the heights as a whole are not
-///     Gaussian, or z = T(g of short waves) + long waves, Gaussian    where it is only the short
-///     ones that are not
+///     z = T(g)               g a Gaussian field: where the heights as a whole are not Gaussian, or
+///     z = T(g of short waves) + long waves, Gaussian  where it is only the short ones that are not
 ///
 /// Whether heights are Gaussian is asked by their skewness and kurtosis, against what few long
 /// waves make of those by chance: 6/A times the integral of rho^3 and 24/A times that of rho^4 are

@@ -10,7 +10,7 @@
 ///
 ///     PartScans parts(100, 1000);
 ///     if (const auto verdict = parts.add({part_id, serial_id, settings_hash}, stamp, statement))
-///     publish(*verdict);
+///         publish(*verdict);
 
 #include <cstddef>
 #include <cstdint>

@@ -4,10 +4,11 @@
 /// How far does a surface with free edges give way at some distance from a cell under uniform
 /// pressure?
 ///
-///     half-spaces   integral of 1/(pi E r) over the cell                      (Love; Johnson,
-///     Contact Mechanics, (3.25)) films         and for each, (1/(pi E' t)) h(r/t) with
-///                   h(y) = integral over s from 0 to infinity of (X(s) - 1) J0(s y)      X:
-///                   mechanics/wave_stiffness.hpp
+///     half-spaces  integral of 1/(pi E r) over the cell
+///                          (Love; Johnson, Contact Mechanics, (3.25))
+///     films        and for each, (1/(pi E' t)) h(r/t) with
+///                  h(y) = integral over s from 0 to infinity of (X(s) - 1) J0(s y)
+///                          X: mechanics/wave_stiffness.hpp
 ///
 /// X - 1 falls off as exp(-2 s), so h is as smooth as the film is thick; h y -> X(0) - 1 far away,
 /// where a film on a rigid substrate takes back all that the half-space gives. A plate with a free

@@ -4,12 +4,12 @@
 /// Roughly which smooth displacement answers a traction? (K + shift)^-1 on every second cell of
 /// every second row, a quarter of the work:
 ///
-///     (1/4) I (K + shift)^-1 I^T      I: bilinear interpolation from there to all cells; I^T/4 is
-///     the mean about each of them
+///     (1/4) I (K + shift)^-1 I^T  I: bilinear interpolation from there to all cells; I^T/4 is the
+///                                 mean about each of them
 ///
 /// What varies from cell to cell is not answered; a preconditioner adds that. Source for
-/// corrections from a coarser grid: Trottenberg, Oosterlee and Schueller, Multigrid (2001),
-/// chapter 2.
+/// corrections from a coarser grid: Trottenberg, Oosterlee and Schueller, Multigrid (2001), chapter
+/// 2.
 ///
 ///     CoarseAnswer answer(grid, response, threads, memory, cancel);
 ///     answer.find(shift, traction);

@@ -11,11 +11,12 @@
 /// shift)^-1 the preconditioner is
 ///
 ///     P                           small contacts: it also gives K of its result, one product an
-///     iteration S C S + 1/(z + t'),         large ones: cells that their contact holds answer by
-///     themselves, the others as a body S = y/(y + t'), t' > 0 only between them. C is P of every
-///     second cell of every second row (coarse_answer.hpp), whose
-///                                 work hardly counts; what varies from cell to cell is answered by
-///                                 z alone
+///                                 iteration
+///     S C S + 1/(z + t'),         large ones: cells that their contact holds answer by themselves,
+///                                 the others as a body
+///     S = y/(y + t'), t' > 0      only between them. C is P of every second cell of every second
+///                                 row (coarse_answer.hpp), whose work hardly counts; what varies
+///                                 from cell to cell is answered by z alone
 ///
 /// Sources: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400 for how exactly each
 /// system is solved; Steinbach and Wendland, Adv. Comput. Math. 9 (1998) 191 for K^-1 of the whole

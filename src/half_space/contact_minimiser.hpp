@@ -3,9 +3,10 @@
 /// @file
 /// Which displacement brings two surfaces at a given height into equilibrium?
 ///
-///     gap  g = Z + relief - u          Z: height of the upper body over first touch; relief >= 0
-///     (0 at first touch) E(u) = (1/2) sum u K u dA + sum phi(g) dA,   dphi/dg = t(g) 0    = K u -
-///     t(g), but for its mean where K does not resist one
+///     gap  g = Z + relief - u
+///             Z: height of the upper body over first touch; relief >= 0 (0 at first touch)
+///     E(u) = (1/2) sum u K u dA + sum phi(g) dA,   dphi/dg = t(g)
+///     0    = K u - t(g), but for its mean where K does not resist one
 ///
 /// Contacts are brought into equilibrium one by one (contact_windows.hpp) as long as that helps.
 /// What is left, or all where contacts fill much of the frame, is Newton's method's: (K + t') s = t

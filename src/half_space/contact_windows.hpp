@@ -9,8 +9,8 @@
 /// frame within it and no change of traction beyond, and are brought into equilibrium there. All
 /// changes together move the frame by one product:
 ///
-///     s = K^-1 dt,   dt = the window's change of traction on the cells that it was made for, r
-///     elsewhere
+///     s = K^-1 dt,
+///             dt = the window's change of traction on the cells that it was made for, r elsewhere
 ///
 /// The residual falls by one and a half to two decades each time, however many and however stiff
 /// the contacts are; Newton's method on the whole frame takes some twenty products for that. Where

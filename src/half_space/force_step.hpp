@@ -8,8 +8,8 @@
 /// force grows like a power of the height and may do so fivefold over a step, its logarithm is one.
 ///
 ///     const StepParabola parabola(before, after);
-///     const double share = crossing(parabola, 0.0, 0.0, 1.0);  // where the force vanishes, of the
-///     step
+///     // where the force vanishes, of the step
+///     const double share = crossing(parabola, 0.0, 0.0, 1.0);
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 /// that the asperity model has too have its names (prediction/prediction_fields.hpp).
 ///
 ///     visitHalfSpaceFields(solution, [&](const Figure& figure, const auto& value) {
-///     print(figure.name, value); });
+///         print(figure.name, value); });
 ///
 /// Values are double, int, bool and the enumerations below; word() makes words of these.
 

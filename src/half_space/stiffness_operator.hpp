@@ -5,8 +5,8 @@
 /// answers a traction?
 ///
 ///     periodic:  t_q = (E/2) |q| u_q,  0 for q = 0: the mean displacement is the rigid body's
-///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell   (Love;
-///     Johnson (3.25))
+///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell
+///             (Love; Johnson (3.25))
 ///                K_q = 1/G_q on a frame padded to twice its size
 ///
 /// Bodies of finite thickness (mechanics/wave_stiffness.hpp): K(q) in place of (E/2) |q|; with free

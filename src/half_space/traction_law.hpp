@@ -4,12 +4,10 @@
 /// With which traction do two surfaces a gap apart attract or repel each other, and what does that
 /// cost per area?
 ///
-///     t(g) = 9-3 law at x = z0/g                   attraction and repulsion
-///     (mechanics/traction_law.hpp)
-///          + eps0 U^2/(2 (g + t/eps_r)^2)          field over an insulator (the same)
-///          + p where z0 < g < z0 + d_K             condensed water (the same)
-///     t >= -Ha                                                        beyond, the softer body
-///     flows
+///     t(g) = 9-3 law at x = z0/g             attraction and repulsion (mechanics/traction_law.hpp)
+///          + eps0 U^2/(2 (g + t/eps_r)^2)    field over an insulator (the same)
+///          + p where z0 < g < z0 + d_K       condensed water (the same)
+///     t >= -Ha                                                  beyond, the softer body flows
 ///
 /// Attraction is positive; the energy is minus the work that separation to infinity takes.
 /// Assumptions: the traction at a place depends on the gap there alone (Derjaguin); smooth

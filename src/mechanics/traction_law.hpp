@@ -4,18 +4,14 @@
 /// With which traction do two flat surfaces a gap apart attract or repel each other: by their
 /// atoms, by a voltage, and by water that condenses between them?
 ///
-///     t(x) = (8 Gamma/(3 z0)) (x^3 - x^9),   x = z0/g                    two half-spaces of atoms:
-///     zero at z0, largest
-///                                                                        1.026 Gamma/z0 at 3^(1/6)
-///                                                                        z0
-///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)                                 its integral from g on;
-///     Gamma at z0 z0   = sqrt(H/(16 pi Gamma))                                       so that t
-///     falls off as H/(6 pi g^3) p(d) = eps0 U^2/(2 (d + h/eps_r)^2) field over a gap d and an
-///     insulator h   (3) p    = gamma/r_K for d < d_K, 0 beyond                             water:
-///     r_K = gamma V_m/(R T ln(1/RH)), the Kelvin
-///                                                                        radius, d_K = 2 r_K
-///                                                                        cos(theta), the Kelvin
-///                                                                        gap
+///     t(x) = (8 Gamma/(3 z0)) (x^3 - x^9),  x = z0/g
+///             two half-spaces of atoms: zero at z0, largest 1.026 Gamma/z0 at 3^(1/6) z0
+///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)               its integral from g on; Gamma at z0
+///     z0   = sqrt(H/(16 pi Gamma))                     so that t falls off as H/(6 pi g^3)
+///     p(d) = eps0 U^2/(2 (d + h/eps_r)^2)              field over a gap d and an insulator h   (3)
+///     p    = gamma/r_K for d < d_K, 0 beyond
+///             water: r_K = gamma V_m/(R T ln(1/RH)), the Kelvin radius, and
+///             d_K = 2 r_K cos(theta), the Kelvin gap
 ///
 /// p of water falls and d_K grows with humidity, p d_K = 2 gamma cos(theta) does not change: the
 /// energy that separation costs per area of filled gap. A sphere on a flat gives 4 pi gamma R
@@ -34,7 +30,8 @@
 /// 2011), chapter 13; Deladi et al. 2002, (3), the insulator's thickness there without eps_r.
 ///
 ///     const AdhesionLaw law(work_of_adhesion, AdhesionLaw::rangeOf(work_of_adhesion,
-///     hamaker_constant)); const double pull = law.traction(law.range() / gap);
+///         hamaker_constant));
+///     const double pull = law.traction(law.range() / gap);
 
 #include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"

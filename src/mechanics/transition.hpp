@@ -5,9 +5,9 @@
 ///
 ///     mu     = (R w^2/(E^2 z0^3))^(1/3)                                Tabor's parameter
 ///     lambda = 2 s0 (R/(pi w K^2))^(1/3),  K = 4E/3                    Maugis' parameter
-///     lambda = 1.157 mu          when s0 is the largest stress of a Lennard-Jones interface, 16
-///     w/(9 sqrt(3) z0) pull-off = p pi w R,  p = 7/4 - (1/4) (4.04 lambda^1.4 - 1)/(4.04
-///     lambda^1.4 + 1)          (fit)
+///     lambda = 1.157 mu
+///             when s0 is the largest stress of a Lennard-Jones interface, 16 w/(9 sqrt(3) z0)
+///     pull-off = p pi w R,  p = 7/4 - (1/4) (4.04 lambda^1.4 - 1)/(4.04 lambda^1.4 + 1)      (fit)
 ///
 /// Assumptions: paraboloid on a half-space, elastic; Maugis lets a constant stress s0 act in a ring
 /// around the contact until the gap reaches w/s0 (Dugdale's crack tip). The prefactor p falls from
@@ -18,8 +18,8 @@
 /// (1999) 395.
 ///
 ///     const double mu = taborParameter(radius, work_of_adhesion, pair.contact_modulus,
-///     equilibrium_distance); const double pull_off = pullOffPrefactor(mu) * kPi * work_of_adhesion
-///     * radius;
+///         equilibrium_distance);
+///     const double pull_off = pullOffPrefactor(mu) * kPi * work_of_adhesion * radius;
 
 namespace mems_stiction {
 

@@ -5,20 +5,18 @@
 ///
 ///     p = K u,   K(q) = (E'/2) q / X(qt),   E' = E/(1 - nu^2)        u, p ~ cos(q x)
 ///     X = [1 + 4 b s e - a b e^2] / [(1 - a e)(1 - b e) - 4 b s^2 e],   s = qt,  e = exp(-2 s)
-///     a = (r g0 - g)/(1 + r g0),  b = (r - 1)/(r + g),   g = 3 - 4 nu,  r = shear modulus over
-///     that of the substrate
+///     a = (r g0 - g)/(1 + r g0),  b = (r - 1)/(r + g),  g = 3 - 4 nu,
+///             r = shear modulus over that of the substrate
 ///
 /// X is the compliance over that of a half-space of the same material, for a layer that is bonded,
 /// without friction on its upper side, to a half-space (g0). A rigid substrate is r = 0; a free
 /// lower side is r -> infinity, a = b = 1:
 ///
-///     thick, s >> 1                X = 1                 K = (E'/2) q
-///     free, s << 1                 X = 6/s^3             K = D q^4,  D = E' t^3/12         a plate
-///     that bends rigid substrate, s << 1                            K = M/t,    M = E (1 - nu)/((1
-///     + nu)(1 - 2 nu))
-///                     nu = 1/2                           K = E/(q^2 t^3) squeezed aside
-///     substrate, s -> 0                                  K = (E0'/2) q                     that of
-///     the substrate
+///     thick, s >> 1             X = 1      K = (E'/2) q
+///     free, s << 1              X = 6/s^3  K = D q^4,  D = E' t^3/12         a plate that bends
+///     rigid substrate, s << 1              K = M/t,    M = E (1 - nu)/((1 + nu)(1 - 2 nu))
+///                     nu = 1/2             K = E/(q^2 t^3)                   squeezed aside
+///     substrate, s -> 0                    K = (E0'/2) q                     that of the substrate
 ///
 /// The compliances 1/K of two bodies that face each other add. Assumptions: slopes are small,
 /// layers homogeneous and isotropic. Sources: Burmister, J. Appl. Phys. 16 (1945) 89 for the layer;

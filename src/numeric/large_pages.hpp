@@ -5,8 +5,8 @@
 /// request, so that writing to hundreds of places of it in turn does not wait for the addresses of
 /// pages.
 ///
-///     LargePageVector<float> relief;  // a std::vector otherwise; small ones stay in ordinary
-///     pages
+///     // a std::vector otherwise; small ones stay in ordinary pages
+///     LargePageVector<float> relief;
 
 #include <cstddef>
 #include <memory>

@@ -5,8 +5,9 @@
 /// has. A formula reads as for one number, and may be a template of both:
 ///
 ///     template <typename Real>
-///     MEMS_STICTION_INLINE Real cutOff(const Real& gap, double limit) { return select(gap > limit,
-///     gap, Real(limit)); }
+///     MEMS_STICTION_INLINE Real cutOff(const Real& gap, double limit) {
+///       return select(gap > limit, gap, Real(limit));
+///     }
 
 #include <algorithm>
 #include <cstddef>

@@ -15,9 +15,8 @@
 ///
 ///     r = (1/3) [ 2 P0 - 2 P0^2/P1 - chi (P1 - P0^2/P1) + 6 pi Gamma R ]
 ///       = chi r_e + (1 - chi) r_p
-///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],                  elastic: zero where (7)
-///     applies r_p =  (1/3) [ 2 P0 (P1 - P0)/P1 + 6 pi Gamma R ],               plastic: above zero
-///     wherever P1 > P0
+///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],              elastic: zero where (7) applies
+///     r_p =  (1/3) [ 2 P0 (P1 - P0)/P1 + 6 pi Gamma R ],      plastic: above zero wherever P1 > P0
 ///
 /// The load that it can carry is chi P1 + (1 - chi) min(P1, Ha pi rc^2).
 

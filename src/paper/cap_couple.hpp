@@ -7,7 +7,9 @@
 ///     delta_c = height of each surface's summit over its base plane,
 ///               the least-squares plane through the boundary edges
 ///     R       = (rc^2 + delta_c^2)/(2 delta_c), the circle through three points of the
-///     cross-section 1/R_i   = 1/R(z1) + 1/R(z2) (5) theta   = tilt of the mid-surface's base plane
+///             cross-section
+///     1/R_i   = 1/R(z1) + 1/R(z2)                                                              (5)
+///     theta   = tilt of the mid-surface's base plane
 ///
 /// The bounding box is that of the patch's outline, interpolated between cell centres at the level
 /// of the base planes (the mean gap of the boundary edges): rc and delta_c then belong to one

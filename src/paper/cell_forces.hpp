@@ -4,8 +4,8 @@
 /// What the cells of a frame that are apart attract each other with: the sums (2) and (3) of the
 /// paper.
 ///
-///     F_w = sum H dA/(6 pi max(d, D0)^3)           cells apart (2) F_e = sum eps0 dA U^2/(2 (d +
-///     t/eps_r)^2)    cells apart; with d = 0 in contact                (3)
+///     F_w = sum H dA/(6 pi max(d, D0)^3)           cells apart                                 (2)
+///     F_e = sum eps0 dA U^2/(2 (d + t/eps_r)^2)    cells apart; with d = 0 in contact          (3)
 ///
 /// (2) diverges at the edge of the contact; atoms are finite, so gaps below the cut-off D0 count as
 /// D0. (3) is printed with t for t/eps_r: eps_r = 1 is that case.

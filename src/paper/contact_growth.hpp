@@ -12,9 +12,10 @@
 ///     carried load  C = sum [chi_i P1_i + (1 - chi_i) min(P1_i, Y_i)]
 ///     demand        B = F_m + F_e + F_w + F_c + 2 pi Gamma sum R_i
 ///     growth        n = (B'/C')/(B/C), with F_w' and F_c' in B' for n = 1
-///     F_w -> x^2 a (n c^-2 near + far),  far = H A/(6 pi (mean gap)^3), which the cut-off does not
-///     touch F_c -> x^2 n F_c pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w'
-///     + F_c']/(x^2 A0)
+///     F_w -> x^2 a (n c^-2 near + far),
+///             far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
+///     F_c -> x^2 n F_c
+///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c']/(x^2 A0)
 ///
 /// The growth says that a surface that must carry more, or carries less per contact, brings
 /// proportionally more contacts of the same kind into play (Archard; Greenwood and Williamson's

@@ -6,7 +6,7 @@
 /// the attributes of Python come from here.
 ///
 ///     visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-///     print(figure.name, value); });
+///         print(figure.name, value); });
 ///
 /// Values are double, int, bool, Status, Regime, BondingRegime and ContactTheory; word() makes
 /// words of the enumerations.

@@ -3,8 +3,8 @@
 /// @file
 /// How does a scan lie, and what is left when its tilt is taken off?
 ///
-///     z(x, y) ~ mean_height + slope_x (x - centre_x) + slope_y (y - centre_y),  least squares in z
-///     over the valid pixels
+///     z(x, y) ~ mean_height + slope_x (x - centre_x) + slope_y (y - centre_y),
+///             least squares in z over the valid pixels
 ///
 /// Coordinates are those of the grid: x = column * pitch_x, y = row * pitch_y. The fit runs about
 /// the centroid of the valid pixels and their first height, in double, so a stage offset of

@@ -3,8 +3,8 @@
 /// @file
 /// How does a scan lie and bend, apart from its features?
 ///
-///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;  u = (x - centre_x)/unit, v = (y -
-///     centre_y)/unit
+///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;
+///             u = (x - centre_x)/unit, v = (y - centre_y)/unit
 ///
 /// Least squares over the valid pixels, or robust: iterated reweighting, first with Huber's weights
 /// (k = 1.345), then with Tukey's biweight (c = 4.685), residuals in units of 1.4826 times the

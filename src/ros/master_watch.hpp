@@ -7,7 +7,8 @@
 ///
 ///     watch_ = MasterWatch::ofThisProcess();
 ///     watch_->add(this, {[this](const MasterCalls& calls) { return putParametersBack(calls); },
-///     writeMirror}); watch_->writeSoon(this);
+///         writeMirror});
+///     watch_->writeSoon(this);
 
 #include <condition_variable>
 #include <functional>

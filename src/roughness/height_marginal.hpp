@@ -4,10 +4,9 @@
 /// From which standard normal numbers do the heights of a surface come, and how does their
 /// distribution go on beyond the highest one that was measured?
 ///
-///     z = T(g)                                   T rises: the translation of a Gaussian field
-///     T' = b exp(c (g - g0))                     above g0: c > 0 a longer, c < 0 a shorter tail
-///     T' = b (g/g0)^(c (g0 + 1))                 another form of the longer one: heights hardly
-///     tell which
+///     z = T(g)                           T rises: the translation of a Gaussian field
+///     T' = b exp(c (g - g0))             above g0: c > 0 a longer, c < 0 a shorter tail
+///     T' = b (g/g0)^(c (g0 + 1))         another form of the longer one: heights hardly tell which
 ///
 /// Below g0, T is the distribution of the heights themselves; g0 is the normal number that some 800
 /// independent places exceed. a = T(g0), b and c are the likeliest by how many of these places lie

@@ -3,17 +3,15 @@
 /// @file
 /// On which wavelengths does a surface carry its roughness?
 ///
-///     C(q) = |integral of z w exp(-i q r) d^2r|^2 / (A <w^2>)                    power spectral
-///     density [m^4] m_n  = average over directions of the n-th spectral moment of a profile [m^(2
-///     - n)]
+///     C(q) = |integral of z w exp(-i q r) d^2r|^2 / (A <w^2>)         power spectral density [m^4]
+///     m_n  = average over directions of the n-th spectral moment of a profile   [m^(2 - n)]
 ///          = (1, 1/2, 3/8 for n = 0, 2, 4) x integral of C |q|^n d^2q / (2 pi)^2
 ///
 /// so m0 = <z^2>, m2 and m4 are the mean squared slope and curvature of a profile, averaged over
-/// its directions, and
-/// <|grad z|^2> = 2 m2 (Nayak, J. Lubr. Technol. 93 (1971) 398; normalisation of Jacobs, Junge and
-/// Pastewka, Surf. Topogr. 5 (2017) 013001). For z with the autocorrelation sigma^2 exp(-r^2/l^2):
-/// C = pi l^2 sigma^2 exp(-q^2 l^2/4), m0 = sigma^2, m2 = 2 sigma^2/l^2, m4 = 12 sigma^2/l^4, alpha
-/// = 3.
+/// its directions, and <|grad z|^2> = 2 m2 (Nayak, J. Lubr. Technol. 93 (1971) 398; normalisation
+/// of Jacobs, Junge and Pastewka, Surf. Topogr. 5 (2017) 013001). For z with the autocorrelation
+/// sigma^2 exp(-r^2/l^2): C = pi l^2 sigma^2 exp(-q^2 l^2/4), m0 = sigma^2, m2 = 2 sigma^2/l^2, m4
+/// = 12 sigma^2/l^4, alpha = 3.
 ///
 /// Wave vectors run over the whole rectangle up to Nyquist's in each axis; dx may differ from dy,
 /// rows from columns. Heights are taken about their (weighted) mean; levelling is the caller's.

@@ -12,8 +12,9 @@
 /// first one it is flat, beyond the last one zero.
 ///
 ///     SurfaceSpectrum spectrum;
-///     spectrum.wave_number = {2 * kPi / 20e-6, 2 * kPi / 20e-9};  // self-affine with H = 0.8 from
-///     20 um to 20 nm spectrum.density = {1e-30, 1e-30 * std::pow(1000.0, -3.6)};
+///     // self-affine with H = 0.8 from 20 um to 20 nm
+///     spectrum.wave_number = {2 * kPi / 20e-6, 2 * kPi / 20e-9};
+///     spectrum.density = {1e-30, 1e-30 * std::pow(1000.0, -3.6)};
 
 #include <string>
 #include <vector>

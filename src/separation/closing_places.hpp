@@ -8,13 +8,13 @@
 /// flattening its own relief, and drawing its mean plane up to the other body, cost less than
 /// adhesion gives:
 ///
-///     U/A + E d^2/(pi a) < Gamma,   pi a^2 = A (S9a)
+///     U/A + E d^2/(pi a) < Gamma,   pi a^2 = A                                               (S9a)
 ///
 /// U/A is (S9) of the block. d is the distance of its mean plane from contact, and 2 E a d the
 /// force of a round flat punch that is drawn by d (Sneddon), whose work is the second term. So it
 /// pulls with
 ///
-///     f(D) = min(2 E a d, s A),   s the strength of the law (S9b)
+///     f(D) = min(2 E a d, s A),   s the strength of the law                                  (S9b)
 ///
 /// and all places of one size together, less what pushes the surfaces apart at this displacement,
 /// hold the part. What is in contact (d = 0) pulls nothing: the curve has it. Derivation and

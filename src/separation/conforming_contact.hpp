@@ -10,9 +10,8 @@
 /// at one place before all springs pull at their best. Where that may be, the force is doubted, and
 /// the half-space has it:
 ///
-///     pi/q > a0 = pi E Gamma/(2 s^2),   q = 4 U/(A E sigma^2)       a crack has room in half a
-///     wave 2 U/(A sigma) > 0.05 s                                        the tension of the waves,
-///     rms         (S10b)
+///     pi/q > a0 = pi E Gamma/(2 s^2),  q = 4 U/(A E sigma^2)  a crack has room in half a wave
+///     2 U/(A sigma) > 0.05 s                                  the tension of the waves     (S10b)
 ///
 /// s is the strength of the law, sigma the rms height, a0 the radius from which a crack needs less
 /// than s. The work is that of the springs with the flattening energy of all waves, and of what

@@ -3,8 +3,8 @@
 /// @file
 /// The law of adhesion as the separation curve counts it: from the plane of contact, d = 0.
 ///
-///     t(d) and its integral w(d) from d on: the 9-3 law (mechanics/traction_law.hpp) at x = z0/(d
-///     + z0);  w(0) = Gamma
+///     t(d) and its integral w(d) from d on: the 9-3 law (mechanics/traction_law.hpp) at
+///             x = z0/(d + z0);  w(0) = Gamma
 ///
 /// Attraction is positive. Far away t is Hamaker's H/(6 pi (d + z0)^3); t is largest, 1.026
 /// Gamma/z0, at d = 0.2 z0, and 0 in contact. Surfaces that are pressed together by p come closer

@@ -4,8 +4,9 @@
 /// Where do two rough surfaces flow that a load presses together, and which heights does that
 /// leave?
 ///
-///     E(p) = sum of dA [ p (C p)/2 + p (g + s p/Ha) ]   is least,   0 <= p <= Ha,   sum of p dA =
-///     P          (S15) w = D - g - C p - s   where p = Ha, else 0 (S16)
+///     E(p) = sum of dA [ p (C p)/2 + p (g + s p/Ha) ]  is least,  0 <= p <= Ha,
+///             sum of p dA = P  (S15)
+///     w = D - g - C p - s   where p = Ha, else 0                                             (S16)
 ///
 /// Each cell has a pressure of its own: what its gap g, the cells beside it and the bodies'
 /// compliance give it. C is that of two thick bodies, 2/(E q) of a wave of number q (Johnson,
@@ -26,7 +27,7 @@
 ///
 ///     FlowingPlaces places;
 ///     if (places.press(field, law, {contact_modulus, hardness, load, approach}))
-///     use(places.changed());
+///         use(places.changed());
 
 #include <cstdint>
 #include <vector>

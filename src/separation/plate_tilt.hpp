@@ -4,8 +4,8 @@
 /// A plate that may tilt comes to rest where the moments of all that pushes and pulls vanish about
 /// its middle, where the load acts.
 ///
-///     sum over patches P_i r_i = sum over cells p r dA,   p: attraction of the cells apart, field,
-///     water             (S14)
+///     sum over patches P_i r_i = sum over cells p r dA,
+///             p: attraction of the cells apart, field, water  (S14)
 ///
 /// From the rigid plate on its three places (support_plane.hpp), where the contacts need only share
 /// the load otherwise, by Newton's steps with the stiffness of the patches, (3/4) P/(V/A) each

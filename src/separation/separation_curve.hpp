@@ -4,8 +4,8 @@
 /// The force between two surfaces at each approach, from the gap alone, and the whole curve of it
 /// (doc/separation_curve.md):
 ///
-///     F(D) = B(D) (sum over cells apart t(d) dA - O(D)) + F_e(D) + F_c(D) - sum over patches
-///     P_i(D),   d = g - D - b
+///     F(D) = B(D) (sum over cells apart t(d) dA - O(D)) + F_e(D) + F_c(D)
+///             - sum over patches P_i(D),  d = g - D - b
 ///
 /// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts.
 /// P_i is what a patch carries, O what contacts have opened of the gap around them (S8b), B what

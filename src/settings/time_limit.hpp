@@ -7,8 +7,8 @@
 /// Both do so on the same thread, and nothing between them needs to know.
 ///
 ///     const TimeLimit limit(60.0, "limits/max_time");  // until the end of the block
-///     for (...) TimeLimit::check();                    // anywhere below, once in a millisecond or
-///     so
+///     // anywhere below, once in a millisecond or so
+///     for (...) TimeLimit::check();
 
 #include <chrono>
 #include <functional>
@@ -51,8 +51,8 @@ class TimeLimit {
 /// What this thread does beside, wherever something long asks for its time: it gives way to others,
 /// or throws since it is to end.
 ///
-///     const BesideWork beside([&] { if (stopping) throw Stopped(); });  // until the end of the
-///     block
+///     // until the end of the block
+///     const BesideWork beside([&] { if (stopping) throw Stopped(); });
 class BesideWork {
  public:
   explicit BesideWork(std::function<void()> work);

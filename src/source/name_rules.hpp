@@ -5,8 +5,8 @@
 /// site.
 ///
 ///     const NameRules rules("*.di", R"((?<lot_id>L\d+)/part(?<part_id>\d+))", 1e-3);
-///     if (rules.isScan("L7/part12.di")) rules.identify("L7/part12.di", identity);   // part_id 12,
-///     lot_id L7
+///     // part_id 12, lot_id L7
+///     if (rules.isScan("L7/part12.di")) rules.identify("L7/part12.di", identity);
 
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@
 /// open fully in between.
 ///
 ///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty,
-///     RunControl());
+///         RunControl());
 
 #include <optional>
 #include <vector>

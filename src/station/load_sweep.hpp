@@ -6,14 +6,12 @@
 /// For each mechanical load, the voltage goes up through the grid and down again, on surfaces that
 /// start as given:
 ///
-///     up     the contact is made under this load (remaining_contact.hpp: the equilibrium of the
-///     larger load contains those
-///            of the smaller ones). Each row's margin is the device's when the load is then taken
-///            away (verdict.hpp).
-///     down   the contact made under the highest voltage stays, its elastic part shrinking with the
-///     load, until the
-///            spring overcomes pull-off force, field and mechanical load together; from there on
-///            the device is open.
+///     up    the contact is made under this load (remaining_contact.hpp: the equilibrium of the
+///           larger load contains those of the smaller ones). Each row's margin is the device's
+///           when the load is then taken away (verdict.hpp).
+///     down  the contact made under the highest voltage stays, its elastic part shrinking with the
+///           load, until the spring overcomes pull-off force, field and mechanical load together;
+///           from there on the device is open.
 ///
 /// So the same voltage has two rows, and between them lies the hysteresis. Approach and contact
 /// area grow with every row upward; the pull-off force grows too, but for F_w, which moves with the
@@ -25,9 +23,10 @@
 ///
 /// A beam alone is held by shares of what opens it, which add up to 1 over its holding margin:
 ///
-///     1/margin, or 1/peel number where it is peeled verdict.hpp F_m per area of the frame on the
-///     contact area, over the beam's force                    beam_adhesion.hpp the field's force
-///     over the beam's, or its work over the beam's where it is peeled       beam_field.hpp
+///     1/margin, or 1/peel number where it is peeled                         verdict.hpp
+///     F_m per area of the frame on the contact area, over the beam's force  beam_adhesion.hpp
+///     the field's force over the beam's, or its work over the beam's where it is peeled
+///             beam_field.hpp
 ///
 /// Without an electrode its field is the scan's F_e scaled to the contact area. A share that its
 /// settings do not give (a load on a beam without width or contact area, a voltage without either
@@ -41,7 +40,7 @@
 ///     request.voltages = {0, 5, 10, 20};
 ///     request.mechanical_loads = {0};
 ///     const LoadSweepResult result = sweepLoads(options, scan, request, device, uncertainty,
-///     RunControl());
+///         RunControl());
 
 #include <cstdint>
 #include <optional>

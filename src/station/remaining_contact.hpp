@@ -8,15 +8,12 @@
 /// so far stays:
 ///
 ///     - the approach, the cells in contact, sum R_i, and with them the pull-off force (11), F_w
-///     and F_c, stay those of
-///       the largest load (the approach does not retreat; the elastic retreat that is left out
-///       would let F_w fall a little, so what holds is an upper bound);
+///       and F_c, stay those of the largest load (the approach does not retreat; the elastic
+///       retreat that is left out would let F_w fall a little, so what holds is an upper bound);
 ///     - F_e follows the voltage squared at that approach, F_m follows the load, and the contacts
-///     share the new
-///       total in the same proportions;
+///       share the new total in the same proportions;
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its
-///     radius:
-///       a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
+///       radius: a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
 ///
 /// A solver that knows every load (ModelStatement) is asked again at each, for the surfaces as the
 /// largest load has left them. What holds them, which flow and conforming have increased, stays

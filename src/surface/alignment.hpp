@@ -7,8 +7,8 @@
 /// (rows - 1)/2 pitch_y), axes along columns and rows. The pose gives the counter-surface's frame
 /// in the scan's:
 ///
-///     (x, y) = R(rotation) (x', y') + (offset_x, offset_y),   z(x, y) = z'(x', y') + x tan(tilt_x)
-///     + y tan(tilt_y)
+///     (x, y) = R(rotation) (x', y') + (offset_x, offset_y),
+///             z(x, y) = z'(x', y') + x tan(tilt_x) + y tan(tilt_y)
 ///
 /// so a positive offset_x moves the counter-surface towards larger columns, a positive rotation
 /// turns its +x axis towards the scan's +y axis (larger rows), and a positive tilt_x lifts its side

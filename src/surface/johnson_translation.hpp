@@ -5,9 +5,10 @@
 ///
 /// By Johnson's translations of a standard normal g (Johnson, Biometrika 36 (1949) 149):
 ///
-///     bounded    1/(1 + exp(-(g - gamma)/delta))   kurtosis below that of the log-normal of the
-///     same skewness log-normal exp(g/delta)                      on it unbounded  sinh((g -
-///     gamma)/delta)           above it
+///     bounded    1/(1 + exp(-(g - gamma)/delta))  kurtosis below that of the log-normal of the
+///                                                 same skewness
+///     log-normal exp(g/delta)                     on it
+///     unbounded  sinh((g - gamma)/delta)          above it
 ///
 /// shifted and scaled to mean 0 and variance 1, turned over for a negative skewness. Each pair
 /// (skewness, kurtosis) with kurtosis > skewness^2 + 1 belongs to exactly one of them; (0, 3) is

@@ -8,10 +8,11 @@
 /// spectrum is split into levels by smooth windows of the logarithm of the wave's length, whose
 /// squares add up to 1:
 ///
-///     level 0    the pixels                             waves up to 12 to 48 cells
-///     level l    cells of 4^l pixels along both axes    waves from 3 to 12 up to 12 to 48 of its
-///     cells the last   cells of which the longest wave with a density of its own has at most 12:
-///     all longer ones, too
+///     level 0   the pixels                             waves up to 12 to 48 cells
+///     level l   cells of 4^l pixels along both axes    waves from 3 to 12 up to 12 to 48 of its
+///                                                      cells
+///     the last  cells of which the longest wave with a density of its own has at most 12: all
+///               longer ones, too
 ///
 /// Each level has noise of its own, convolved in blocks of fixed places (block_convolution.hpp).
 /// What levels above 0 make are coefficients of cubic splines, which are refined from level to

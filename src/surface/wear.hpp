@@ -4,9 +4,9 @@
 /// What contacts have left on two surfaces that meet again and again: what has flowed stays flat,
 /// on both.
 ///
-///     const SurfacePair now = wear.on(as_made);             // as the contacts before have left
-///     them const Prediction contact = model.predict(now); wear.add(as_made,
-///     contact.deformed_lower, contact.deformed_upper);
+///     const SurfacePair now = wear.on(as_made);           // as the contacts before have left them
+///     const Prediction contact = model.predict(now);
+///     wear.add(as_made, contact.deformed_lower, contact.deformed_upper);
 ///
 /// Cycles of one scan and scans that come one after the other take it from here. Assumptions: the
 /// surfaces meet in the same place each time, to the pixel, and each scan is one of the surfaces as

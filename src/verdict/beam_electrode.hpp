@@ -7,9 +7,10 @@
 /// the amplitude a bending, residual stress and stretching pull it back, and the field between beam
 /// and electrode pulls it down:
 ///
-///     K1 a + K3 a^3 = (1/2) eps0 w V^2 integral over the electrode of phi/(g + t_i/eps_i - a
-///     phi)^2 dx K1 = (E w t^3/12) integral phi''^2 dx + sigma w t J,   K3 = E w t J^2/(2 l),   J =
-///     integral phi'^2 dx
+///     K1 a + K3 a^3 = (1/2) eps0 w V^2 integral over the electrode of
+///             phi/(g + t_i/eps_i - a phi)^2 dx
+///     K1 = (E w t^3/12) integral phi''^2 dx + sigma w t J,  K3 = E w t J^2/(2 l),
+///             J = integral phi'^2 dx
 ///
 /// (sigma and K3 of doubly clamped beams only). V(a) has its maximum at pull-in. A beam that lands
 /// before it gets there is held down by the V of its landing. This is Rayleigh's method with one

@@ -21,8 +21,8 @@
 /// (white light) makes it too small.
 ///
 ///     prediction.short_waves = shortWaves(unresolvedWaves(scan, {}, tip_limit), options);
-///     if (prediction.short_waves.areUnresolved()) say(whatIsMissing(prediction.short_waves, "the
-///     scan does not show"));
+///     if (prediction.short_waves.areUnresolved()) say(whatIsMissing(prediction.short_waves,
+///         "the scan does not show"));
 
 #include <string>
 

@@ -6,21 +6,22 @@
 ///
 /// A scan is one place of the part. Its margin M_i (or peel number) has a 95 % interval, from which
 ///
-///     u_i = ln(upper_i/M_i)/1.96          standard uncertainty of ln M_i [-]; the same with
-///     M_i/lower_i to the other side p_i                                 what of it is of the place
-///     alone, by the number of contacts (Poisson; u_i at most) c_i = sqrt(u_i^2 - p_i^2) what is
-///     common to all places: constants, model, pitch, cleaning
+///     u_i = ln(upper_i/M_i)/1.96
+///             standard uncertainty of ln M_i [-]; the same with M_i/lower_i to the other side
+///     p_i                         what of it is of the place alone, by the number of contacts
+///                                 (Poisson; u_i at most)
+///     c_i = sqrt(u_i^2 - p_i^2)   what is common to all places: constants, model, pitch, cleaning
 ///
 /// Of the k scans that make a statement:
 ///
-///     ln M  = mean of ln M_i                        the geometric mean: a scan of half and one of
-///     twice cancel s^2   = sum (ln M_i - ln M)^2/(k - 1)         what the scans show p^2   = mean
-///     of p_i^2                         what the number of their contacts explains tau^2 = max(0,
-///     s^2 - p^2)                     what the part differs from place to place beside that u^2   =
-///     (mean of c_i)^2 + (p^2 + tau^2)/k     only what is of the place falls with the number of
-///     scans nu    = (k - 1) u^4/(tau^2/k)^2               degrees of freedom: tau alone is known
-///     from the scans only M exp(-t u) ... M exp(t u)                    t the 97.5 % quantile of
-///     Student's distribution
+///     ln M  = mean of ln M_i            the geometric mean: a scan of half and one of twice cancel
+///     s^2   = sum (ln M_i - ln M)^2/(k - 1)      what the scans show
+///     p^2   = mean of p_i^2                      what the number of their contacts explains
+///     tau^2 = max(0, s^2 - p^2)              what the part differs from place to place beside that
+///     u^2  = (mean of c_i)^2 + (p^2 + tau^2)/k
+///             only what is of the place falls with the number of scans
+///     nu   = (k - 1) u^4/(tau^2/k)^2    degrees of freedom: tau alone is known from the scans only
+///     M exp(-t u) ... M exp(t u)                 t the 97.5 % quantile of Student's distribution
 ///
 /// Two scans that agree leave t = 1.96, two that contradict each other let it grow up to 12.7. What
 /// is common does not shrink: its c_i are wholly correlated, and so averaged as they are. One scan
@@ -30,12 +31,11 @@
 ///
 /// - One scan that by itself says "yes" makes a "no" marginal.
 /// - A scan that does not show what holds (missing_scan.hpp) serves as a wide one, and is no
-/// objection to others.
+///   objection to others.
 /// - Other scans that cannot count make a "no" unknown: one that bonds or has no equilibrium, or
-/// more than half of all.
+///   more than half of all.
 /// - A scan that may not say "no" for its few contacts alone counts, since contacts of several
-/// scans add up; together
-///   they must be three.
+///   scans add up; together they must be three.
 /// - A scan without adhesion (an infinite margin) counts, and is left out of the mean.
 ///
 /// A device whose own force has been found from all scans of the part together (device_force.hpp)

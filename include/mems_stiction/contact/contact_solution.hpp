@@ -13,8 +13,8 @@
 /// `has_asperities` says whether it parts the contact into asperities at all. With the status
 /// kNoEquilibrium the figures are those of the last step.
 ///
-///     const double adhesion = solution.status == Status::kNoEquilibrium ? 0.0 :
-///     solution.pull_off_force;  // [N]
+///     const bool is_at_rest = solution.status != Status::kNoEquilibrium;
+///     const double adhesion = is_at_rest ? solution.pull_off_force : 0.0;  // [N]
 
 #include <cstdint>
 #include <limits>

@@ -6,8 +6,9 @@
 ///
 ///     const HalfSpaceSolver solver(configuration.half_space);
 ///     const SolvedHalfSpace solution = solver.solve(halfSpaceProblem(prepared,
-///     configuration.model)); const Verdict verdict = halfSpaceVerdict(solution, prepared,
-///     configuration.model, configuration);
+///         configuration.model));
+///     const Verdict verdict = halfSpaceVerdict(solution, prepared, configuration.model,
+///         configuration);
 
 #include <opencv2/core.hpp>
 

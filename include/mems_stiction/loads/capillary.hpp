@@ -6,7 +6,7 @@
 /// must be the dry one, or water counts twice.
 ///
 ///     const double pull = capillaryForce(order, approach, contact_count, options.law(),
-///     field.cellArea());
+///         field.cellArea());
 
 #include "mems_stiction/settings/option_visitor.hpp"
 

@@ -3,8 +3,8 @@
 /// @file
 /// Does an asperity deform elastically, plastically, or in between?
 ///
-///     phi = (E/Ha) sqrt(sigma/R)                                       (9), with the root that its
-///     print lost chi = 1 for phi < 0.6,  1 - 2 (phi - 0.6) between,  0 for phi > 1.1 (10.2)
+///     phi = (E/Ha) sqrt(sigma/R)                            (9), with the root that its print lost
+///     chi = 1 for phi < 0.6,  1 - 2 (phi - 0.6) between,  0 for phi > 1.1             (10.2)
 ///
 /// Assumptions: spherical summits of one radius, Gaussian heights; phi compares the rms height with
 /// the depth at which such a summit starts to flow. Applies to nominally flat rough surfaces. Below
@@ -14,7 +14,8 @@
 /// for phi and both limits; Deladi et al. 2002, (9) and (10.2) for chi.
 ///
 ///     const double phi = plasticityIndex(pair.contact_modulus, pair.hardness,
-///     composite_rms_height, radius); const double stored_share = regimeFactor(phi);
+///         composite_rms_height, radius);
+///     const double stored_share = regimeFactor(phi);
 
 #include <algorithm>
 #include <cmath>

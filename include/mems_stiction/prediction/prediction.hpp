@@ -5,11 +5,12 @@
 /// prediction/prediction_fields.hpp, whose names are those of the messages and of the records that
 /// predict_scan prints.
 ///
-///     pull-off force         = largest attraction on retraction, without voltage and mechanical
-///     load apparent work          = integral of the attraction on retraction from rest on, over
-///     the nominal area contact fraction       = contact area/area of the valid cells flattening
-///     ratio       = energy that presses the surfaces flat/energy that adhesion gives: bonded below
-///     0.75
+///     pull-off force    = largest attraction on retraction, without voltage and mechanical load
+///     apparent work     = integral of the attraction on retraction from rest on, over the nominal
+///                         area
+///     contact fraction  = contact area/area of the valid cells
+///     flattening ratio  = energy that presses the surfaces flat/energy that adhesion gives: bonded
+///                         below 0.75
 ///
 /// Forces and areas are those of the scanned area, not of a device (device/device_force.hpp).
 /// Assumptions stand with the solver that answered, and `model` says what holds of the figures.

@@ -8,9 +8,10 @@
 /// five places of a line, t apart, let waves of about 2 t pass:
 ///
 ///     D(t) = <(h(-2t) - 4 h(-t) + 6 h(0) - 4 h(t) + h(2t))^2>
-///     D(t) = A/(2 pi) I(H) S(H) t^(2H)                   of a self-affine surface, C = A q^(-2 -
-///     2H) S(H) = 2 (56 - 28 2^(2H) + 8 3^(2H) - 4^(2H)),     I(H) = Gamma(1 - H)/(2^(2H + 1) H
-///     Gamma(1 + H)) <h^2> of waves shorter than l = A (2 pi/l)^(-2H)/(4 pi H)
+///     D(t) = A/(2 pi) I(H) S(H) t^(2H)                 of a self-affine surface, C = A q^(-2 - 2H)
+///     S(H) = 2 (56 - 28 2^(2H) + 8 3^(2H) - 4^(2H)),
+///             I(H) = Gamma(1 - H)/(2^(2H + 1) H Gamma(1 + H))
+///     <h^2> of waves shorter than l = A (2 pi/l)^(-2H)/(4 pi H)
 ///
 /// with t = l and 2 l, so that both lie among what is shown, H by their ratio and A by their
 /// geometric mean. H is kept within 1/2 and 1: a spectrum that falls faster ends above l, as one of

@@ -6,7 +6,7 @@
 /// from them.
 ///
 ///     visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-///     print(figure.name, value); });
+///         print(figure.name, value); });
 
 #include <type_traits>
 

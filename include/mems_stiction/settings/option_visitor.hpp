@@ -12,8 +12,8 @@
 ///
 ///     PipelineOptions options;
 ///     options.fill.max_fraction = 2.0;
-///     for (const std::string& violation : rangeViolations(options)) report(violation);  // key,
-///     value, what is allowed
+///     // key, value, what is allowed
+///     for (const std::string& violation : rangeViolations(options)) report(violation);
 
 #include <limits>
 #include <string>

@@ -4,9 +4,9 @@
 /// Settings of the counter-surface (counter_surface.hpp): what it is, how it lies over the scan,
 /// and how random ones are drawn.
 ///
-///     Gaussian      <z(r) z(r + (x, y))> = sigma^2 exp(-(x^2/lx^2 + y^2/ly^2))
-///     self-affine   C(q) = C0 below q_r, C0 (q/q_r)^(-2 - 2 H) up to q_s, 0 beyond;  q = 2
-///     pi/wavelength
+///     Gaussian     <z(r) z(r + (x, y))> = sigma^2 exp(-(x^2/lx^2 + y^2/ly^2))
+///     self-affine  C(q) = C0 below q_r, C0 (q/q_r)^(-2 - 2 H) up to q_s, 0 beyond;
+///             q = 2 pi/wavelength
 ///
 /// Generated surfaces are periodic, have the exact rms height (or slope), and depend on grid and
 /// seed alone. The pose is rigid: the middle of the counter-surface lies over the middle of the

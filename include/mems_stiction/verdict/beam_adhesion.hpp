@@ -7,17 +7,18 @@
 /// substrate stores energy U(s) in each free arm of length s, and the arm peels until -dU/ds is the
 /// apparent work of adhesion G, per width:
 ///
-///     S-shape, flat on the substrate beyond s:        U = E t^3 h^2/(2 s^3),   G = (3/2) E t^3
-///     h^2/s^4 arc, a cantilever that touches with its tip:    U = E t^3 h^2/(8 s^3),   G = (3/8) E
-///     t^3 h^2/s^4 S-shape of a doubly clamped beam, stretched:
+///     S-shape, flat on the substrate beyond s:    U = E t^3 h^2/(2 s^3),   G = (3/2) E t^3 h^2/s^4
+///     arc, a cantilever that touches with its tip:  U = E t^3 h^2/(8 s^3),
+///             G = (3/8) E t^3 h^2/s^4
+///     S-shape of a doubly clamped beam, stretched:
 ///         G = (3/2) E t^3 h^2/s^4 [1 + (9/25) (h/t)^2 + (2/5) sigma s^2/(E t^2)]
 ///
 /// The peel number is G of the last shape before release over the real G: below 1 the beam stays
 /// stuck.
 ///
-///     cantilever (arc, s = l):            N = 3 E t^3 h^2/(8 G l^4)
-///     doubly clamped (S, s = l/2):        N = 24 E t^3 h^2/(G l^4) [1 + (9/25) (h/t)^2 + sigma
-///     l^2/(10 E t^2)]
+///     cantilever (arc, s = l):      N = 3 E t^3 h^2/(8 G l^4)
+///     doubly clamped (S, s = l/2):
+///             N = 24 E t^3 h^2/(G l^4) [1 + (9/25) (h/t)^2 + sigma l^2/(10 E t^2)]
 ///
 /// Assumptions: slender beam of constant section, small slopes, no shear, a stiff substrate and
 /// rigid clamps; the doubly clamped beam keeps the shape of pure bending, u = h (3 x^2/s^2 - 2

@@ -9,7 +9,7 @@
 ///     evidence.device = deviceEvidence(force);  // device/device_evidence.hpp
 ///     evidence.half_space = &solution;
 ///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, cell_area,
-///     evidence);
+///         evidence);
 
 #include <limits>
 #include <optional>

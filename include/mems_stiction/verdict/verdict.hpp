@@ -5,9 +5,10 @@
 ///
 ///     restoring force = k travel
 ///     pull-off force  = that of surfaces of the device's size (device_force.hpp), which come as
-///     evidence margin          = restoring force/pull-off force: above 1 the spring pulls the
-///     contact open peel number     = what bending gives per what adhesion takes, of a beam
-///     (beam_adhesion.hpp): above 1 it comes off
+///                       evidence
+///     margin          = restoring force/pull-off force: above 1 the spring pulls the contact open
+///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp):
+///                       above 1 it comes off
 ///
 /// The margin is a ratio, so that 2 reads "twice the force needed" for every device, and beams and
 /// springs compare. Its 95 % interval is that of the force it rests on, quantile by quantile: the
@@ -15,14 +16,15 @@
 /// scans leave open of the device's surfaces. The word:
 ///
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT
-///     transition yes       the whole interval is below 1 marginal  1 lies within unknown   the
-///     device is not stated, or the search found no equilibrium; pixels or tip of the finest scan
-///     are coarser
-///               than what holds (missing_scan.hpp), and the reason says which scan is missing; the
-///               device's own force has not been found and its contacts have not the scan's size
-///               (contact_size.hpp); the answer would be no, but rests on contacts of one pixel; or
-///               the surfaces bond under paper or printed (the forces are then lower bounds: they
-///               can say "yes", not "no")
+///               transition
+///     yes       the whole interval is below 1
+///     marginal  1 lies within
+///     unknown   the device is not stated, or the search found no equilibrium; pixels or tip of the
+///               finest scan are coarser than what holds (missing_scan.hpp), and the reason says
+///               which scan is missing; the device's own force has not been found and its contacts
+///               have not the scan's size (contact_size.hpp); the answer would be no, but rests on
+///               contacts of one pixel; or the surfaces bond under paper or printed (the forces are
+///               then lower bounds: they can say "yes", not "no")
 ///
 /// Where the device's own force has not been found, a scan stands for contacts of half to twice its
 /// area, each with the force per area of the scan. Then a "no" that rests on a contact at the
@@ -47,8 +49,9 @@
 /// it); the spring pulls along the normal and evenly on all contacts, so that none peels before the
 /// others (a tilting part comes off more easily than said here).
 ///
-///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, scan.cellArea(),
-///     evidence); if (verdict.sticks == Sticks::kYes) reject(verdict.reason);
+///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options,
+///         scan.cellArea(), evidence);
+///     if (verdict.sticks == Sticks::kYes) reject(verdict.reason);
 
 #include <cstdint>
 #include <limits>
