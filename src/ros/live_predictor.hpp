@@ -100,8 +100,9 @@ class LivePredictor {
   /// Forgets the accumulated deformation.
   void resetSurface();
 
-  /// As it came; null: there is none yet.
+  /// Whether the scan is the last one (ScanOfPart::id).
   bool isLast(std::uint64_t scan_id) const { return last_ && last_->part.id == scan_id; }
+  /// As it came; null: there is none yet.
   const ReceivedScan* lastScan() const { return last_ ? &last_->received : nullptr; }
   /// The last scan as the model got it, on its own grid. Only if there is one.
   const HeightMap& lastSurface() const { return last_->prepared.surfaces.lower; }

@@ -93,10 +93,7 @@ void CloudSource::take(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     countWaiting();
   }
   if (dropped) {
-    accounting_.refused(cloudName(dropped->cloud->header),
-                        "given up for newer ones, since " +
-                            std::to_string(options_.points.queue_size) +
-                            " wait already (queue_size)");
+    accounting_.givenUp(cloudName(dropped->cloud->header), options_.points.queue_size);
   }
   changed_.notify_all();
 }

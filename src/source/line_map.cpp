@@ -213,13 +213,14 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
   const int along = coordinateAlong(lines);
   std::vector<PlacedLine> placed;
   for (const ScanLine& line : lines) placed.push_back(placedLine(line, along));
+  const std::vector<double> stated_places = placesOf(placed);
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& one, const auto& other) { return one.place < other.place; });
   const double line_pitch = firstStated({options.line_pitch, medianStep(placesOf(placed))});
   if (!(line_pitch > 0.0)) throw SurfaceError("all lines lie at one place: nothing moved");
   const double most = std::max(options.map.grid_tolerance * line_pitch, 1e-12);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!liesAcross(lines[i], along, placedLine(lines[i], along).place, most)) {
+    if (!liesAcross(lines[i], along, stated_places[i], most)) {
       return {mapOfPoints(asPoints(lines), options.map), 0, 0};
     }
   }

@@ -33,6 +33,16 @@ std::string linesName(const std_msgs::Header& first) {
   return text.str();
 }
 
+/// All points of a cloud, one after the other.
+ScanLine shifted(const cv::Mat& points, const cv::Vec3d& shift) {
+  ScanLine line;
+  for (int row = 0; row < points.rows; ++row) {
+    for (int col = 0; col < points.cols; ++col)
+      line.push_back(points.at<cv::Vec3d>(row, col) + shift);
+  }
+  return line;
+}
+
 }  // namespace
 
 void JointTrack::add(const ros::Time& stamp, double position) {
@@ -183,14 +193,7 @@ LineSource::Placed LineSource::placed(const sensor_msgs::PointCloud2& line) {
   const double progress = place;
   if (!scan_->lines.empty() && lines.motion == Motion::kJoint && place < scan_->last)
     place += lines.backlash;
-  Placed result{{}, progress};
-  for (int row = 0; row < points.rows; ++row) {
-    for (int col = 0; col < points.cols; ++col) {
-      const cv::Vec3d& point = points.at<cv::Vec3d>(row, col);
-      result.points.emplace_back(point[0], point[1] + place, point[2]);
-    }
-  }
-  return result;
+  return {shifted(points, {0.0, place, 0.0}), progress};
 }
 
 LineSource::Placed LineSource::placedByTransform(const std_msgs::Header& header, cv::Mat points) {
@@ -205,15 +208,11 @@ LineSource::Placed LineSource::placedByTransform(const std_msgs::Header& header,
       cv::norm(way) > std::max(kSmallestMove, 0.5 * options_.lines.line_pitch)) {
     scan_->direction = way / cv::norm(way);
   }
-  Placed result{{}, scan_->direction ? way.dot(*scan_->direction) : 0.0};
-  const bool goes_back = scan_->direction && result.progress < scan_->last;
+  const double progress = scan_->direction ? way.dot(*scan_->direction) : 0.0;
+  const bool goes_back = scan_->direction && progress < scan_->last;
   const cv::Vec3d slack =
       goes_back ? options_.lines.backlash * *scan_->direction : cv::Vec3d(0.0, 0.0, 0.0);
-  for (int row = 0; row < points.rows; ++row) {
-    for (int col = 0; col < points.cols; ++col)
-      result.points.push_back(points.at<cv::Vec3d>(row, col) + slack);
-  }
-  return result;
+  return {shifted(points, slack), progress};
 }
 
 void LineSource::countNumber(const std_msgs::Header& header) {
@@ -273,10 +272,7 @@ void LineSource::end() {
   if (scan_ && !scan_->lines.empty()) finished_.push_back(std::move(*scan_));
   scan_.reset();
   if (finished_.size() > static_cast<std::size_t>(options_.points.queue_size)) {
-    accounting_.refused(linesName(finished_.front().first),
-                        "given up for newer ones, since " +
-                            std::to_string(options_.points.queue_size) +
-                            " wait already (queue_size)");
+    accounting_.givenUp(linesName(finished_.front().first), options_.points.queue_size);
     finished_.pop_front();
   }
 }

@@ -27,10 +27,6 @@ constexpr std::array<std::pair<const char*, std::string ScanIdentity::*>, 4> kTe
 constexpr std::array<std::pair<const char*, double ScanIdentity::*>, 2> kSiteGroups = {
     {{"site_x", &ScanIdentity::site_x}, {"site_y", &ScanIdentity::site_y}}};
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 std::vector<std::string> splitAtCommas(const std::string& text) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -29,6 +29,11 @@ void SourceAccounting::refused(const std::string& name, const std::string& reaso
   tell_(text);
 }
 
+void SourceAccounting::givenUp(const std::string& name, int most) {
+  refused(name,
+          "given up for newer ones, since " + std::to_string(most) + " wait already (queue_size)");
+}
+
 void SourceAccounting::repeated() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.repeated;

@@ -35,6 +35,9 @@ class SourceAccounting {
 
   void published(const std::string& name);
   void refused(const std::string& name, const std::string& reason);
+  /// One of those that wait, for newer ones.
+  /// - @p most that may wait, by queue_size
+  void givenUp(const std::string& name, int most);
   void repeated();
   /// - @p gone so many in all
   void waits(std::uint64_t count, std::uint64_t gone = 0);
