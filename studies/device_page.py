@@ -214,16 +214,13 @@ def main():
         for side in sorted({row["side"] for row in rows}, reverse=True)
     )
     head = (
-        "Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and\nnumber (seed %s). "
-        "Scans have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels "
-        "of 80 nm. "
-        "*Bias* is the geometric mean of the ratio to the force of the whole surface,\n*spread* "
-        "the standard "
-        "deviation of its logarithm. The interval is that of the scans alone, since\nconstants and "
-        "model are the "
-        "same on both sides; a star marks a kind of which an interval misses the\ntruth. Surfaces "
-        "that bond all "
-        "over are left out: their force is proportional to area.\n"
+        "Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and\nnumber (seed %s). Scans "
+        "have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels of 80 "
+        "nm. *Bias* is the geometric mean of the ratio to the force of the whole "
+        "surface,\n*spread* the standard deviation of its logarithm. The interval is that of the "
+        "scans alone, since\nconstants and model are the same on both sides; a star marks a kind "
+        "of which an interval misses the\ntruth. Surfaces that bond all over are left out: their "
+        "force is proportional to area.\n"
         % (
             sizes,
             len({(row["kind"], row["number"], row["seed"], row["side"]) for row in rows}),

@@ -168,11 +168,10 @@ def section_of(lines, arguments):
         HEADING,
         "",
         "Written by `studies/trust --flow`: %d frames of %d x %d pixels that the half-space has "
-        "solved, seeds %s, of all kinds of `studies/trust_kinds.py` in turn, E* 10 to 200 GPa, "
-        "hardness "
-        "%g to %g GPa of both bodies or of one, under %g to %g MPa. Both solvers flow. *By flow*: "
-        "the half-space's force differs by more than %g with flow and without; there its "
-        "median is %.1f times that without."
+        "solved. Seeds %s; all kinds of `studies/trust_kinds.py` in turn. E* 10 to 200 GPa, "
+        "hardness %g to %g GPa of both bodies or of one, %g to %g MPa. Both solvers flow. "
+        "*By flow*: the half-space's force differs by more than %g with flow and without; there "
+        "its median is %.1f times that without."
         % (
             len(lines),
             arguments.pixels,
@@ -199,8 +198,7 @@ def section_of(lines, arguments):
             "",
             "Where they flow, the share of the contact that has flowed is within 0.1 of the "
             "half-space's on %.0f %%, and the heights that are lost differ by %.0f %% in the "
-            "median, rms, and by up to "
-            "20 %% on %.0f %%."
+            "median, rms, and by up to 20 %% on %.0f %%."
             % (
                 100 * np.mean([abs(line["share"]) < 0.1 for line in flowed]),
                 100 * np.median(errors),

@@ -167,9 +167,8 @@ def device_section(study):
         "## The plates as a whole",
         "",
         "A frame of 12.8 um is an eighth of such a plate. [The force of the device](device.md) is "
-        "that of its whole area: one plate that comes to rest on its "
-        "highest summits. From %d frames each, beside what the frames' force by area would say:"
-        % cases.PLATE_SCANS,
+        "that of its whole area: one plate that comes to rest on its highest summits. From %d "
+        "frames each, beside what the frames' force by area would say:" % cases.PLATE_SCANS,
         "",
         "| rms height | measured [uN] | the device [uN] | 95 % interval | the frames by area [uN] "
         "| factor |",
@@ -199,9 +198,9 @@ def device_section(study):
     text += [
         "",
         "What can be said now: %s. The interval is that of plates of the same statistics; what "
-        "roughness and constants leave open stands in "
-        "[the table of assumptions](#what-the-assumptions-move). The frames' force by area "
-        "ignores that the whole plate rests on few summits."
+        "roughness and constants leave open stands in [the table of "
+        "assumptions](#what-the-assumptions-move). The frames' force by area ignores that the "
+        "whole plate rests on few summits."
         % (
             "of the rms heights that were tried, the measured force lies within the 95 %% interval "
             "of the whole plate at %s alone"
@@ -258,9 +257,9 @@ def beams_section(study, results):
     text = [
         "## The beams as a whole",
         "",
-        "A beam measures the work of the area that rests, by the length that stands free. "
-        "Assumed: a cantilever %g um thick, %g um above the "
-        "ground, of %g GPa, of which %g um^2 rest. From %d frames each:"
+        "A beam measures the work of the area that rests, by the length that stands free. Assumed: "
+        "a cantilever %g um thick, %g um above the ground, of %g GPa, of which %g um^2 rest. From "
+        "%d frames each:"
         % (
             beam["beam_thickness"] * 1e6,
             beam["beam_gap"] * 1e6,
@@ -323,11 +322,11 @@ def page(study):
         "separation_curve` for surfaces with the same statistics. Written by `studies/measured`.",
         "",
         "**This page shows an order of magnitude and a trend, no more.** A prediction needs "
-        "roughness, correlation length, work of adhesion, Hamaker "
-        "constant, humidity and area. No available source gives all of them, and most were read "
-        "as abstracts. Missing values are assumed; [a table](#what-the-assumptions-move) shows "
-        "the effect of each assumption. How far the model lies from the mechanics that it "
-        "approximates is another question, with much smaller numbers: [error map](trust.md).",
+        "roughness, correlation length, work of adhesion, Hamaker constant, humidity and area. No "
+        "available source gives all of them, and most were read as abstracts. Missing values are "
+        "assumed; [a table](#what-the-assumptions-move) shows the effect of each assumption. How "
+        "far the model lies from the mechanics that it approximates is another question, with much "
+        "smaller numbers: [error map](trust.md).",
         "",
         "## Measured and predicted",
         "",
@@ -360,10 +359,9 @@ def page(study):
     text += [
         "## The separation law",
         "",
-        "One result of the polysilicon measurements needs no constant but the Hamaker "
-        "constant. At small roughness the work is "
-        "that of planes at the average separation, H/(12 pi D_ave^2); at large roughness contacts "
-        "take over. Predicted, for the beams' settings:",
+        "One result of the polysilicon measurements needs no constant but the Hamaker constant. At "
+        "small roughness the work is that of planes at the average separation, H/(12 pi D_ave^2); "
+        "at large roughness contacts take over. Predicted, for the beams' settings:",
         "",
         "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |",
         "|---|---|---|---|---|",

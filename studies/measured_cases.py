@@ -22,8 +22,8 @@ DELRIO_2005 = Source(
     "DelRio, de Boer, Knapp, Reedy, Clews, Dunn, Nature Materials 4 (2005) 629",
     "abstract",
     "Adhesion of micromachined polysilicon beams. Small roughness: van der Waals forces across "
-    "areas that do not touch, going with 1/D_ave^2, D_ave "
-    "the average separation. Large roughness: contacting asperities dominate",
+    "areas that do not touch, going with 1/D_ave^2, D_ave the average separation. Large roughness: "
+    "contacting asperities dominate",
 )
 PLATES_1999 = Source(
     "electrostatically actuated polysilicon parallel plates, ASME IMECE 1999, 275",
@@ -49,8 +49,8 @@ FLAT_TIPS_2012 = Source(
     "adhesion measured with a flat AFM tip, Applied Surface Science 258 (2012) 6938",
     "abstract",
     "Flat tips of 2 um diameter on smooth and on chemically etched Si(100), over humidity: the "
-    "roughness of the etched one reduces the force by more than an "
-    "order of magnitude, by how much depends on the humidity",
+    "roughness of the etched one reduces the force by more than an order of magnitude, by how much "
+    "depends on the humidity",
 )
 CLAMPED_BEAMS = Source(
     "adhesion of polysilicon by a double-clamped beam that electrodes pull down",
@@ -156,8 +156,8 @@ CASES = (
         64,
         DIAMOND,
         "constants of hard carbon (recalled; work of adhesion as diamond on ruby has, Thimons et "
-        "al. 2021, abstract); correlation length 2 nm; frames of "
-        "16 nm. The measured value is a lower bound",
+        "al. 2021, abstract); correlation length 2 nm; frames of 16 nm. The measured value is a "
+        "lower bound",
     ),
     Case(
         "flat tips",
@@ -170,8 +170,8 @@ CASES = (
         288,
         polysilicon(),
         "config/polysilicon_oxide.yaml as it is, dry; both rms heights, correlation length 50 nm; "
-        "frames of 1.8 um, which are the whole tip's area; no tilt of "
-        "the tip. The measured value is a lower bound",
+        "frames of 1.8 um, which are the whole tip's area; no tilt of the tip. The measured value "
+        "is a lower bound",
     ),
 )
 

@@ -33,8 +33,7 @@ UNTOUCHED = 5e-5  # smaller changes print as 0.0 %
 SETTINGS = {
     "pitch": (
         "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` "
-        "makes them. It is no "
-        "setting: the scan brings it. *refined by N*: coarse pixels, then "
+        "makes them. It is no setting: the scan brings it. *refined by N*: coarse pixels, then "
         "`preprocessing/refine/factor: N`.",
         "",
         "With coarser pixels the pull-off force is lost first, then the contact area, then the "
@@ -45,8 +44,7 @@ SETTINGS = {
         "Approach per step; sigma is the composite rms height.",
         "Shorter steps agree well within the scan-to-scan spread; longer ones can miss the rest.",
         "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep "
-        "in contact; `paper/step` is that of "
-        "`formulation: paper`.",
+        "in contact; `paper/step` is that of `formulation: paper`.",
     ),
     "approach/max_steps": (
         "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
@@ -68,8 +66,8 @@ SETTINGS = {
         "The smallest distance D0 [m] in van der Waals sums.",
         "The usual value; the others tried are also in use.",
         "The separation curve does not use it: its attraction starts at z0 = sqrt(H/(16 pi Gamma)) "
-        "and sums to Gamma. Under "
-        "`formulation: paper` it moves the pull-off force more than all other settings together.",
+        "and sums to Gamma. Under `formulation: paper` it moves the pull-off force more than all "
+        "other settings together.",
     ),
     "interface/equilibrium_distance": (
         "z0 [m] of Tabor's parameter under `formulation: paper`, and of the law where the Hamaker "
@@ -438,18 +436,17 @@ def in_short(study):
     area, gap = study.spreads("contact_area"), study.spreads("mean_gap")
     lines = [
         "- **Another place of the same surface** moves the pull-off force by %s %% (standard "
-        "deviation), the contact area by %s %%, "
-        "the mean gap by %s %%. Smaller digits describe this scan, not the surface."
-        % (span(spreads), span(area), span(gap)),
+        "deviation), the contact area by %s %%, the mean gap by %s %%. Smaller digits describe "
+        "this scan, not the surface." % (span(spreads), span(area), span(gap)),
         "- **The step is converged**: steps of half to a tenth of the default move the mean "
         "pull-off force by %s %% at most." % percent(step)
         if abs(step) < max(spreads)
         else "- **The step is not converged:** shorter ones move the mean pull-off force by %s %%."
         % percent(step),
         "- **The cut-off distance** is the one setting that decides the first digit of "
-        "`pull_off_force`: %s to %s %% over the values in use. "
-        "It leaves contact area and gap nearly alone, unless the surface is so smooth that its own "
-        "attraction presses it together." % (min(cutoff, key=number), max(cutoff, key=number))
+        "`pull_off_force`: %s to %s %% over the values in use. It leaves contact area and gap "
+        "nearly alone, unless the surface is so smooth that its own attraction presses it "
+        "together." % (min(cutoff, key=number), max(cutoff, key=number))
         if max(abs(number(text)) for text in cutoff) > 100 * max(spreads)
         else "- **The cut-off distance** does not move `pull_off_force`."
         if set(cutoff) == {"0"}
@@ -529,8 +526,8 @@ def page(study, figure, is_generated):
         "## What was run",
         "",
         "Scans pressed on a plane with %s of mechanical load over their area, everything else as "
-        "[config/stiction.yaml](../config/stiction.yaml) "
-        "has it. ± is the spread from scan to scan." % pressure,
+        "[config/stiction.yaml](../config/stiction.yaml) has it. ± is the spread from scan to "
+        "scan." % pressure,
         "",
     ]
     lines += surfaces_table(study)
@@ -554,8 +551,8 @@ def page(study, figure, is_generated):
         "## Near bonding",
         "",
         "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction "
-        "closes them. Here are Gaussian ones with a "
-        "correlation length of 80 nm, without mechanical load.",
+        "closes them. Here are Gaussian ones with a correlation length of 80 nm, without "
+        "mechanical load.",
         "",
     ]
     lines += near_bonding_table(study)

@@ -28,27 +28,20 @@ COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 OF_THE_MAP = (
     "rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to "
-    "100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
-    "Hamaker constants of 65 and 200 zJ."
+    "100 GPa, works of adhesion of 5 to 150 mJ/m^2, Hamaker constants of 65 and 200 zJ."
 )
 SETS = (
-    "**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9 and checked "
-    "on those of 7 "
-    "(168 frames each) and 14 to 17 (504 each). The flag was set on all of these. This page uses "
-    "seed 19, whose "
-    "frames nobody had compared before; its 72 frames whose texture changes from place to place "
-    "(smooth places, "
-    "changing) joined the page later. `studies/trust --kinds --seed N` draws others. On seed 18 "
-    "the area "
-    "of small contacts was judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, "
-    "led to the doubt "
+    "**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9. They were "
+    "checked on those of 7 (168 frames each) and 14 to 17 (504 each). The flag was set on all of "
+    "these. This page uses seed 19, whose frames nobody had compared before; its 72 frames whose "
+    "texture changes from place to place (smooth places, changing) joined the page later. "
+    "`studies/trust --kinds --seed N` draws others. On seed 18 the area of small contacts was "
+    "judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, led to the doubt "
     "about contacts where bonded surfaces have less energy. Seeds 5 to 9 and 14 to 18 together, "
-    "3,360 frames, with "
-    "earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others 99.3 % of the forces "
-    "are within 1.3, the worst 1.54. With the "
-    "flagged frames solved it is 99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the "
-    "area within 1.3 on "
-    "90.7 % (94.4 %)."
+    "3,360 frames, with earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others "
+    "99.3 % of the forces are within 1.3, the worst 1.54. With the flagged frames solved it is "
+    "99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the area within 1.3 on 90.7 % "
+    "(94.4 %)."
 )
 CONSTANTS = (
     pathlib.Path(__file__).resolve().parents[1] / "src" / "separation" / "chosen_constants.hpp"
@@ -62,8 +55,7 @@ OF_PROCESSES = [
     "in equal shares as processes make them (`studies/trust_kinds.py`): "
     + ", ".join(trust_kinds.KINDS),
     "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, "
-    "works of adhesion of 10 to 120 mJ/m^2, Hamaker "
-    "constants of 40 to 150 zJ.",
+    "works of adhesion of 10 to 120 mJ/m^2, Hamaker constants of 40 to 150 zJ.",
 ]
 
 
@@ -323,18 +315,17 @@ def page(lines, figure):
         "# Error map" + (" of other kinds" if is_of_processes else ""),
         "",
         "How far each formulation lies from the [adhesive half-space](half_space.md), on random "
-        "surfaces of many kinds. "
-        "Written by `studies/trust%s`." % (" --kinds" if is_of_processes else ""),
+        "surfaces of many kinds. Written by "
+        "`studies/trust%s`." % (" --kinds" if is_of_processes else ""),
         "",
         "- **Frames.** %d of %d x %d pixels: %s. Nothing flows."
         % (len(lines), size, size, frames[0]),
         "- **Drawn from** %s A third is pressed with 0.1 to 100 MPa." % frames[1],
         "- **Reference.** The half-space solved %d in the time given. Its pixels resolve the "
-        "cohesive length E z0^2/Gamma on "
-        "%d of these, and only those count." % (len(solved), len(resolved)),
+        "cohesive length E z0^2/Gamma on %d of these, and only those "
+        "count." % (len(solved), len(resolved)),
         "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* "
-        "the standard deviation of "
-        "their logarithm.",
+        "the standard deviation of their logarithm.",
         "",
         "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name,
         "",
@@ -354,8 +345,7 @@ def page(lines, figure):
         "## Where `separation_curve` is right",
         "",
         "*conforming*: frames that are bonded. *doubted*: other frames with the flag NEAR_BONDING; "
-        "`model_doubt` gives the reason. "
-        "*sparse*: the rest.",
+        "`model_doubt` gives the reason. *sparse*: the rest.",
         "",
     ]
     for title, quantity in (
@@ -410,22 +400,19 @@ def page(lines, figure):
     text += table("pull-off force, by [flags](validity.md#the-flags)", rows)
     text += [
         "The contact area counts cells that repel each other, so a pixel more or less at each rim "
-        "changes it. Frames that are "
-        "not resolved show the effect of the grid on the half-space, not the error of the curve.",
+        "changes it. Frames that are not resolved show the effect of the grid on the half-space, "
+        "not the error of the curve.",
         "",
     ]
     text += [
         "## The interval of the margin",
         "",
         "The margin's interval contains the error of the model beside that of the constants "
-        "(`uncertainty/...`): a standard "
-        "deviation of the logarithm, without a doubt and with one. It holds for flattening ratios "
-        "up to 1; above, it "
-        "falls with the power %s of that ratio. It was set on [other kinds](trust_kinds.md), so "
-        "that 95 %% of each third of "
-        "them lie within 1.96 times it. On the easier frames of the map it is wide. *Covered*: "
-        "share of this page's "
-        "frames whose deviation lies within the model's part of the 95 %% interval."
+        "(`uncertainty/...`): a standard deviation of the logarithm, without a doubt and with one. "
+        "It holds for flattening ratios up to 1; above, it falls with the power %s of that ratio. "
+        "It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of them lie "
+        "within 1.96 times it. On the easier frames of the map it is wide. *Covered*: share of "
+        "this page's frames whose deviation lies within the model's part of the 95 %% interval."
         % fractions.Fraction(error_power()).limit_denominator(100),
         "",
     ]

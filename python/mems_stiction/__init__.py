@@ -3,9 +3,8 @@
     import mems_stiction
 
     prediction = mems_stiction.predict(heights, pitch=20e-9, load={"mechanical_load": 1e-6})
-    prediction.pull_off_force        # [N]
-    prediction.contact_map           # rows x columns: 0 apart, 1 elastic, 2 elasto-plastic, 3
-    plastic
+    prediction.pull_off_force  # [N]
+    prediction.contact_map     # rows x columns: 0 apart, 1 elastic, 2 elasto-plastic, 3 plastic
 
 The figures come from the C++ core, and are those of the program predict_scan to the last bit;
 doc/python.md is the guide.

@@ -160,6 +160,5 @@ class Rows:
     def _other(self) -> OptionsError:
         return OptionsError(
             "%s: holds rows of another sweep (other scans, settings, axes or version), which this "
-            "one cannot continue; "
-            "remove it, or name another file" % self.path
+            "one cannot continue; remove it, or name another file" % self.path
         )

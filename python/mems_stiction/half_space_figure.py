@@ -119,8 +119,7 @@ def half_space_words(result):
             "Resolved: pixels are small enough for the length over which contacts part."
             if result["half_space_is_resolved"]
             else "Not resolved: pixels are too large for the length over which contacts part, so "
-            "the grid holds the "
-            "edges of contacts, and the pull-off force is too large as a rule."
+            "the grid holds the edges of contacts, and the pull-off force is too large as a rule."
         )
     return " ".join(sentences)
 

@@ -287,8 +287,7 @@ def _against(asked: Optional[str], table: _Table) -> str:
         if not table.has_against:
             raise OptionsError(
                 "against: the rows have no column '%s'; the model knows no ageing, so what depends "
-                "on time must be measured and its "
-                "column added" % asked
+                "on time must be measured and its column added" % asked
             )
         return asked
     return next((name for name in VOLTAGES if np.unique(_finite(table.numbers(name))).size > 1), "")

@@ -277,8 +277,8 @@ def of_shares(shares: Sequence[Share], lots: Lots, hierarchy: Hierarchy) -> List
     if lots.against in ("",) + VOLTAGES:
         said.append(
             "how that share grows with the time stuck down is not told by these rows: the model "
-            "has no creep and no ageing. Margins that were "
-            "measured after several times tell it, with a column of the times (against)"
+            "has no creep and no ageing. Margins that were measured after several times tell it, "
+            "with a column of the times (against)"
         )
     return said
 

@@ -16,8 +16,7 @@ from mems_stiction.quantities import typeset, with_interval
 MOST_PARTS = 40  # side by side
 WHAT_TO_STATE = (
     "State site_x and site_y [m] with wafer_id, and lot_id and part_id as far as they are known, "
-    "in scan_info or in the sidecar of the scan's "
-    "file (import_scan writes one)."
+    "in scan_info or in the sidecar of the scan's file (import_scan writes one)."
 )
 
 

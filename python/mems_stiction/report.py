@@ -112,27 +112,24 @@ SHARES = ("contact_fraction", "invalid_fraction", "sdr")  # that are read as per
 ROUNDING = 1e-6  # of the work of adhesion: less hysteresis is none
 SOURCES = (
     "Adhesion of two rough surfaces, equilibrium, plasticity limits: S. Deladi, G. Krijnen, N. "
-    "Tas, M. Elwenspoek, "
-    "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and "
-    "what differs: doc/theory.md.",
+    "Tas, M. Elwenspoek, Three dimensional adhesion model for arbitrary rough surfaces (2002); as "
+    "implemented, and what differs: doc/theory.md.",
     "Contact of one asperity: Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971) 301.",
     "Surface forces: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13.",
     "Which contact theory applies: Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) "
-    "326; Maugis, J. Colloid "
-    "Interface Sci. 150 (1992) 243.",
+    "326; Maugis, J. Colloid Interface Sci. 150 (1992) 243.",
     "Adhesion parameter and its regimes: Gui et al., J. Appl. Phys. 85 (1999) 7448.",
     "Peel numbers of beams: de Boer and Michalske, J. Appl. Phys. 86 (1999) 817; Mastrangelo and "
     "Hsu, J. MEMS 2 (1993) 33 and 44.",
     "Half-space, where it was solved: Muller, Yushchenko, Derjaguin, J. Colloid Interface Sci. 77 "
-    "(1980) 91; Persson, "
-    "Scaraggi, J. Chem. Phys. 141 (2014) 124701; as implemented: doc/half_space.md.",
+    "(1980) 91; Persson, Scaraggi, J. Chem. Phys. 141 (2014) 124701; as implemented: "
+    "doc/half_space.md.",
     "Roughness: ISO 25178-2.",
     "Scans of one part together: random effects by the method of moments (DerSimonian and Laird, "
-    "Controlled Clinical Trials 7 (1986) 177, "
-    "unweighted), degrees of freedom by JCGM 100:2008, equation G.2b; doc/theory.md, section 11.",
+    "Controlled Clinical Trials 7 (1986) 177, unweighted), degrees of freedom by JCGM 100:2008, "
+    "equation G.2b; doc/theory.md, section 11.",
     "Control limits of the trends: chart of individual values, Shewhart 1931; Montgomery, "
-    "Introduction to Statistical Quality Control, "
-    "section 6.4; ISO 7870-2.",
+    "Introduction to Statistical Quality Control, section 6.4; ISO 7870-2.",
     "Material constants: the comments of the configuration below; defaults and their sources: "
     "config/stiction.yaml.",
 )

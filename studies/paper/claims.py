@@ -249,8 +249,7 @@ def bonding_limits(facts):
     weak = crossing(sweep.parameters, energy, 0.01 * energy[0])
     came_out = (
         "All pairs bond at θ ≤ 1: %s. Half of the pairs bond up to θ = %s. Without van der Waals "
-        "the bonding energy is below 1 %% of that of "
-        "smooth surfaces from %s."
+        "the bonding energy is below 1 %% of that of smooth surfaces from %s."
         % ("yes" if all(below) else "no", "; ".join(said), number_text(weak))
     )
     end_is_near = 0.5 < weak / cases.NON_BONDING_LIMIT < 2
@@ -279,8 +278,8 @@ def theory_comparison(facts):
     caps = crossing(fine, [theory.rest_of_cap_summits(value).area for value in fine], level)
     came_out = (
         "Contact falls below %s of the area at θ = %s in the model, %s in the theory: a factor of "
-        "%s. With the paper's cut caps in "
-        "place of JKR's approach the theory gives %s; contacts of a real surface merge."
+        "%s. With the paper's cut caps in place of JKR's approach the theory gives %s; contacts of "
+        "a real surface merge."
         % (
             percent(level),
             number_text(model),
@@ -317,8 +316,7 @@ def falls(facts):
         if said
         else (
             "No mean of the 16 curves lies above the band of a smaller parameter (largest ratio to "
-            "its upper end %s; bonded pairs all have "
-            "half of the area)." % number_text(worst)
+            "its upper end %s; bonded pairs all have half of the area)." % number_text(worst)
         )
     )
     return Row(

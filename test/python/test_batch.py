@@ -1440,8 +1440,7 @@ class OriginTest(unittest.TestCase):
         self.assertEqual(
             report.origin_of(row),
             "part die 4, wafer W3, site -5.00 mm, 0 m, measured 2026-03-01T14:05:00, with AFM 2, "
-            "by ann, "
-            "file sha256:00, settings 00ff, version 1.2.3",
+            "by ann, file sha256:00, settings 00ff, version 1.2.3",
         )
         self.assertEqual(
             report.origin_of({"site_x": None, "site_y": None, "part_id": "", "version": "1.2.3"}),
@@ -1515,8 +1514,7 @@ class TableRowTest(unittest.TestCase):
         self.assertEqual(
             followed["limits"],
             "few contacts: another place of the surface may differ much; most of the adhesion is "
-            "of "
-            "contacts at the frame's border: their summits may lie outside; odd",
+            "of contacts at the frame's border: their summits may lie outside; odd",
         )
 
 

@@ -335,8 +335,7 @@ class MadeDataTest(unittest.TestCase):
         self.assertRegex(
             found.statements[1],
             "^tip 1: 20.0 N was measured, and the nearest that any work of adhesion gives is "
-            "[0-9.]+ [un]N: "
-            "is it in SI units, and of these surfaces and this area",
+            "[0-9.]+ [un]N: is it in SI units, and of these surfaces and this area",
         )
 
     def test_uncertainties_that_leave_all_open_are_told_from_surfaces_that_do(self):

@@ -558,8 +558,8 @@ class ViewTest(unittest.TestCase):
         """Middles of marks of one map, in pixels of the screen."""
         return self.page.value(
             "[...document.querySelectorAll('.wafer-map')[%d].querySelectorAll('.%s')].map((mark) "
-            "=> { const box = mark.getBoundingClientRect(); "
-            "return [box.x + box.width / 2, box.y + box.height / 2]; })" % (number, kind)
+            "=> { const box = mark.getBoundingClientRect(); return [box.x + box.width / 2, box.y + "
+            "box.height / 2]; })" % (number, kind)
         )
 
     def test_maps_of_wafers_mark_what_is_bad_and_what_is_missing(self):

@@ -139,8 +139,7 @@ class FlaggedTest(unittest.TestCase):
         self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
         self.assertIn(
             "near_bonding asks for the half-space; which does not count: a frame of 65 x 64 pixels "
-            "is larger than "
-            "half_space/max_flagged_pixels = 4096",
+            "is larger than half_space/max_flagged_pixels = 4096",
             prediction.reason,
         )
         device = self.of(self.devices, stamp, "the device")

@@ -376,9 +376,8 @@ class PageTest(unittest.TestCase):
                 self.page.value("show()")
                 cut = self.page.value(
                     "[...document.querySelectorAll('#tab-%s svg.chart .label')].filter((label) => "
-                    "{ const outer = label.ownerSVGElement"
-                    ".getBoundingClientRect(), inner = label.getBoundingClientRect(); return "
-                    "inner.top < outer.top - 1 || "
+                    "{ const outer = label.ownerSVGElement.getBoundingClientRect(), inner = "
+                    "label.getBoundingClientRect(); return inner.top < outer.top - 1 || "
                     "inner.bottom > outer.bottom + 1; }).map((label) => label.textContent)" % tab
                 )
                 self.assertEqual(cut, [], (tab, width))
@@ -389,8 +388,7 @@ class PageTest(unittest.TestCase):
         with Traffic(self.station, [rough_surface(6), rough_surface(7)], period=1 / 30) as traffic:
             self.page.value(
                 "window.shown = 0, window.plain_show = window.show, window.show = () => { "
-                "++window.shown; window.plain_show(); },"
-                "window.since = performance.now(), 0"
+                "++window.shown; window.plain_show(); },window.since = performance.now(), 0"
             )
             wait_until(lambda: len(traffic.sent) >= 60, "two seconds of scans")
             self.page.wait("window.shown >= 2")
