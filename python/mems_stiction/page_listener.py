@@ -11,6 +11,7 @@ from mems_stiction.msg import (
     CycleContactActionFeedback,
     CycleContactActionResult,
     DeviceAdhesion,
+    DeviceVerdict,
     HalfSpaceSolution,
     PartVerdict,
     ScanInfo,
@@ -95,6 +96,7 @@ class PageListener:
                 dict(queue_size=1, buff_size=MAP_BUFFER),
             ),
             ("device_force", DeviceAdhesion, self._on_device, None, dict(queue_size=10)),
+            ("verdict", DeviceVerdict, self._on_answer, None, dict(queue_size=100)),
             ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
             ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100)),
         ]
@@ -173,6 +175,9 @@ class PageListener:
 
     def _on_device(self, device):
         self._state.add_device(device.header.stamp.to_nsec(), device)
+
+    def _on_answer(self, answer):
+        self._state.add_answer(answer.header.stamp.to_nsec(), answer)
 
     def _on_half_space(self, solution):
         self._state.add_half_space(solution.header.stamp.to_nsec(), solution)

@@ -13,7 +13,9 @@ from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
 from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (
+    AWAITED,
     NO_EQUILIBRIUM,
+    awaits_device,
     curve_of,
     device_of,
     all_finite,
@@ -23,6 +25,7 @@ from mems_stiction.page_words import (
     flags_of,
     half_space_of,
     part_of,
+    provisional_of,
     ratio_of,
     sentence,
     thinned_points,
@@ -45,6 +48,7 @@ from mems_stiction.sweep_jumps import jumps_of
 MOST_SCANS = 300  # of the trend
 MOST_LOSSES = 50  # with their reasons
 MOST_PARTS = 100  # whose newest verdicts are kept, as many as the node keeps
+MOST_ANSWERS = 100  # of the node on its scans, as many as it may still change
 MOST_DIAGNOSTICS = 30  # statuses of the node, by their names
 MOST_POINTS = (
     20000  # of a sweep or of cycles: more are beyond any that was seen, and keep browsers busy
@@ -124,6 +128,8 @@ class PageState:
         self._periods = collections.deque(maxlen=MOST_PERIODS)  # between predictions [s]
         self._half_space = None
         self._device = None
+        self._answers = collections.OrderedDict()  # stamp [ns] -> newest DeviceVerdict on its scan
+        self._judged = None  # (number, verdict, ratio) of the newest scan that a device judged
         self._part = None
         # newest last: (part, serial number) -> (what the page shows, message, when)
         self._parts = {}
@@ -222,6 +228,9 @@ class PageState:
                 self._device = shown
             if shown["is_found"]:
                 self._wafers.judge(stamp, device)
+                number = self._number_of(stamp)
+                if number is not None and (self._judged is None or number >= self._judged[0]):
+                    self._judged = (number, shown["verdict"], shown["ratio"])
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
                     if row.get("stamp") == stamp:
@@ -233,6 +242,15 @@ class PageState:
                             upper=ratio["upper"],
                             level=shown["verdict"]["level"],
                         )
+            self._changed()
+
+    def add_answer(self, stamp, answer):
+        """What the node says by now of the device of this scan [ns], and what that waits for."""
+        with self._lock:
+            self._answers.pop(stamp, None)
+            self._answers[stamp] = answer
+            while len(self._answers) > MOST_ANSWERS:
+                self._answers.popitem(last=False)
             self._changed()
 
     def add_part(self, stamp, part):
@@ -453,8 +471,12 @@ class PageState:
             told["warnings"],
             told["figures"],
         )
-        device = self._device
-        if device is not None and device["stamp"] == stamp and device["is_found"]:
+        device = self._device_of_newest()
+        if self._is_awaiting():
+            verdict, ratio = provisional_of(prediction, self._answers.get(stamp), self._judged)
+        elif device is not None and not device["is_found"] and AWAITED in prediction.reason:
+            verdict = dict(verdict, reason=device["message"])
+        elif device is not None and device["is_found"]:
             verdict, ratio = dict(device["verdict"]), device["ratio"]
             if device["settings_hash"] != prediction.settings_hash:
                 verdict["reason"] += " Judged again, under the settings of now."
@@ -468,6 +490,20 @@ class PageState:
             ratio=ratio,
             warnings=warnings,
             figures=figures,
+        )
+
+    def _device_of_newest(self):
+        """What is told of the device by the newest scan; None before that is told."""
+        device = self._device
+        return device if device and self._latest and device["stamp"] == self._latest[1] else None
+
+    def _is_awaiting(self):
+        """Whether the force of the whole device that will judge the newest scan is on its way."""
+        if self._latest is None or self._device_of_newest() is not None:
+            return False
+        _, stamp, prediction, _ = self._latest
+        return prediction.status != NO_EQUILIBRIUM and awaits_device(
+            prediction, self._answers.get(stamp)
         )
 
     def _control(self):
@@ -493,10 +529,11 @@ class PageState:
         }
 
     def _shown_part(self):
-        """is_newest: whether the newest scan is one of its own."""
+        """is_newest: whether the newest scan is one of its own; is_provisional: whether what will
+        judge that scan is on its way."""
+        is_newest = bool(self._part and self._latest and self._latest[1] == self._part["stamp"])
         return self._part and dict(
-            self._part,
-            is_newest=self._latest is not None and self._latest[1] == self._part["stamp"],
+            self._part, is_newest=is_newest, is_provisional=is_newest and self._is_awaiting()
         )
 
     def _with_number(self, of_scan):

@@ -26,6 +26,8 @@ VERDICTS = {
     2: ("sticks", "STICKS"),
     3: ("unknown", "NOT KNOWN"),
 }
+AWAITED = "on device_force"  # in the reason of a prediction whose device's force is on its way
+ON_ITS_WAY = "provisional: the force of the whole device is on its way"
 LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
 DEVICE_REFUSED = 2  # DeviceAdhesion.status
 WIDEST_INTERVAL = 1e4  # upper over lower end of a ratio that is shown as a number
@@ -100,6 +102,39 @@ def verdict_of(prediction):
         }
     level, word = VERDICTS.get(prediction.sticks, VERDICTS[3])
     return {"level": level, "word": word, "reason": sentence(prediction.reason)}
+
+
+def awaits_device(prediction, answer):
+    """Whether the force of the whole device, which will judge this scan, is on its way. answer: the
+    DeviceVerdict on the scan; None before it came."""
+    if answer is not None:
+        return "device_force" in answer.waits_for.split()
+    return AWAITED in prediction.reason
+
+
+def provisional_of(prediction, answer, before):
+    """Verdict and ratio while the force of the whole device is on its way: what the scans of the
+    part before this one say, or else what is known of this scan alone. answer: the DeviceVerdict on
+    the scan, or None; before: (number, verdict, ratio) of the newest scan that was judged, or
+    None."""
+    if answer is not None and answer.sticks in VERDICTS and VERDICTS[answer.sticks][0] != "unknown":
+        level, word = VERDICTS[answer.sticks]
+        verdict = {"level": level, "word": word, "reason": sentence(answer.reason)}
+        return dict(verdict, provisional=ON_ITS_WAY), ratio_of(answer)
+    known = ["The pull-off force of this scan is %s" % with_unit(prediction.pull_off_force, "N")]
+    if not math.isnan(prediction.restoring_force):
+        known.append(
+            "the restoring force of the spring %s" % with_unit(prediction.restoring_force, "N")
+        )
+    reason = ", ".join(known) + "."
+    if before is not None:
+        number, verdict, ratio_before = before
+        reason += " The verdict before, on scan %d: %s" % (number, verdict["word"])
+        if ratio_before:
+            reason += ", %s %s" % (ratio_before["label"], ratio_before["text"])
+        reason += "."
+    verdict = {"level": "pending", "word": "COMPUTING", "reason": reason}
+    return dict(verdict, provisional=ON_ITS_WAY), None
 
 
 def sentence(text):

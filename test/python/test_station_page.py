@@ -51,6 +51,7 @@ from mems_stiction.page_places import MOST_PLACES, MOST_WAFERS
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_PARTS, MOST_SCANS, PageState, stamp_of_reason
 from mems_stiction.page_words import (
+    ON_ITS_WAY,
     all_finite,
     curve_of,
     half_space_of,
@@ -358,7 +359,15 @@ class StateTest(unittest.TestCase):
         shown = state.snapshot()
         self.assertEqual(
             (shown["scan"]["verdict"]["word"], shown["scan"]["ratio"], shown["device"]),
-            ("NOT KNOWN", None, None),
+            ("COMPUTING", None, None),
+        )
+        self.assertEqual(
+            (shown["scan"]["verdict"]["reason"], shown["scan"]["verdict"]["provisional"]),
+            (
+                "The pull-off force of this scan is 100 nN, the restoring force of the spring "
+                "1.00 µN.",
+                ON_ITS_WAY,
+            ),
         )
         state.add_device(SECOND, device_message())
         shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
@@ -386,7 +395,12 @@ class StateTest(unittest.TestCase):
         state.add_prediction(2 * SECOND, awaiting)
         shown = state.snapshot()
         self.assertEqual(
-            (shown["scan"]["verdict"]["word"], shown["device"]["number"]), ("NOT KNOWN", 1)
+            (shown["scan"]["verdict"]["word"], shown["device"]["number"]), ("COMPUTING", 1)
+        )
+        self.assertTrue(
+            shown["scan"]["verdict"]["reason"].endswith(
+                "The verdict before, on scan 1: RELEASES, margin 5."
+            )
         )
         # Another load afterwards: the same scan, judged under other settings.
         state.add_device(
