@@ -122,6 +122,22 @@ class Browser:
             mobile=False,
         )
 
+    def theme(self, name):
+        """ "light" or "dark", as the system wishes."""
+        self._call(
+            "Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": name}]
+        )
+
+    def press(self, key):
+        """A key, where the focus is."""
+        code = {"Enter": 13, " ": 32}.get(key, 0)
+        text = {"Enter": "\r", " ": " "}.get(key, "")
+        kind = "keyDown" if text else "rawKeyDown"
+        self._call(
+            "Input.dispatchKeyEvent", type=kind, key=key, text=text, windowsVirtualKeyCode=code
+        )
+        self._call("Input.dispatchKeyEvent", type="keyUp", key=key, windowsVirtualKeyCode=code)
+
     def open(self, address):
         self._call("Page.navigate", url=address)
         self.wait("document.readyState === 'complete'")

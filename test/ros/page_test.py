@@ -170,6 +170,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(
             self.page.value("document.querySelector('#verdict').dataset.level"), "releases"
         )
+        self.assertTrue(self.page.value("document.title").startswith("RELEASES \u00b7 "))
         self.assertEqual(self.page.text("#ratio-value"), ratio_text(device.margin))
         self.assertEqual(
             self.page.text("#ratio-interval"),
@@ -286,7 +287,10 @@ class PageTest(unittest.TestCase):
         self.assertTrue(
             self.page.text("#scan-name").endswith(": " + HOSTILE), self.page.text("#scan-name")
         )
-        self.assertEqual(self.page.value("document.title"), "Stiction station")
+        self.assertRegex(
+            self.page.value("document.title"),
+            r"^(Old: )?[A-Z ]+( \(provisional\))? · Stiction station$",
+        )
         self.assertEqual(self.page.value("document.querySelectorAll('#scan-name *').length"), 0)
 
     def test_6b_the_part_and_what_the_scan_was_made_with_are_shown(self):
@@ -401,7 +405,7 @@ class PageTest(unittest.TestCase):
         self.page.wait("state.control && state.control.last === state.count")
         self.assertEqual(
             self.page.value(
-                "document.querySelectorAll('#trend-force path[stroke=\"#c99bff\"]').length"
+                "document.querySelectorAll('#trend-force path[stroke=\"var(--control)\"]').length"
             ),
             3,
         )  # limits and centre

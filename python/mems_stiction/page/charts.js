@@ -77,6 +77,8 @@ function drawChart(svg, whole) {
   if (!width || !height) return;
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   const chart = zoomedChart(svg, whole);
+  svg.setAttribute("role", "img");
+  svg.setAttribute("aria-label", wordsOf(chart));
   const place = placesOf(chart, width, height);
   followZoom(svg, chart, place);
   drawBands(svg, chart, place);
@@ -97,7 +99,7 @@ function drawChart(svg, whole) {
   }
   for (const [x, low, high] of chart.whiskers || []) {
     if (low === null || high === null) continue;
-    inside.append(element("line", {x1: place.x(x), x2: place.x(x), y1: place.y(low), y2: place.y(high), stroke: "#a8adb8", "stroke-width": 3, opacity: 0.8}));
+    inside.append(element("line", {x1: place.x(x), x2: place.x(x), y1: place.y(low), y2: place.y(high), stroke: "var(--quiet)", "stroke-width": 3, opacity: 0.8}));
   }
   for (const line of chart.lines || []) {
     inside.append(element("path", {d: pathOf(line.points, place), fill: "none", stroke: line.colour, "stroke-width": line.width || 2,
@@ -118,6 +120,16 @@ function drawChart(svg, whole) {
     svg.append(text);
     putBeside(text, [place.x(note.x), place.y(note.y)], place, drawn, taken);
   }
+}
+
+/** What a screen reader says of a chart: its axes, and where they end. */
+function wordsOf({x, y}) {
+  const end = (axis, value) => {
+    const [factor, prefix] = axis.unit ? prefixFor(value) : [1, ""];
+    return `${Number((value / factor).toPrecision(3))}${axis.unit ? ` ${prefix}${axis.unit}` : ""}`;
+  };
+  const words = (axis) => `${axis.label || "the same axis"} from ${end(axis, axis.low)} to ${end(axis, axis.high)}`;
+  return `Chart: ${words(y)} over ${words(x)}`;
 }
 
 /** Points in pixels along all that is drawn, so that texts can keep off it. */
@@ -233,17 +245,21 @@ function pathOf(points, place) {
 function drawBands(svg, chart, place) {
   for (const x of chart.bands || []) {
     const left = Math.max(place.left, place.x(x - 0.5));
-    svg.append(element("rect", {x: left, y: place.top, width: Math.max(1, place.x(x + 0.5) - left), height: place.bottom - place.top, fill: "#ffffff", opacity: 0.16}));
+    svg.append(element("rect", {x: left, y: place.top, width: Math.max(1, place.x(x + 0.5) - left), height: place.bottom - place.top, fill: "var(--text)", opacity: 0.16}));
   }
 }
 
-/** Along an upright axis: smaller and nearer to the middle of the chart where it would leave it. */
-function fitInto(label, height, middle) {
+/** Where the middle of an axis' label is: smaller and nearer to the middle of the chart where it would leave it. */
+function placeAlong(label, room, middle) {
   const length = label.getComputedTextLength();
-  const scale = Math.min(1, (height - 4) / length);
+  const scale = Math.min(1, (room - 4) / length);
   if (scale < 1) label.style.fontSize = `${15 * scale}px`;
   const half = 0.5 * scale * length + 2;
-  const y = Math.min(Math.max(middle, half), Math.max(half, height - half));
+  return Math.min(Math.max(middle, half), Math.max(half, room - half));
+}
+
+function fitInto(label, height, middle) {
+  const y = placeAlong(label, height, middle);
   label.setAttribute("y", y);
   label.setAttribute("transform", `rotate(-90 16 ${y})`);
 }
@@ -264,19 +280,21 @@ function drawAxes(svg, chart, place) {
   };
   for (const tick of yTicks) {
     const y = place.y(tick);
-    svg.append(element("line", {x1: place.left, x2: place.right, y1: y, y2: y, stroke: Math.abs(tick) < 1e-30 ? "#a8adb8" : "#3a3f4a"}));
+    svg.append(element("line", {x1: place.left, x2: place.right, y1: y, y2: y, stroke: Math.abs(tick) < 1e-30 ? "var(--quiet)" : "var(--grid)"}));
     svg.append(element("text", {x: place.left - 8, y: y + 5, "text-anchor": "end"}, yText(tick)));
   }
   for (const tick of xTicks) {
     const x = place.x(tick);
-    svg.append(element("line", {x1: x, x2: x, y1: place.top, y2: place.bottom, stroke: "#3a3f4a"}));
+    svg.append(element("line", {x1: x, x2: x, y1: place.top, y2: place.bottom, stroke: "var(--grid)"}));
     const label = element("text", {x: x, y: place.bottom + 18, "text-anchor": "middle"}, shortNumber(tick / xFactor));
     svg.append(label);
     const half = label.getComputedTextLength() / 2;
     label.setAttribute("x", Math.min(x, svg.clientWidth - half - 1));
   }
   const unit = (axis, prefix) => axis.unit ? ` [${prefix}${axis.unit}]` : "";
-  svg.append(element("text", {class: "label", x: (place.left + place.right) / 2, y: place.bottom + 38, "text-anchor": "middle"}, chart.x.label && chart.x.label + unit(chart.x, xPrefix)));
+  const below = element("text", {class: "label", x: (place.left + place.right) / 2, y: place.bottom + 38, "text-anchor": "middle"}, chart.x.label && chart.x.label + unit(chart.x, xPrefix));
+  svg.append(below);
+  below.setAttribute("x", placeAlong(below, svg.clientWidth, (place.left + place.right) / 2));
   const middle = (place.top + place.bottom) / 2;
   const label = element("text", {class: "label", x: 16, y: middle, "text-anchor": "middle", transform: `rotate(-90 16 ${middle})`}, chart.y.label + unit(chart.y, hasOwnPrefixes ? "" : yPrefix));
   svg.append(label);

@@ -54,7 +54,7 @@ async function pictureOf(panel) {
   for (const key of panel.querySelectorAll(".key, .keys span")) drawKey(paper, key, placeOf(key));
   drawTexts(paper, panel, box);
   paper.font = "14px \"DejaVu Sans\", Verdana, Arial, sans-serif";
-  paper.fillStyle = "#a8adb8";
+  paper.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--quiet");
   lines.forEach((text, number) => paper.fillText(text, PICTURE_EDGE, height - PICTURE_EDGE - 20 * (lines.length - 1 - number), width - 2 * PICTURE_EDGE));
   return canvas;
 }

@@ -80,7 +80,7 @@ function drawBar() {
   bar.append(element("text", {class: "label", x: 8, y: 15}, `${prefix}m`));
   for (const tick of ticksOf(range[0] / factor, range[1] / factor, Math.max(2, (height - 32) / 50))) {
     const y = height - 8 - (tick * factor - range[0]) / (range[1] - range[0]) * (height - 32);
-    bar.append(element("line", {x1: 24, x2: 29, y1: y, y2: y, stroke: "#a8adb8"}), element("text", {x: 33, y: Math.min(Math.max(y + 5, 29), height - 2)}, shortNumber(tick)));
+    bar.append(element("line", {x1: 24, x2: 29, y1: y, y2: y, stroke: "var(--quiet)"}), element("text", {x: 33, y: Math.min(Math.max(y + 5, 29), height - 2)}, shortNumber(tick)));
   }
 }
 

@@ -1,13 +1,16 @@
 // The station's page: asks station_page for its state, and shows it. All text goes in as text, never as HTML.
 "use strict";
 
-const COLOURS = {releases: "#35c46a", marginal: "#f2b705", sticks: "#ff5a4f", unknown: "#a8adb8", none: "#7fb2ff"};
-const CONTROL = "#c99bff"; // of the control limits, as in plot_trend
+const COLOURS = {releases: "var(--good)", marginal: "var(--warn)", sticks: "var(--bad)", unknown: "var(--quiet)", none: "var(--line)"};
+const CONTROL = "var(--control)"; // of the control limits, as in plot_trend
+const TITLE = "Stiction station";
+const TELL_AGAIN = 10000; // [ms] between two scans of one verdict that are read aloud; another verdict is told at once
 const RECONNECT = 1000;  // [ms]
 const SILENCE = 8000;    // [ms] without a state: the server is gone
 const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at the top for so long
 let state = null;
 let received = 0;        // when the state came [ms]
+let told = {word: null, at: -Infinity};  // what was read aloud last
 
 const broken = {};       // parts of the page that cannot be shown: why
 
@@ -42,6 +45,23 @@ function show() {
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showDownloads();
   showTab();
+  attempt("title", tellVerdict);
+}
+
+/** The title carries the verdict, and a screen reader hears a new one. */
+function tellVerdict() {
+  const verdict = byId("word").textContent;
+  const word = verdict + (byId("provisional").hidden ? "" : " (provisional)");
+  const isStale = byId("verdict").classList.contains("stale");
+  const title = `${isStale ? "Old: " : ""}${word} \u00b7 ${TITLE}`;
+  if (document.title !== title) document.title = title;
+  const key = [word, isStale].join();
+  const scan = state && state.count;
+  if (told.word === key && (told.scan === scan || isStale || performance.now() - told.at < TELL_AGAIN)) return;
+  told = {word: key, scan, at: performance.now()};
+  const [label, ratio, interval] = ["ratio-label", "ratio-value", "ratio-interval"].map((id) => byId(id).textContent);
+  say("told", isStale ? `What is shown is old: ${byId("age").textContent}.`
+    : `${capital(byId("scan-name").textContent)}. ${word}${ratio ? `, ${label} ${ratio}` : ""}${interval ? `, ${interval}` : ""}.`);
 }
 
 function showLink() {
@@ -64,6 +84,10 @@ function showVerdict() {
   box.classList.toggle("long", verdict.word.length > 9);
   say("word", verdict.word);
   say("reason", verdict.reason);
+  const provisional = verdict.provisional || "";
+  box.classList.toggle("provisional", Boolean(provisional));
+  say("provisional", capital(provisional));
+  byId("provisional").hidden = !provisional;
   say("scan-name", isLost ? `scan ${state.losses[state.losses.length - 1].number}` + (scan ? `; the last verdict, of scan ${scan.number}: ${scan.verdict.word}` : "")
     : scan ? `scan ${scan.number}` + (scan.name ? `: ${scan.name}` : "") : "no scan yet");
   say("ratio-label", shownRatio ? scan.ratio.label : "");
@@ -78,9 +102,10 @@ function showVerdict() {
 function showPart() {
   const part = state.part;
   const box = byId("part");
-  box.className = part ? (part.is_newest ? part.level : `${part.level} before`) : "";
+  box.hidden = !part;
+  setClasses(box, part ? [part.level, part.is_newest ? "" : "before"] : []);
   say("part-name", part ? capital(part.name) + (part.is_newest ? ":" : " (before the newest scan):") : "");
-  say("part-word", part ? part.word : "");
+  say("part-word", part ? part.word + (part.is_provisional ? " (provisional)" : "") : "");
   say("part-ratio", part && part.ratio ? `${part.ratio.label} ${part.ratio.text}` + (part.ratio.interval ? ` (${part.ratio.interval})` : "") : "");
   say("part-scans", part ? [part.scans, part.worst, part.verdict_by && `by ${part.verdict_by}`].filter(Boolean).join(", ") + "." : "");
   const shown = part && part.is_newest && state.scan ? state.scan.flags : [];  // above, of the newest scan
@@ -95,8 +120,30 @@ function showAge() {
   const age = state && state.age !== null ? state.age + sinceState() : null;
   const isStale = age !== null && (isBroken || age > state.stale_after);
   const box = byId("verdict");
-  box.className = [isStale ? "stale" : box.dataset.level || "none", box.classList.contains("long") ? "long" : ""].join(" ").trim();
+  setClasses(box, [isStale ? "stale" : box.dataset.level || "none", ...["long", "provisional"].filter((name) => box.classList.contains(name))]);
   say("age", isStale ? `last scan ${duration(age)} ago` : "");
+  if (state) tellVerdict();
+}
+
+/** Those of a box, which stays unfolded or not. */
+function setClasses(box, names) {
+  const classes = names.concat("box", box.classList.contains("unfolded") ? "unfolded" : []).filter(Boolean).join(" ");
+  if (box.className !== classes) box.className = classes;
+}
+
+/** A button for each box whose text is cut, as long as that is so. */
+function showUnfolding() {
+  for (const box of document.querySelectorAll(".box")) {
+    const button = box.querySelector(".unfold");
+    const text = byId(button.getAttribute("aria-controls"));
+    const isUnfolded = box.classList.contains("unfolded");
+    const isCut = text.textContent.trim() !== "" && text.scrollHeight > text.clientHeight + 1 || !text.clientHeight;
+    button.hidden = !isUnfolded && !isCut;
+    button.setAttribute("aria-expanded", String(isUnfolded));
+    const what = button.dataset.what ||= button.textContent;
+    const words = isUnfolded ? "less" : what;
+    if (button.textContent !== words) button.textContent = words;
+  }
 }
 
 // ---------------------------------------------------------------- tabs
@@ -110,10 +157,28 @@ function chosenTab() {
 
 function showTab() {
   const chosen = chosenTab();
-  for (const button of document.querySelectorAll("nav button")) button.classList.toggle("chosen", button.dataset.tab === chosen);
+  for (const button of document.querySelectorAll("nav button")) {
+    const isChosen = button.dataset.tab === chosen;
+    button.classList.toggle("chosen", isChosen);
+    button.setAttribute("aria-selected", String(isChosen));
+    button.tabIndex = isChosen ? 0 : -1;  // arrow keys lead to the others
+  }
   document.body.classList.toggle("compact", chosen !== "overview");
   for (const tab of document.querySelectorAll(".tab")) tab.classList.toggle("chosen", tab.id === `tab-${chosen}`);
   if (state) attempt(chosen, TABS[chosen]);
+  showUnfolding();
+}
+
+/** Arrow keys, Home and End among the tabs. */
+function followKeys(event) {
+  const buttons = [...document.querySelectorAll("nav button")];
+  const at = buttons.indexOf(event.target);
+  const to = {ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: buttons.length - 1}[event.key];
+  if (to === undefined || at < 0) return;
+  event.preventDefault();
+  const button = buttons[(to + buttons.length) % buttons.length];
+  button.focus();
+  button.click();
 }
 
 function showOverview() {
@@ -157,19 +222,19 @@ function showTrend() {
   drawChart(byId("trend-force"), {
     x: Object.assign({}, x, {label: hasRatio ? "" : x.label}), bands,
     y: Object.assign({label: isDevice ? "pull-off, device" : "pull-off, scan", unit: "N"}, limitsOf(forces.concat(springs, control ? [control.lower, control.upper] : []), true)),
-    lines: (control ? controlLines(control) : []).concat([{points: line(forces), colour: "#7fb2ff", width: 1.5}, {points: line(springs), colour: "#35c46a", width: 2.5, dash: "8 5"}]),
+    lines: (control ? controlLines(control) : []).concat([{points: line(forces), colour: "var(--line)", width: 1.5}, {points: line(springs), colour: "var(--good)", width: 2.5, dash: "8 5"}]),
     marks: marks(forces), rings: control ? control.outside.map((number) => ({x: number, y: forces[numbers.indexOf(number)], colour: CONTROL})) : [],
   });
   const hasSpring = springs.some((value) => value !== null && value !== undefined);
-  fillKeys("trend-keys", hasSpring ? [["#35c46a", "dashed", "restoring force of the spring"]] : [],
+  fillKeys("trend-keys", hasSpring ? [["var(--good)", "dashed", "restoring force of the spring"]] : [],
            control ? [[CONTROL, "dotted", "control limits"], [CONTROL, "solid", "their centre"]] : [],
-           hasRatio ? [["#a8adb8", "solid", "95 %"], ["#ff5a4f", "dashed", "1: sticks below"]] : []);
+           hasRatio ? [["var(--quiet)", "solid", "95 %"], ["var(--bad)", "dashed", "1: sticks below"]] : []);
   byId("trend-ratio").style.display = hasRatio ? "block" : "none";
   if (!hasRatio) return;
   const whiskers = rows.map((row) => [row.number, valueOf(row, "lower"), valueOf(row, "upper")]);
   drawChart(byId("trend-ratio"), {
     x, y: Object.assign({label: state.scan && state.scan.ratio ? state.scan.ratio.label : "margin"}, limitsOf(ratios.concat(whiskers.flatMap((one) => one.slice(1)), [1]), true)),
-    bands, whiskers, levels: [{y: 1, colour: "#ff5a4f"}], lines: [{points: line(ratios), colour: "#7fb2ff", width: 1.5}], marks: marks(ratios),
+    bands, whiskers, levels: [{y: 1, colour: "var(--bad)"}], lines: [{points: line(ratios), colour: "var(--line)", width: 1.5}], marks: marks(ratios),
   });
 }
 
@@ -192,8 +257,8 @@ function showCurve() {
       (half.verdict ? ` Judged by ${half.verdict.by}: ${half.verdict.word}, ${half.verdict.ratio.label} ${half.verdict.ratio.text}` +
         (half.verdict.ratio.interval ? ` (${half.verdict.ratio.interval})` : "") + "." : "") + half.notes.map((note) => ` But ${note}.`).join("") : "");
   const all = [curve, halfCurve].filter(Boolean).flatMap((one) => one.in.concat(one.out));
-  fillKeys("curve-keys", curve ? [["#7fb2ff", "solid", "approach"], ["#f2b705", "solid", "retraction"]] : [],
-           halfCurve ? [["#8f7fc4", "dotted", "half-space, approach"], ["#c6a8ff", "solid", "half-space, retraction"]] : []);
+  fillKeys("curve-keys", curve ? [["var(--line)", "solid", "approach"], ["var(--warn)", "solid", "retraction"]] : [],
+           halfCurve ? [["var(--half-space-in)", "dotted", "half-space, approach"], ["var(--half-space)", "solid", "half-space, retraction"]] : []);
   if (!all.length) { byId("force-curve").replaceChildren(); return; }
   const strongest = Math.max(...all.map((point) => point[1]), 1e-30);
   const near = all.filter((point) => Math.abs(point[1]) > 0.02 * strongest && point[1] > -1.2 * strongest);
@@ -201,12 +266,12 @@ function showCurve() {
   const room = 0.05 * (Math.max(...places) - Math.min(...places)) || 1e-10;
   const forces = all.filter((point) => point[1] > -1.2 * strongest).map((point) => point[1]);
   const lines = [];
-  if (halfCurve) lines.push({points: half.in, colour: "#8f7fc4", width: 2, dash: "2 5"}, {points: half.out, colour: "#c6a8ff", width: 2.5});
-  if (curve) lines.push({points: curve.in, colour: "#7fb2ff", width: 3}, {points: curve.out, colour: "#f2b705", width: 2.5});
+  if (halfCurve) lines.push({points: half.in, colour: "var(--half-space-in)", width: 2, dash: "2 5"}, {points: half.out, colour: "var(--half-space)", width: 2.5});
+  if (curve) lines.push({points: curve.in, colour: "var(--line)", width: 3}, {points: curve.out, colour: "var(--warn)", width: 2.5});
   drawChart(byId("force-curve"), {
     x: {label: "displacement past first touch; below 0 apart", unit: "m", low: Math.min(...places) - room, high: Math.max(...places) + room},
     y: Object.assign({label: "force, above 0 attraction", unit: "N"}, limitsOf(forces, false)), lines,
-    marks: curve ? [{x: curve.peak[0], y: curve.peak[1], colour: "#ff5a4f", radius: 8}] : [],
+    marks: curve ? [{x: curve.peak[0], y: curve.peak[1], colour: "var(--bad)", radius: 8}] : [],
     texts: curve ? [{x: curve.peak[0], y: curve.peak[1], text: `pull-off ${curve.text}`}] : [],
   });
 }
@@ -242,7 +307,8 @@ function showNode() {
 }
 
 for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => { location.hash = button.dataset.tab; });
-for (const id of ["verdict", "limits", "part"]) byId(id).addEventListener("click", () => { document.body.classList.toggle("unfolded"); if (state) show(); });
+document.querySelector("nav").addEventListener("keydown", followKeys);
+for (const box of document.querySelectorAll(".box")) box.addEventListener("click", () => { box.classList.toggle("unfolded"); showUnfolding(); if (state) show(); });
 addPictureButtons();
 window.addEventListener("hashchange", showTab);
 window.addEventListener("resize", () => { if (state) show(); });

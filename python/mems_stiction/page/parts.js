@@ -30,7 +30,11 @@ function showParts() {
   byId("parts-body").replaceChildren(...sortedParts().map((part) => {
     const row = document.createElement("tr");
     row.className = part.level;
-    for (const text of [part.part, part.serial, part.word, ratioWords(part), part.scans, part.verdict_by, `${duration(part.age + sinceState())} ago`]) row.insertCell().textContent = text;
+    for (const text of [part.part, part.serial, part.word, ratioWords(part), part.scans, part.verdict_by, `${duration(part.age + sinceState())} ago`]) {
+      const cell = row.insertCell();
+      cell.textContent = text;
+      cell.dataset.label = head.children[cell.cellIndex].textContent;  // a small screen shows no head
+    }
     row.title = [part.worst, part.reason].filter(Boolean).join(". ");
     return row;
   }));

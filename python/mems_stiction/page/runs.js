@@ -1,7 +1,7 @@
 // Sweeps of the voltage and contact cycles: the last of each that anybody ran.
 "use strict";
 
-const LOAD_COLOURS = ["#7fb2ff", "#f2b705", "#35c46a", "#c6a8ff", "#ff9f6e", "#e0e0e0"];
+const LOAD_COLOURS = ["var(--line)", "var(--warn)", "var(--good)", "var(--half-space)", "var(--fifth)", "var(--sixth)"];
 
 function showRuns() {
   const {sweep, cycles} = state.runs;
@@ -36,7 +36,7 @@ function drawSweep(points, run) {
   const bands = (low, high) => loads.map((load) => ({points: of(load, "up").map((point) => [point.voltage, point[low], point[high]]), colour: colourOf(load)}));
   const limits = (areas, lines, more) => limitsOf(areas.flatMap((area) => area.points.flatMap((point) => point.slice(1)))
     .concat(lines.flatMap((line) => line.points.map((point) => point[1])), more), true);
-  const pullIn = run.pull_in !== null && run.pull_in <= 1.2 * highest ? [{x: run.pull_in, colour: "#a8adb8", dash: "9 4 2 4"}] : [];
+  const pullIn = run.pull_in !== null && run.pull_in <= 1.2 * highest ? [{x: run.pull_in, colour: "var(--quiet)", dash: "9 4 2 4"}] : [];
 
   const [factor, unit] = Math.max(...points.map((point) => point.area || 0)) < 1e-14 ? [1e18, "nm\u00b2"] : [1e12, "\u00b5m\u00b2"];
   const areas = loops((point) => point.area === null ? null : point.area * factor);
@@ -54,13 +54,13 @@ function drawSweep(points, run) {
     const free = loads.map((load) => ({points: of(load, "up").map((point) => [point.voltage, point.margin]), colour: colourOf(load), dash: "2 4", width: 2}));
     const marginBands = bands("lower", "upper");
     drawChart(byId("sweep-margin"), {x, y: Object.assign({label: "margin"}, limits(marginBands, held.concat(free), [1])), areas: marginBands, lines: held.concat(free),
-      marks: marks(held), levels: [{y: 1, colour: "#ff5a4f"}],
+      marks: marks(held), levels: [{y: 1, colour: "var(--bad)"}],
       uprights: pullIn.concat(run.safe.filter((one) => one.voltage !== null).map((one) => ({x: one.voltage, colour: colourOf(one.load), dash: "2 4"})))});
   }
   fillKeys("sweep-keys", loads.map((load) => [colourOf(load), "solid", `pressed with ${of(load, "up").concat(of(load, "down"))[0].load_text}`]),
-           [["#f2f2f2", "solid", "voltage up"], ["#f2f2f2", "dashed", "voltage down"]],
-           hasMargin ? [["#f2f2f2", "dotted", "margin once the load is gone; line: while it holds"], ["#ff5a4f", "dashed", "1: stays closed below"]] : [],
-           pullIn.length ? [["#a8adb8", "dashed", "upright: pull-in"]] : [],
+           [["var(--text)", "solid", "voltage up"], ["var(--text)", "dashed", "voltage down"]],
+           hasMargin ? [["var(--text)", "dotted", "margin once the load is gone; line: while it holds"], ["var(--bad)", "dashed", "1: stays closed below"]] : [],
+           pullIn.length ? [["var(--quiet)", "dashed", "upright: pull-in"]] : [],
            hasMargin ? run.safe.map((one) => [colourOf(one.load), "dotted", `${run.safe.length > 1 ? `pressed with ${one.load_text}: ` : ""}${one.words}`]) : []);
   fillList("sweep-jumps", run.jumps.map((jump) => `${jump.number}  ${jump.words}`));
 }
@@ -74,8 +74,8 @@ function drawCycles(points) {
     x: {label: "number of the contact", low: 0.5, high: Math.max(last, 5) + 0.5, whole: true},
     y: Object.assign(value === "margin" ? {label: "margin, dots: 95 %"} : {label: "pull-off", unit: "N"},
                      limitsOf(shown.concat(lower).map((point) => point[1]).concat(value === "margin" ? [1] : []), true)),
-    lines: [{points: shown, colour: "#7fb2ff", width: 2.5}, {points: lower, colour: "#7fb2ff", width: 2, dash: "2 5"}],
-    levels: value === "margin" ? [{y: 1, colour: "#ff5a4f"}] : [],
+    lines: [{points: shown, colour: "var(--line)", width: 2.5}, {points: lower, colour: "var(--line)", width: 2, dash: "2 5"}],
+    levels: value === "margin" ? [{y: 1, colour: "var(--bad)"}] : [],
   });
 }
 

@@ -60,7 +60,11 @@ function fillFigureButtons(figure) {
       return button;
     }));
   }
-  for (const button of box.children) button.classList.toggle("chosen", button.dataset.figure === figure.name);
+  for (const button of box.children) {
+    const isChosen = button.dataset.figure === figure.name;
+    button.classList.toggle("chosen", isChosen);
+    button.setAttribute("aria-pressed", String(isChosen));
+  }
 }
 
 /** 0 at the low end of the colours, 1 at the high one; an infinite value (null with a text) is there, too. */
@@ -82,7 +86,7 @@ function cardOf(wafer, number, figure) {
   const known = places.filter((place) => place.texts[figure.name] !== null);
   const missing = places.length - known.length + wafer.missing.length;
   const card = document.createElement("div");
-  const [heading, words, svg] = [document.createElement("h3"), document.createElement("p"), element("svg", {class: "wafer-map"})];
+  const [heading, words, svg] = [document.createElement("h3"), document.createElement("p"), element("svg", {class: "wafer-map", role: "img", "aria-label": `map of ${wafer.name} by ${figure.label}`})];
   heading.textContent = wafer.name;
   words.textContent = [`${known.length} place${known.length === 1 ? "" : "s"}`, missing && `${missing} missing`, `${wafer.bad[figure.name].length} bad`].filter(Boolean).join(", ");
   card.append(heading, words, svg, ...wafer.bad[figure.name].slice(0, 4).map((text) => {
@@ -170,7 +174,7 @@ function drawWaferBar(figure) {
   for (const tick of ticks) {
     const x = left + long * shareOf(tick * factor, figure);
     const text = element("text", {x, y: 38, "text-anchor": "middle"}, shortNumber(tick));
-    bar.append(element("line", {x1: x, x2: x, y1: 16, y2: 22, stroke: "#a8adb8"}), text);
+    bar.append(element("line", {x1: x, x2: x, y1: 16, y2: 22, stroke: "var(--quiet)"}), text);
     const half = text.getComputedTextLength() / 2;
     text.setAttribute("x", Math.max(x, half + 1));
   }
@@ -178,6 +182,7 @@ function drawWaferBar(figure) {
 
 // ---------------------------------------------------------------- parts side by side
 
+const UNIT_COLUMNS = ["part", "places", "median (middle half)", "each place", "sticks"];
 const unitOrder = (a, b) => a.name.localeCompare(b.name, undefined, {numeric: true});
 
 function drawUnits(figure) {
@@ -192,12 +197,13 @@ function drawUnits(figure) {
     const of = part.figures[figure.name];
     const row = document.createElement("tr");
     for (const text of [part.name, of.count === part.places ? String(of.count) : `${of.count} of ${part.places}`, of.text]) row.insertCell().textContent = text;
-    const strip = element("svg", {class: "strip"});
+    const strip = element("svg", {class: "strip", role: "img", "aria-label": `each place of ${part.name}`});
     row.insertCell().append(strip);
     const [level, text] = verdictOf(part);
     const cell = row.insertCell();
     cell.className = level;
     cell.textContent = text;
+    [...row.cells].forEach((one, column) => { one.dataset.label = UNIT_COLUMNS[column]; });
     return [row, () => drawStrip(strip, ofUnits.filter((place) => place.part === part.number), of.median, figure, limits, isReleasing)];
   });
   byId("units").replaceChildren(...rows.map(([row]) => row));
@@ -226,12 +232,12 @@ function drawStrip(svg, places, median, figure, limits, isReleasing) {
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   const of = limits.log ? Math.log : (value) => value;
   const at = (value) => 5 + (width - 10) * (of(value) - of(limits.low)) / (of(limits.high) - of(limits.low));
-  svg.append(element("line", {x1: 5, x2: width - 5, y1: height / 2, y2: height / 2, stroke: "#3a3f4a"}));
-  if (isReleasing) svg.append(element("line", {x1: at(1), x2: at(1), y1: 0, y2: height, stroke: "#ff5a4f", "stroke-width": 2, "stroke-dasharray": "4 3"}));
+  svg.append(element("line", {x1: 5, x2: width - 5, y1: height / 2, y2: height / 2, stroke: "var(--grid)"}));
+  if (isReleasing) svg.append(element("line", {x1: at(1), x2: at(1), y1: 0, y2: height, stroke: "var(--bad)", "stroke-width": 2, "stroke-dasharray": "4 3"}));
   for (const place of places) {
-    const mark = element("circle", {cx: at(place.values[figure.name]), cy: height / 2, r: 4, fill: "#7fb2ff", "fill-opacity": 0.6});
+    const mark = element("circle", {cx: at(place.values[figure.name]), cy: height / 2, r: 4, fill: "var(--line)", "fill-opacity": 0.6});
     mark.append(element("title", {}, `${place.name}: ${place.texts[figure.name]}`));
     svg.append(mark);
   }
-  if (median !== null) svg.append(element("line", {x1: at(median), x2: at(median), y1: 3, y2: height - 3, stroke: "#f2f2f2", "stroke-width": 3}));
+  if (median !== null) svg.append(element("line", {x1: at(median), x2: at(median), y1: 3, y2: height - 3, stroke: "var(--text)", "stroke-width": 3}));
 }
