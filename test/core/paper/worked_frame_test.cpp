@@ -26,10 +26,7 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
   return line;
 }
 
-/// A gap in nanometres, a dash where there is no neighbour.
-std::string nanometres(double gap) {
-  return gap < GapField::kInvalidGap ? format("%3.1f", gap * 1e9) : "  -";
-}
+std::string nanometres(double gap) { return format("%3.1f", gap * 1e9); }
 
 std::string letter(std::int32_t dale) { return {static_cast<char>('A' + dale)}; }
 
@@ -84,25 +81,6 @@ TEST_F(WorkedFrame, HasTheGroupsAndDalesOfThePage) {
         "\n";
   }
   documents::expectUpToDate(kPage, "frame", fenced(text));
-}
-
-TEST_F(WorkedFrame, HasTheOrderAndSurroundingsOfThePage) {
-  std::string text =
-      "place  group  cell    gap   left  right  above  below  dale  touches another dale\n";
-  for (int place = 0; place < field_.validCount(); ++place) {
-    const OrderedCell& cell = order_.cells()[static_cast<std::size_t>(place)];
-    const CellSurroundings around = surroundings(place);
-    ASSERT_EQ(around.cell, cell.cell);
-    text += withoutTrailingSpaces(format(
-                "%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place,
-                order_.groupOfPlace(place), cell.cell / field_.cols(), cell.cell % field_.cols(),
-                nanometres(cell.gap).c_str(), nanometres(around.gaps[kLeft]).c_str(),
-                nanometres(around.gaps[kRight]).c_str(), nanometres(around.gaps[kTop]).c_str(),
-                nanometres(around.gaps[kBottom]).c_str(), letter(around.dale()).c_str(),
-                around.isBorder() ? "yes" : "")) +
-            "\n";
-  }
-  documents::expectUpToDate(kPage, "surroundings", fenced(text));
 }
 
 TEST_F(WorkedFrame, HasThePatchesOfThePage) {
