@@ -13,39 +13,32 @@ namespace {
 constexpr const char* kProperties =
     "\n## Properties of every prediction\n\n"
     "test/property checks these on random rough surfaces, materials and loads (RapidCheck; a fixed "
-    "seed, others by\n"
-    "`RC_PARAMS=\"seed=42 max_success=5000\"`):\n\n"
+    "seed,\n"
+    "others by `RC_PARAMS=\"seed=42 max_success=5000\"`):\n\n"
     "- If lengths are multiplied by c and stiffnesses by s, then areas grow by c^2, forces by s "
-    "c^2, energies by s "
-    "c^3.\n"
+    "c^2,\n"
+    "  energies by s c^3.\n"
     "- Nothing changes if the frame is turned or flipped, gets a border of invalid pixels, or the "
-    "bodies are "
-    "exchanged\n"
-    "  or moved along z.\n"
-    "- Two tiles of a scan under twice the load have twice its force.\n"
+    "bodies\n"
+    "  are exchanged or moved along z. Two tiles of a scan under twice the load have twice its "
+    "force.\n"
     "- With more work of adhesion the contact is never smaller.\n"
     "- F_w and F_e are the sums over cells. The contacts share the load, the area and the pull-off "
     "force.\n"
     "- Only cells that touched are lower afterwards. The hardness determines how both bodies share "
-    "the volume.\n"
+    "the\n"
+    "  volume.\n"
     "- A second, slow algorithm, which labels the frame at each step, finds the same state.\n\n"
-    "Two plausible properties have exceptions, which belong to the model:\n\n"
-    "- *More work of adhesion gives more force.* The pull-off force is 3/2 pi w times the sum of "
-    "radii. Where "
-    "contacts\n"
-    "  merge, or a contact of few pixels grows by one, that sum may fall faster than w rises: on 2 "
-    "of 1000 small "
+    "Two plausible properties have exceptions in the paper's model. *More work of adhesion gives "
+    "more\n"
+    "force*: where contacts merge, the sum of radii may fall faster than w rises (2 of 1000 small "
     "random\n"
-    "  frames at 1.5 times the work of adhesion, never for six surfaces together.\n"
-    "- *More load gives more area.* The generalised force of an asperity grows with its load P0 up "
-    "to JKR's apparent\n"
-    "  load P1 of its radius. An asperity that (6) loads beyond P1 resists more, and a larger load "
-    "may then rest on\n"
-    "  less area: on 3 of 10000 frames, all with such an asperity.\n";
+    "frames at 1.5 times the work of adhesion). *More load gives more area*: an asperity that (6) "
+    "loads\n"
+    "beyond JKR's apparent load of its radius resists more (3 of 10000 frames).\n";
 
-/// Of the page's tables, and what marks a row that is out.
-constexpr const char* kHeader =
-    "| reference | rows | nearest to its limit | error | allowed | lowest order |\n";
+/// Of the page's table, and what marks a row that is out.
+constexpr const char* kHeader = "| | rows | references | nearest to its limit: error, allowed |\n";
 constexpr const char* kOutMark = "| **out:** ";
 /// Rows that differ by less agree but for round-off, of a few operations or of a sum.
 constexpr double kSumRoundOff = 1e-9;
@@ -145,86 +138,65 @@ bool isToTheDigit(const Row& row) {
   return !row.convergence && (is_round_off || isPublished(row));
 }
 
-/// Rows of a section with one reference.
-struct Group {
-  std::string source;
+/// Rows whose agreement something limits.
+std::vector<const Row*> limitedRows(const Section& section) {
   std::vector<const Row*> rows;
-
-  /// The row whose error is the largest share of what is allowed.
-  const Row& nearest() const {
-    const auto share = [](const Row* row) {
-      return row->tolerance > 0.0 ? row->error() / row->tolerance : row->error();
-    };
-    return **std::max_element(rows.begin(), rows.end(), [&](const Row* one, const Row* other) {
-      return share(one) < share(other);
-    });
-  }
-
-  /// Of the row that converges slowest; empty where no row has a grid.
-  std::string lowestOrder() const {
-    const Row* lowest = nullptr;
-    for (const Row* row : rows) {
-      const bool is_lower =
-          row->convergence && (!lowest || row->convergence->order() < lowest->convergence->order());
-      if (is_lower) lowest = row;
-    }
-    return lowest ? orderText(*lowest) : "";
-  }
-};
-
-/// Rows whose agreement something limits, by reference, in the order of the section.
-std::vector<Group> groupsOf(const Section& section) {
-  std::vector<Group> groups;
   for (const Row& row : section.rows) {
-    if (!row.isWithin() || isToTheDigit(row)) continue;
-    auto found = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& g) { return g.source == row.source; });
-    if (found == groups.end()) found = groups.insert(groups.end(), Group{row.source, {}});
-    found->rows.push_back(&row);
+    if (row.isWithin() && !isToTheDigit(row)) rows.push_back(&row);
   }
-  return groups;
+  return rows;
 }
 
-/// "9 rows, of which 8 agree to round-off or to the published digits (sources)."
-std::string rowsText(const Section& section) {
+/// What a section is compared with beside closed forms that hold to round-off, each once.
+std::string sourcesOf(const Section& section) {
   std::vector<std::string> sources;
-  int to_the_digit = 0;
   for (const Row& row : section.rows) {
-    if (!row.isWithin() || !isToTheDigit(row)) continue;
-    ++to_the_digit;
+    const bool is_named = row.isWithin() && (isPublished(row) || !isToTheDigit(row));
     const bool is_new = std::find(sources.begin(), sources.end(), row.source) == sources.end();
-    if (isPublished(row) && is_new) sources.push_back(row.source);
+    if (is_named && is_new) sources.push_back(row.source);
   }
-  const int count = static_cast<int>(section.rows.size());
-  const std::string share =
-      to_the_digit == count ? "which all" : "of which " + std::to_string(to_the_digit);
-  std::string text = std::to_string(count) + " rows";
-  if (to_the_digit > 0) text += ", " + share + " agree to round-off";
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    text += (i == 0 ? " or to the published digits (" : "; ") + sources[i];
-  }
-  return text + (sources.empty() ? ".\n" : ").\n");
+  if (sources.empty()) return "closed forms";
+  std::string text;
+  for (const std::string& source : sources) text += (text.empty() ? "" : "; ") + source;
+  return text;
 }
 
-void writeRow(const char* begin, const std::string& source, const std::string& rows, const Row& row,
-              const std::string& order, std::ostringstream& page) {
-  page << begin << cell(source) << " | " << rows << " | " << cell(row.quantity) << " | "
-       << errorText(row.error()) << " | " << toleranceText(row) << " | " << order << " |\n";
+/// "title | rows | references", as referencesOfPage() reads it back.
+std::string referenceCells(const Section& section) {
+  return section.title + " | " + std::to_string(section.rows.size()) + " | " +
+         cell(sourcesOf(section));
+}
+
+std::string errorCell(const Row& row, const std::string& order) {
+  return errorText(row.error()) + ", " + toleranceText(row) +
+         (order.empty() ? "" : "; order " + order);
+}
+
+/// The row whose error is the largest share of what is allowed, with the order of the row that
+/// converges slowest.
+std::string nearestCell(const Section& section) {
+  const std::vector<const Row*> rows = limitedRows(section);
+  if (rows.empty()) return "round-off or published digits";
+  const auto share = [](const Row* row) {
+    return row->tolerance > 0.0 ? row->error() / row->tolerance : row->error();
+  };
+  const Row& nearest = **std::max_element(
+      rows.begin(), rows.end(),
+      [&](const Row* one, const Row* other) { return share(one) < share(other); });
+  const Row* slowest = nullptr;
+  for (const Row* row : rows) {
+    if (!row->convergence) continue;
+    if (!slowest || row->convergence->order() < slowest->convergence->order()) slowest = row;
+  }
+  return cell(nearest.quantity) + ": " + errorCell(nearest, slowest ? orderText(*slowest) : "");
 }
 
 void writeSection(const Section& section, std::ostringstream& page) {
-  const std::vector<Group> groups = groupsOf(section);
-  const bool has_out = std::any_of(section.rows.begin(), section.rows.end(),
-                                   [](const Row& row) { return !row.isWithin(); });
-  page << "\n## " << section.title << "\n\n" << rowsText(section);
-  if (groups.empty() && !has_out) return;
-  page << "\n" << kHeader << "|---|---|---|---|---|---|\n";
+  page << "| " << referenceCells(section) << " | " << nearestCell(section) << " |\n";
   for (const Row& row : section.rows) {
-    if (!row.isWithin()) writeRow(kOutMark, row.source, "1", row, orderText(row), page);
-  }
-  for (const Group& group : groups) {
-    writeRow("| ", group.source, std::to_string(group.rows.size()), group.nearest(),
-             group.lowestOrder(), page);
+    if (row.isWithin()) continue;
+    page << kOutMark << cell(row.quantity) << " | 1 | " << cell(row.source) << " | "
+         << errorCell(row, orderText(row)) << " |\n";
   }
 }
 
@@ -251,32 +223,22 @@ std::vector<std::string> rowNames(const std::vector<Section>& sections) {
 
 std::vector<std::string> referencesOf(const std::vector<Section>& sections) {
   std::vector<std::string> references;
-  for (const Section& section : sections) {
-    references.push_back(section.title + ": " + std::to_string(section.rows.size()) + " rows");
-    for (const Group& group : groupsOf(section))
-      references.push_back(section.title + ": " + cell(group.source));
-  }
+  for (const Section& section : sections) references.push_back(referenceCells(section));
   return references;
 }
 
 std::vector<std::string> referencesOfPage(const std::string& page) {
   std::vector<std::string> references;
   std::istringstream lines(page);
-  std::string title;
   bool is_table = false;
   for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("## ", 0) == 0) title = line.substr(3);
-    const std::size_t rows = line.find(" rows");
-    const bool is_count =
-        rows > 0 && rows != std::string::npos &&
-        std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(rows),
-                    [](char letter) { return letter >= '0' && letter <= '9'; });
-    if (is_count) references.push_back(title + ": " + line.substr(0, rows) + " rows");
-    is_table = line + "\n" == kHeader || (is_table && line.rfind("|", 0) == 0);
-    const bool is_row =
-        line.rfind("| ", 0) == 0 && line.rfind(kOutMark, 0) != 0 && line + "\n" != kHeader;
-    if (is_table && is_row)
-      references.push_back(title + ": " + line.substr(2, line.find(" | ", 2) - 2));
+    if (line + "\n" == kHeader) {
+      is_table = true;
+      continue;
+    }
+    is_table = is_table && line.rfind("|", 0) == 0;
+    if (is_table && line.rfind("| ", 0) == 0 && line.rfind(kOutMark, 0) != 0)
+      references.push_back(line.substr(2, line.rfind(" | ") - 2));
   }
   return references;
 }
@@ -317,19 +279,15 @@ std::string markdownPage(const std::vector<Section>& sections) {
           "number that it\n"
           "must give. References are published numbers, or closed forms and quadratures written "
           "separately in\n"
-          "test/verification. `scripts/verify` prints every row, writes this summary, and fails "
-          "when a row is\n"
-          "out.\n\n"
-          "- A table has one line for each reference. The line names the row whose error is "
-          "nearest to its\n"
-          "  limit. *error*: |computed/reference - 1|, or |computed| where the reference is 0. "
-          "`scripts/verify`\n"
-          "  prints the reason of each limit.\n"
-          "- *lowest order*: of the rows that depend on a grid, p in error ~ pitch^p. Their error "
-          "is that of the\n"
-          "  finest grid.\n"
-          "- A row is out if its error exceeds what is allowed, or if its order is too low.\n\n"
-       << "**" << countText(countRows(sections)) << ".**\n";
+          "test/verification. `scripts/verify` prints every row with the reason of its limit, "
+          "writes this\n"
+          "summary, and fails when a row is out: when its error exceeds what is allowed, or its "
+          "order is too\n"
+          "low. *error*: |computed/reference - 1|, or |computed| where the reference is 0; on the "
+          "finest grid.\n"
+          "*order*: the lowest p of the rows that depend on a grid, error ~ pitch^p.\n\n"
+       << "**" << countText(countRows(sections)) << ".**\n\n"
+       << kHeader << "|---|---|---|---|\n";
   for (const Section& section : sections) writeSection(section, page);
   page << kProperties;
   return page.str();

@@ -20,8 +20,8 @@ Count countRows(const std::vector<Section>& sections);
 /// "section: quantity" of every row, in order.
 std::vector<std::string> rowNames(const std::vector<Section>& sections);
 
-/// What a page must share with the program: the count of rows of each section, and the references
-/// of its table.
+/// What a page must share with the program: of each section its title, the count of its rows and
+/// its references.
 std::vector<std::string> referencesOf(const std::vector<Section>& sections);
 
 /// The same read back from a page of markdownPage().
@@ -30,7 +30,7 @@ std::vector<std::string> referencesOfPage(const std::string& page);
 /// Some 112 columns wide; ends with "N rows, N out".
 std::string terminalTable(const std::vector<Section>& sections);
 
-/// A line for each reference whose rows a grid, step or sample limits; the other rows are counted.
+/// A line for each section.
 std::string markdownPage(const std::vector<Section>& sections);
 
 }  // namespace verification
