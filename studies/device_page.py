@@ -50,10 +50,9 @@ def covered(row):
 def line(title, rows):
     found = logs(rows)
     shares = [
-        "%.0f %%" % (100 * np.mean(np.abs(found) <= math.log(limit)))
-        for limit in (1.3, 1.5, 2, 2.5)
+        "%.0f" % (100 * np.mean(np.abs(found) <= math.log(limit))) for limit in (1.3, 1.5, 2, 2.5)
     ]
-    return "| %s | %d | %.2f | %.2f | %s | %.0f %% | %.2g |" % (
+    return "| %s | %d | %.2f | %.2f | %s | %.0f | %.2g |" % (
         title,
         len(rows),
         math.exp(found.mean()),
@@ -217,10 +216,10 @@ def main():
         "Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and\nnumber (seed %s). Scans "
         "have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels of 80 "
         "nm. *Bias* is the geometric mean of the ratio to the force of the whole "
-        "surface,\n*spread* the standard deviation of its logarithm. The interval is that of the "
-        "scans alone, since\nconstants and model are the same on both sides; a star marks a kind "
-        "of which an interval misses the\ntruth. Surfaces that bond all over are left out: their "
-        "force is proportional to area.\n"
+        "surface,\n*spread* the standard deviation of its logarithm. Shares are in percent. The interval "
+        "is that of\nthe scans alone, since constants and model are the same on both sides; a star "
+        "marks a kind of which\nan interval misses the truth. Surfaces that bond all over are left "
+        "out.\n"
         % (
             sizes,
             len({(row["kind"], row["number"], row["seed"], row["side"]) for row in rows}),

@@ -137,7 +137,7 @@ def study(arguments):
 
 
 def within(ratios, factor):
-    return "%.1f %%" % (100 * np.mean(np.abs(np.log(ratios)) < np.log(factor)))
+    return "%.1f" % (100 * np.mean(np.abs(np.log(ratios)) < np.log(factor)))
 
 
 def row_of(name, lines):
@@ -155,7 +155,7 @@ def row_of(name, lines):
         "%.2f" % np.exp(np.abs(np.log(force)).max()),
         within(work, 1.2),
         within(area, 1.3),
-        "%.0f %%" % (100 * np.mean([bool(line["doubt"]) for line in lines])),
+        "%.0f" % (100 * np.mean([bool(line["doubt"]) for line in lines])),
     ]
     return "| " + " | ".join(cells) + " |"
 
@@ -171,7 +171,7 @@ def section_of(lines, arguments):
         "solved. Seeds %s; all kinds of `studies/trust_kinds.py` in turn. E* 10 to 200 GPa, "
         "hardness %g to %g GPa of both bodies or of one, %g to %g MPa. Both solvers flow. "
         "*By flow*: the half-space's force differs by more than %g with flow and without; there "
-        "its median is %.1f times that without."
+        "its median is %.1f times that without. Shares are in percent."
         % (
             len(lines),
             arguments.pixels,

@@ -31,17 +31,23 @@ OF_THE_MAP = (
     "100 GPa, works of adhesion of 5 to 150 mJ/m^2, Hamaker constants of 65 and 200 zJ."
 )
 SETS = (
-    "**Three sets.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9. They were "
-    "checked on those of 7 (168 frames each) and 14 to 17 (504 each). The flag was set on all of "
-    "these. This page uses seed 19, whose frames nobody had compared before; its 72 frames whose "
-    "texture changes from place to place (smooth places, changing) joined the page later. "
-    "`studies/trust --kinds --seed N` draws others. On seed 18 the area of small contacts was "
-    "judged, 90.7 % within 1.3 (87.9 % before). Its one missed force, 0.44, led to the doubt "
-    "about contacts where bonded surfaces have less energy. Seeds 5 to 9 and 14 to 18 together, "
-    "3,360 frames, with earlier rules for bonded surfaces: 32.5 % carry the flag. Of the others "
-    "99.3 % of the forces are within 1.3, the worst 1.54. With the flagged frames solved it is "
-    "99.55 % of all; the work is within 1.2 on 97.1 % (99.5 %), the area within 1.3 on 90.7 % "
-    "(94.4 %)."
+    "**Sets of frames.** Rules and interval were set on the frames of seeds 5, 6, 8 and 9, the "
+    "flag also on those of 7 and 14 to 17. This page uses seed 19, whose frames nobody had "
+    "compared before; its 72 frames whose texture changes from place to place (smooth places, "
+    "changing) joined the page later. `studies/trust --kinds --seed N` draws others. On seeds 5 to "
+    "9 and 14 to 18 together, 3,360 frames, with earlier rules for bonded surfaces, 32.5 % carry "
+    "the flag; of the others 99.3 % of the forces are within 1.3, the worst 1.54."
+)
+INTERVAL = (
+    "The margin's interval contains the error of the model beside that of the constants "
+    "(`uncertainty/...`): a standard deviation of the logarithm, without a doubt and with one. "
+    "It holds for flattening ratios up to 1; above, it falls with the power %s of that ratio. "
+    "It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of them lie "
+    "within 1.96 times it. *Covered*: share of this page's frames whose deviation lies within the "
+    "model's part of the 95 %% interval. On the easier frames of this map the interval is wide."
+)
+INTERVAL_OF_PROCESSES = (
+    "As on the [map](trust.md#the-interval-of-the-margin), for this page's frames."
 )
 CONSTANTS = (
     pathlib.Path(__file__).resolve().parents[1] / "src" / "separation" / "chosen_constants.hpp"
@@ -155,7 +161,7 @@ def share_within(logs, limit):
     if not logs.size:
         return ""
     percent = 100 * np.mean(np.abs(logs) < math.log(limit))
-    return ("%.1f %%" if 99.0 <= percent < 100.0 else "%.0f %%") % percent
+    return ("%.1f" if 99.0 <= percent < 100.0 else "%.0f") % percent
 
 
 def kind_rows(frames, kinds):
@@ -175,7 +181,7 @@ def kind_rows(frames, kinds):
         is_solved = np.array([is_doubted(frame) for frame in of_kind])
         judged = [np.where(is_solved, 0.0, logs) for logs in (force, of_work, of_area)]
         lines.append(
-            "| %s | %d | %s | %s | %s | %s | %.0f %% | %s | %s |"
+            "| %s | %d | %s | %s | %s | %s | %.0f | %s | %s |"
             % (
                 kind or "all",
                 len(of_kind),
@@ -215,9 +221,7 @@ def coverage_rows(frames):
             reach = np.array([reach_of(frame, i) for frame in some])
             known = np.isfinite(logs)
             cells.append(
-                "%.0f %%" % (100 * np.mean(np.abs(logs[known]) <= reach[known]))
-                if known.any()
-                else ""
+                "%.0f" % (100 * np.mean(np.abs(logs[known]) <= reach[known])) if known.any() else ""
             )
         return tuple(cells)
 
@@ -325,7 +329,7 @@ def page(lines, figure):
         "cohesive length E z0^2/Gamma on %d of these, and only those "
         "count." % (len(solved), len(resolved)),
         "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* "
-        "the standard deviation of their logarithm.",
+        "the standard deviation of their logarithm. Shares of frames are in percent.",
         "",
         "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name,
         "",
@@ -398,22 +402,19 @@ def page(lines, figure):
         ),
     ]
     text += table("pull-off force, by [flags](validity.md#the-flags)", rows)
-    text += [
-        "The contact area counts cells that repel each other, so a pixel more or less at each rim "
-        "changes it. Frames that are not resolved show the effect of the grid on the half-space, "
-        "not the error of the curve.",
-        "",
-    ]
+    if not is_of_processes:
+        text += [
+            "The contact area counts cells that repel each other, so a pixel more or less at each "
+            "rim changes it. Frames that are not resolved show the effect of the grid on the "
+            "half-space, not the error of the curve.",
+            "",
+        ]
     text += [
         "## The interval of the margin",
         "",
-        "The margin's interval contains the error of the model beside that of the constants "
-        "(`uncertainty/...`): a standard deviation of the logarithm, without a doubt and with one. "
-        "It holds for flattening ratios up to 1; above, it falls with the power %s of that ratio. "
-        "It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of them lie "
-        "within 1.96 times it. On the easier frames of the map it is wide. *Covered*: share of "
-        "this page's frames whose deviation lies within the model's part of the 95 %% interval."
-        % fractions.Fraction(error_power()).limit_denominator(100),
+        INTERVAL_OF_PROCESSES
+        if is_of_processes
+        else INTERVAL % fractions.Fraction(error_power()).limit_denominator(100),
         "",
     ]
     text += coverage_rows(resolved)

@@ -223,9 +223,10 @@ class TrustTest(unittest.TestCase):
                     r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % group, table, re.MULTILINE
                 ).groups()
                 self.assertEqual(tuple(map(float, of_page)), errors, name)
-            self.assertIn(
-                "with the power 1/%.0f of that ratio" % (1 / trust_page.error_power()), table
-            )
+            if name == "trust.md":  # the other page refers to it
+                self.assertIn(
+                    "with the power 1/%.0f of that ratio" % (1 / trust_page.error_power()), table
+                )
 
     def test_the_flag_catches(self):
         # what the pages promise: without the flag 99 % are within 1.3, none beyond 1.6, and a third
@@ -234,7 +235,7 @@ class TrustTest(unittest.TestCase):
             page = (REPOSITORY / "doc" / name).read_text(encoding="utf-8")
             rows = {
                 title: re.search(
-                    r"^\| %s \| (\d+) \|.* ([\d.]+) %% \| (\S+) \|$" % title, page, re.MULTILINE
+                    r"^\| %s \| (\d+) \|.* ([\d.]+) \| (\S+) \|$" % title, page, re.MULTILINE
                 ).groups()
                 for title in ("without NEAR_BONDING", "NEAR_BONDING")
             }
@@ -242,7 +243,7 @@ class TrustTest(unittest.TestCase):
             self.assertGreaterEqual(float(within), 99.0, name)
             self.assertLess(float(worst), 1.6, name)
             judged = re.search(
-                r"^\| all \| \d+ \|.* \| ([\d.]+) % \| ([\d.]+) % \| ([\d.]+) % \|$",
+                r"^\| all \| \d+ \| \d+ \|.* \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$",
                 page,
                 re.MULTILINE,
             ).groups()
