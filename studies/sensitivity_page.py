@@ -28,77 +28,61 @@ QUANTITIES = (
 FEWEST_CONTACTS = 10  # as FLAG_FEW_CONTACTS has it
 UNTOUCHED = 5e-5  # smaller changes print as 0.0 %
 
-# What a setting is; why its default is what it is; what else there is to say. Numbers come from the
-# study.
+# Why a setting's default is what it is; what else there is to say. Numbers come from the study.
+PITCH = (
+    "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` "
+    "makes them. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
+    "With coarser pixels the pull-off force is lost first, then the contact area, then the "
+    "mean gap: radii need pixels. Aim at {min_contact_pixels:g} pixels in the median "
+    "contact, below which `is_resolution_limited` is set.",
+)
 SETTINGS = {
-    "pitch": (
-        "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` "
-        "makes them. It is no setting: the scan brings it. *refined by N*: coarse pixels, then "
-        "`preprocessing/refine/factor: N`.",
-        "",
-        "With coarser pixels the pull-off force is lost first, then the contact area, then the "
-        "mean gap: radii need pixels. Aim at {min_contact_pixels:g} pixels in the median "
-        "contact, below which `is_resolution_limited` is set.",
-    ),
     "paper/step": (
-        "Approach per step; sigma is the composite rms height.",
         "Shorter steps agree well within the scan-to-scan spread; longer ones can miss the rest.",
-        "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep "
-        "in contact; `paper/step` is that of `formulation: paper`.",
+        "of `formulation: paper`; the separation curve chooses its own steps, a tenth of z0 and "
+        "more where the surfaces are deep in contact.",
     ),
     "approach/max_steps": (
-        "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
         "Far above what a scan needs: it only ends searches with a mistyped step.",
         "",
     ),
     "approach/connectivity": (
-        "Whether cells that meet at a corner belong to one contact (8) or not (4).",
         'The stricter reading of "connected"; hardly matters.',
-        "Only contacts of few pixels differ.",
+        "only contacts of few pixels differ.",
     ),
     "approach/max_contact_fraction": (
-        "Contact fraction from which on the surfaces count as bonded.",
         "Matters only [near bonding](#near-bonding), where it separates surfaces that rest from "
         "surfaces that have closed.",
         "",
     ),
     "paper/cutoff_distance": (
-        "The smallest distance D0 [m] in van der Waals sums.",
         "The usual value; the others tried are also in use.",
-        "The separation curve does not use it: its attraction starts at z0 = sqrt(H/(16 pi Gamma)) "
-        "and sums to Gamma. Under `formulation: paper` it moves the pull-off force more than all "
-        "other settings together.",
+        "the separation curve does not use it. Under `formulation: paper` it moves the pull-off "
+        "force more than all other settings together.",
     ),
     "interface/equilibrium_distance": (
-        "z0 [m] of Tabor's parameter under `formulation: paper`, and of the law where the Hamaker "
-        "constant is 0.",
         "Middle of the values in use; the separation curve derives z0 from Hamaker constant and "
         "work of adhesion.",
         "",
     ),
     "preprocessing/refine/factor": (
-        "Pixels per pixel, interpolated.",
         "Off: it adds no information, costs its square in time, and fine scans do not need it.",
-        "It moves the result about as far as a scan of half the pitch. It helps where contacts span"
-        " some 6 pixels (see *pitch*: it narrows the scatter). At 2 to 4 pixels it makes contacts "
+        "moves the result about as far as a scan of half the pitch. It helps where contacts span "
+        "some 6 pixels (see *pitch*: it narrows the scatter). At 2 to 4 pixels it makes contacts "
         "too round and forces too large.",
     ),
     "preprocessing/refine/interpolation": (
-        "How refinement draws between pixels, both with factor 2.",
         "Both agree within the scan-to-scan spread; cubic has no ripples beside steps.",
         "",
     ),
     "approach/formulation": (
-        "The separation curve; what the paper's authors compute, roots and exponents restored; or "
-        "their print to the letter.",
         "A choice of model, not of digits: [theory](theory.md#what-differs-from-the-printed-paper) "
         "gives the reasons.",
         "",
     ),
     "approach/deformation": (
-        "Elastic, elasto-plastic and plastic asperities, or all of them elastic.",
         "A choice of model too: real surfaces flow.",
-        "It matters where Hertz's largest pressure exceeds the hardness; under `formulation: "
+        "matters where Hertz's largest pressure exceeds the hardness; under `formulation: "
         "paper` wherever the plasticity index is above 0.6.",
     ),
 }
@@ -268,7 +252,7 @@ def defaults_table(study):
                 percent(study.largest_shift(key, "pull_off_force")),
                 percent(study.largest_shift(key, "contact_area")),
                 percent(study.largest_shift(key, "mean_gap")),
-                SETTINGS[key][1],
+                SETTINGS[key][0],
             ]
         )
     intervals = [
@@ -298,8 +282,8 @@ def defaults_table(study):
 
 
 def shift_titles(study):
-    return ["pull-off force of %s [%%]" % surface.name for surface in study.surfaces] + [
-        "largest mean shift of the contact area [%]"
+    return ["force of %s [%%]" % surface.name for surface in study.surfaces] + [
+        "contact area, largest mean shift [%]"
     ]
 
 
@@ -316,11 +300,10 @@ def shifts_of(study, cases):
     ] + [percent(max(areas, key=abs))]
 
 
-def setting_section(study, key):
-    what, _, more = SETTINGS[key]
-    lines = ["### %s" % ("pitch" if key == "pitch" else "`%s`" % key), "", what, ""]
-    rows = []
-    unmoved = []
+def moved_by(study, key):
+    """The rows of a key's values, each with its label first, and the labels of those that move
+    nothing."""
+    rows, unmoved = [], []
     for cases in study.cases(key):
         if cases[0]["is_default"]:
             continue
@@ -340,13 +323,28 @@ def setting_section(study, key):
                 [label + (" (%s)" % ", ".join(statuses) if statuses else "")]
                 + shifts_of(study, cases)
             )
-    if rows:
-        lines += table(["value"] + shift_titles(study), rows)
+    return rows, unmoved
+
+
+def pitch_section(study):
+    rows, _ = moved_by(study, "pitch")
+    lines = ["### pitch", "", PITCH[0], ""] + table(["value"] + shift_titles(study), rows)
+    return lines + [PITCH[1].format(**study.record), ""]
+
+
+def settings_section(study):
+    rows, unmoved, notes = [], [], []
+    for key in settings_of(study):
+        moved, still = moved_by(study, key)
+        rows += [["`%s`" % key] + row for row in moved]
+        if still:
+            unmoved.append("`%s` of %s" % (key, ", ".join(still)))
+        if SETTINGS[key][1]:
+            notes.append("- `%s`: %s" % (key, SETTINGS[key][1]))
+    lines = ["### settings", ""] + table(["setting", "value"] + shift_titles(study), rows)
     if unmoved:
-        lines += ["Nothing moves with %s." % ", ".join(unmoved), ""]
-    if more:
-        lines += [more.format(**study.record), ""]
-    return lines
+        lines += ["Nothing moves with %s." % "; ".join(unmoved), ""]
+    return lines + notes + [""]
 
 
 def yardstick_table(study):
@@ -368,13 +366,7 @@ def near_bonding_table(study):
             "%.2g" % statistics.mean(outcome["pull_off_force"] for outcome in surface.default),
         ]
         for case in surface.cases:
-            row.append(
-                "%d of %d"
-                % (
-                    sum(outcome["status"] == "BONDED" for outcome in case["outcomes"]),
-                    len(case["outcomes"]),
-                )
-            )
+            row.append("%d" % sum(outcome["status"] == "BONDED" for outcome in case["outcomes"]))
         resting = [
             outcome["contact_fraction"]
             for outcome in surface.cases[-1]["outcomes"]
@@ -384,7 +376,8 @@ def near_bonding_table(study):
         rows.append(row)
     return table(
         ["rms height", "pull-off force [N]"]
-        + ["bonded, limit %s" % limit for limit in limits]
+        + ["bonded of %d, limit %s" % (len(surfaces[0].default), limits[0])]
+        + limits[1:]
         + ["contact fractions at rest, limit 1"],
         rows,
     )
@@ -545,8 +538,7 @@ def page(study, figure, is_generated):
     ]
     lines += defaults_table(study)
     lines += ["## Setting by setting", ""]
-    for key in ["pitch"] + settings_of(study):
-        lines += setting_section(study, key)
+    lines += pitch_section(study) + settings_section(study)
     lines += [
         "## Near bonding",
         "",
