@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         predict_many,
         predict_under,
     )
+    from mems_stiction._profile import surface_of_profile
     from mems_stiction._scans import (
         Cleaned,
         Roughness,
@@ -66,6 +67,7 @@ _MODULES = {
         "predict_many",
         "predict_under",
     ),
+    "_profile": ("surface_of_profile",),
     "_scans": (
         "Cleaned",
         "Roughness",
@@ -120,6 +122,7 @@ __all__ = [
     "predict_under",
     "read",
     "roughness",
+    "surface_of_profile",
     "sweep_loads",
 ]
 

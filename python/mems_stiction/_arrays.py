@@ -162,8 +162,8 @@ def pitch_of(pitch: Pitch) -> Tuple[float, float]:
 
 def _shape_text(array: np.ndarray, what: str) -> str:
     line = (
-        "; one line says nothing of the contacts beside it: of a surface of grooves, repeat the "
-        "line as the rows of an array"
+        "; one line says nothing of the contacts beside it: surface_of_profile() makes grooves or "
+        "a random surface of it"
         if array.ndim == 1 or array.ndim == 2 and 1 in array.shape
         else ""
     )

@@ -28,7 +28,8 @@ constexpr int kLeastSteady = 5;       // the same for steps of any size
 constexpr double kEqualStep = 0.05;   // of the step: printed coordinates are rounded
 constexpr double kExactStep = 0.001;  // of the step: few numbers must fit better
 constexpr const char* kAreaNeeded =
-    ": export a scan of an area, as a matrix or as a list of x, y and z";
+    ": export a scan of an area, as a matrix or as a list of x, y and z; the program "
+    "profile_surface makes a surface of a profile";
 
 /// Numbers from `first` on in equal steps that are not zero.
 bool isSteady(const cv::Mat& line, int first, double tolerance) {
