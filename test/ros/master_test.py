@@ -50,6 +50,18 @@ def launch_node():
     )
 
 
+def wait_for_bond():
+    """Until the program that loaded the nodelet and the manager hear each other. Without a master
+    they would not find each other any more, and the manager would unload the nodelet."""
+    statuses = Collector(PROCESS + "/bond", rospy.AnyMsg)
+
+    def speakers():
+        names = [message._connection_header["callerid"] for message in statuses.messages]
+        return [name for name in set(names) if names.count(name) > 2]
+
+    wait_until(lambda: len(speakers()) == 2, "the bond of loader and manager")
+
+
 def services_of(process):
     return sorted(
         name
@@ -170,6 +182,8 @@ class MasterTest(unittest.TestCase):
         # A service answers only once the node has started: before its first regular look at the
         # master.
         self.assertTrue(rospy.ServiceProxy("/stiction_node/set_load", SetLoad)(2.0, LOAD).success)
+        if NODELET:
+            wait_for_bond()
         services = services_of(PROCESS)
         self.assertIn("/stiction_node/get_load", services)
         self.roscore.kill()
