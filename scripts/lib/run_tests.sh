@@ -21,12 +21,12 @@ timed() {
 showTimes() { printf '%s\n' ${step_times[@]+"${step_times[@]}"}; }
 
 # runTests [CTEST_ARGUMENT...]: all tests of ctest that these choose, side by side. Those that compute take two slots, those that
-# wait one. Two slots a processor left it idle for a sixth of the time, so it has three. What took longest in the last run
+# wait one. Three slots a processor left it idle for an eighth of the time, so it has four. What took longest in the last run
 # begins first.
 runTests() {
   cd "$build_folder" || return 1
   rm -rf test_results
-  ctest -j $((3 * $(nproc))) --output-on-failure --output-junit "$results/ctest.xml" "$@" >"$test_log" 2>&1 || true
+  ctest -j $((4 * $(nproc))) --output-on-failure --output-junit "$results/ctest.xml" "$@" >"$test_log" 2>&1 || true
   [ -d test_results ] && mv test_results "$results/cases"
 }
 
