@@ -2,7 +2,7 @@
 units.
 
 Whichever model a curve is of, its file has the columns height [m], force [N] (positive attracts)
-and direction (APPROACH, RETRACTION), in any order, the points of each way in the order in which
+and direction (APPROACH, RETRACTION), in any order, the points of each direction in the order in which
 they were met. It may have those of provenance.py; other columns are left out.
 """
 

@@ -337,7 +337,7 @@ def device_of(device):
 
 
 def curve_of(prediction):
-    """Force over displacement past first touch: way in, way out where it is another; the pull-off
+    """Force over displacement past first touch: approach, retraction where it differs; the pull-off
     force where it is largest."""
     drawn = [
         point

@@ -1,4 +1,4 @@
-"""Where a load sweep jumps, and why: what changes by leaps between two neighbouring voltages, in
+"""Where a load sweep jumps, and why: what jumps between two neighbouring voltages, in
 words."""
 
 import math

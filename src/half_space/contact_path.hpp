@@ -136,7 +136,7 @@ class ContactPath {
   /// seventh more time on the loading branch and a tenth on the unloading branch of frames that
   /// jump, and are no nearer to finer steps; kPassing all the loading branch takes a tenth more on
   /// frames that do not jump; 1000 in place of 300, or 300 behind jumps, puts 1 % of the areas and
-  /// forces out, and near rest stiffnesses by up to 13 %; 100 on the way out 1 to 2 % of the works,
+  /// forces out, and near rest stiffnesses by up to 13 %; 100 on retraction 1 to 2 % of the works,
   /// and states like kSummit over the small steps that meet a jump 8 % of the forces.
   static constexpr Accuracy kPassingIn{300.0, 0.05};
   static constexpr Accuracy kPassing{100.0, 0.01};

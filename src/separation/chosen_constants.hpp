@@ -17,13 +17,13 @@ namespace chosen {
 
 // ---------------------------------------------------------------- contacts
 
-/// What a bent summit loses where its neighbours hold on, of what it loses alone, (S7) [-]. Set on
+/// What a bent summit loses while its neighbours hold, of what it loses alone, (S7) [-]. Set on
 /// frames beside the map's. Without company (1): map -0.4, -0.3; others -1.9, -0.3; brittle -1.7,
 /// -0.8
 constexpr double kLossInCompany = 0.6;
 
 /// Tabor's parameter up to which a summit lets go where it would touch, (S8a): the law's own range
-/// does as much. Set on the map and others. Without, nothing holds on: map -1.4, -0.7; others -2.9,
+/// does as much. Set on the map and others. Without (S8a): map -1.4, -0.7; others -2.9,
 /// -0.8; brittle -7.5, -3.3
 constexpr double kStiffTabor = 0.5;
 

@@ -91,7 +91,7 @@ class ContactCurve {
   /// - @p gaps that takeContacts() has summed
   void growTo(double load, double gaps);
   /// Where the unloading branch is another than the loading branch: of surfaces that have flowed,
-  /// or with soft summits, which hold on.
+  /// or with soft summits, which let go later (adhesive hysteresis).
   void followChanged(const Way& way);
 
   FrameSums frame_;

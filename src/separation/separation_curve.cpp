@@ -75,8 +75,8 @@ double positivePart(double from, double to, double length) {
   return 0.5 * positive * length * positive / std::abs(from - to);
 }
 
-/// What adhesion gives at most: summits that hold on while rubber is drawn out do not give more
-/// [J].
+/// What adhesion gives at most: summits that stay in contact while they are drawn out do not give
+/// more [J].
 double mostAdhesion(const FrameSums& frame) { return frame.law().workOfAdhesion() * frame.area(); }
 
 /// Integrals along the states; the part before the first one by its energies.

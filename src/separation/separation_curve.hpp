@@ -98,7 +98,7 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
 /// rest without a load.
 bool hangsOnWhatIsCarried(const SeparationCurve& curve);
 
-/// The unloading branch from the rest of a loading branch: summits that were soft there hold on.
+/// The unloading branch from the rest of a loading branch, with adhesive hysteresis, (S8a).
 Way unloadingOf(const SeparationCurve& loading, double range);
 /// Follows the curve outwards: states by ascending approach up to rest.
 /// - @p first_touch approach at which the surfaces touch [m]

@@ -6,7 +6,7 @@
 ///
 /// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on
 /// the unloading branch, the apparent work of adhesion its area, both when the loads that made the
-/// contact, voltage too, have been taken away. Soft summits hold on longer than they would reach on
+/// contact, voltage too, have been taken away. Soft summits let go later than they would touch on
 /// the loading branch; surfaces that have flowed come apart along the curve of the changed
 /// surfaces, and bonded ones, whose flattening costs less than adhesion gives, along that of
 /// springs (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.

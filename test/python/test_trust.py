@@ -112,7 +112,7 @@ class TrustTest(unittest.TestCase):
         lines = [
             json.loads(text) for text in (self.folder / "steps.jsonl").read_text().splitlines()
         ]
-        # of one frame either way out may follow the way in, which takes half the states
+        # of one frame either retraction may reuse the approach, which takes half the states
         usual, fine = (
             sum(line[steps]["state_count"] for line in lines) for steps in ("usual", "fine")
         )
@@ -150,9 +150,9 @@ class TrustTest(unittest.TestCase):
         self.assertIn(heading, headings(shipped))
         self.assertIn(table, shipped)
 
-    def test_a_way_out_does_not_leap_over_one_of_several_summits(self):
-        # behind the first summit the way out is another branch for a while: 1.4 and 1.0 % were lost
-        # where it leapt from there
+    def test_retraction_does_not_pass_over_one_of_several_maxima(self):
+        # behind the first maximum retraction is another branch for a while: reusing the states of
+        # the approach from there lost 1.4 and 1.0 %
         for number in (183, 225):
             frame, heights = half_space_steps.drawn(number, 96, 35)
             line = half_space_steps.line_of(frame, heights, 60.0)

@@ -1,5 +1,5 @@
 /// What holds on the unloading branch: soft summits beyond their touch, shoulders that the contact
-/// has opened, and which way surfaces part. Against JKR's closed form and against the half-space.
+/// has opened, and how surfaces part. Against JKR's closed form and against the half-space.
 
 #include <algorithm>
 #include <cmath>
