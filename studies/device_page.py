@@ -28,7 +28,6 @@ COLUMNS = (
     "| {} | surfaces | bias | spread | within 1.3 | 1.5 | 2 | 2.5 | interval covers | linear "
     "rule |\n|---|---|---|---|---|---|---|---|---|---|"
 )
-LONG_WAVES = "measure a field"
 CASES = {
     "k1": "1 scan",
     "k4": "4 scans",
@@ -63,10 +62,6 @@ def line(title, rows):
     )
 
 
-def warned_of_long_waves(row):
-    return any(LONG_WAVES in warning for warning in row["warnings"])
-
-
 def groups(rows):
     """(case, side, rows) of each table. Surfaces that bond all over go with area: nothing is asked
     of them."""
@@ -92,10 +87,6 @@ def tables(rows):
     parts = [COLUMNS.format("scans; side of the surfaces")]
     for case, side, of_case in found:
         parts.append(line("%s; %d pixels" % (CASES[case], side), of_case))
-        warned = [row for row in of_case if warned_of_long_waves(row)]
-        if warned and len(warned) < len(of_case):
-            parts.append(line("- with the warning that long waves are missing", warned))
-            parts.append(line("- without it", [row for row in of_case if row not in warned]))
     titles = ["%s; %d pixels" % (CASES[case], side) for case, side, _ in found]
     kinds = {
         kind: kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in rows)
@@ -216,8 +207,8 @@ def main():
         "Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and\nnumber (seed %s). Scans "
         "have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels of 80 "
         "nm. *Bias* is the geometric mean of the ratio to the force of the whole "
-        "surface,\n*spread* the standard deviation of its logarithm. Shares are in percent. The interval "
-        "is that of\nthe scans alone, since constants and model are the same on both sides; a star "
+        "surface,\n*spread* the standard deviation of its logarithm. Shares are in percent. The "
+        "interval is that of\nthe scans alone, since constants and model are the same on both sides; a star "
         "marks a kind of which\nan interval misses the truth. Surfaces that bond all over are left "
         "out.\n"
         % (

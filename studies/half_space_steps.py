@@ -228,8 +228,9 @@ def section_of(lines, arguments):
         "alternately of the [map's](trust.md) kinds and of those that [processes](trust_kinds.md) "
         "make. Half of them are under %.2g to %.0f MPa; nothing flows. Each frame is solved with "
         "the default `half_space/step` of %g and with a quarter of it. Shares are of the frames "
-        "that both solved, in percent, as deviations and times are; an area may differ by a cell. Jumps of at least %g %% of the pull-off "
-        "force count. *Time* is the processor time of the usual steps over that of the fine ones."
+        "that both solved, in percent, as deviations and times are; an area may differ by a cell. "
+        "Jumps of at least %g %% of the pull-off force count. *Time* is the processor time of the "
+        "usual steps over that of the fine ones."
         % (
             len(lines),
             arguments.pixels,
