@@ -208,9 +208,9 @@ def main():
         "have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels of 80 "
         "nm. *Bias* is the geometric mean of the ratio to the force of the whole "
         "surface,\n*spread* the standard deviation of its logarithm. Shares are in percent. The "
-        "interval is that of\nthe scans alone, since constants and model are the same on both sides; a star "
-        "marks a kind of which\nan interval misses the truth. Surfaces that bond all over are left "
-        "out.\n"
+        "interval is that of\nthe scans alone, since constants and model are the same on both "
+        "sides; a star marks a kind of which\nan interval misses the truth. Surfaces that bond all "
+        "over are left out.\n"
         % (
             sizes,
             len({(row["kind"], row["number"], row["seed"], row["side"]) for row in rows}),

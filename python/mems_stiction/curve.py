@@ -2,8 +2,8 @@
 units.
 
 Whichever model a curve is of, its file has the columns height [m], force [N] (positive attracts)
-and direction (APPROACH, RETRACTION), in any order, the points of each direction in the order in which
-they were met. It may have those of provenance.py; other columns are left out.
+and direction (APPROACH, RETRACTION), in any order, the points of each direction in the order in
+which they were met. It may have those of provenance.py; other columns are left out.
 """
 
 import csv
