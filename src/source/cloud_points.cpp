@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <sensor_msgs/PointField.h>
+#include <tf2/LinearMath/Matrix3x3.h>
 
 #include "errors/one_line.hpp"
 #include "import/file_bytes.hpp"
@@ -93,6 +94,20 @@ cv::Mat cloudPoints(const sensor_msgs::PointCloud2& cloud) {
     }
   }
   return points;
+}
+
+void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points) {
+  const auto& turn = transform.rotation;
+  const auto& shift = transform.translation;
+  const tf2::Matrix3x3 rotation(tf2::Quaternion(turn.x, turn.y, turn.z, turn.w).normalized());
+  cv::Matx34d matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int col = 0; col < 3; ++col) matrix(row, col) = rotation[row][col];
+  }
+  matrix(0, 3) = shift.x;
+  matrix(1, 3) = shift.y;
+  matrix(2, 3) = shift.z;
+  cv::transform(points, points, matrix);
 }
 
 }  // namespace mems_stiction

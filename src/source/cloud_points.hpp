@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include <geometry_msgs/Transform.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <opencv2/core.hpp>
 
@@ -15,5 +16,9 @@ namespace mems_stiction {
 /// @throw SurfaceError naming a field that is missing or of another type, or sizes that do not
 /// agree with each other.
 cv::Mat cloudPoints(const sensor_msgs::PointCloud2& cloud);
+
+/// The points in another frame.
+/// - @p points CV_64FC3
+void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points);
 
 }  // namespace mems_stiction

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include <tf2/LinearMath/Transform.h>
-
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
@@ -14,6 +12,7 @@
 #include "ros/own_log.hpp"
 #include "ros/topic_names.hpp"
 #include "source/cloud_points.hpp"
+#include "source/grid_map_points.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,29 +21,20 @@ namespace {
 constexpr double kLookPeriod = 0.02;
 
 constexpr char kPointsTopic[] = "points";
+constexpr char kGridMapTopic[] = "grid_map";
 
-}  // namespace
+const std_msgs::Header& headerOf(const sensor_msgs::PointCloud2& cloud) { return cloud.header; }
+const std_msgs::Header& headerOf(const GridMapMessage& map) { return map.header; }
 
-void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points) {
-  const auto& turn = transform.rotation;
-  const auto& shift = transform.translation;
-  const tf2::Matrix3x3 rotation(tf2::Quaternion(turn.x, turn.y, turn.z, turn.w).normalized());
-  cv::Matx34d matrix;
-  for (int row = 0; row < 3; ++row) {
-    for (int col = 0; col < 3; ++col) matrix(row, col) = rotation[row][col];
-  }
-  matrix(0, 3) = shift.x;
-  matrix(1, 3) = shift.y;
-  matrix(2, 3) = shift.z;
-  cv::transform(points, points, matrix);
-}
-
-std::string cloudName(const std_msgs::Header& header) {
+/// Of a message in the books: its stamp and frame.
+std::string nameOf(const char* kind, const std_msgs::Header& header) {
   PlainStream text;
-  text << "the cloud of stamp " << header.stamp << " in frame '"
+  text << "the " << kind << " of stamp " << header.stamp << " in frame '"
        << shortened(header.frame_id, kLongestQuotation) << "'";
   return oneLine(text.str());
 }
+
+}  // namespace
 
 CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
                          ScanPublisher& publisher, SourceAccounting& accounting)
@@ -53,16 +43,34 @@ CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
       accounting_(accounting),
       transforms_(options.points.frame.empty() ? nullptr
                                                : std::make_unique<TransformListener>(handle)),
-      thread_([this] { loop(); }),
-      points_(subscribeChecked<sensor_msgs::PointCloud2>(
-          handle, kPointsTopic, kSubscriberQueue,
-          {[this](const sensor_msgs::PointCloud2ConstPtr& cloud) { take(cloud); },
-           [this](const BoundedStream& bytes, const std::string& reason) {
-             std_msgs::Header header;
-             readBeginning(bytes, header);
-             accounting_.refused(cloudName(header), reason);
-           },
-           kLargestMessage})) {}
+      thread_([this] { loop(); }) {
+  const bool has_frame = transforms_ != nullptr;
+  const std::string layer = options_.points.layer;
+  points_ = options_.source == SourceKind::kGridMap
+                ? subscribe<GridMapMessage>(handle, kGridMapTopic, "grid map",
+                                            [layer, has_frame](const GridMapMessage& map) {
+                                              return gridMapPoints(map, layer, has_frame);
+                                            })
+                : subscribe<sensor_msgs::PointCloud2>(handle, kPointsTopic, "cloud", cloudPoints);
+}
+
+template <typename Message>
+ros::Subscriber CloudSource::subscribe(ros::NodeHandle& handle, const char* topic, const char* kind,
+                                       std::function<cv::Mat(const Message&)> points_of) {
+  return subscribeChecked<Message>(
+      handle, topic, kSubscriberQueue,
+      {[this, kind, points_of](const boost::shared_ptr<const Message>& message) {
+         const std_msgs::Header& header = headerOf(*message);
+         take({header, nameOf(kind, header), [message, points_of] { return points_of(*message); },
+               ros::SteadyTime::now()});
+       },
+       [this, kind](const BoundedStream& bytes, const std::string& reason) {
+         std_msgs::Header header;
+         readBeginning(bytes, header);
+         accounting_.refused(nameOf(kind, header), reason);
+       },
+       kLargestMessage});
+}
 
 CloudSource::~CloudSource() {
   points_.shutdown();
@@ -80,21 +88,19 @@ void CloudSource::countMissing(std::uint32_t number) {
   accounting_.show("missing_by_sequence", std::to_string(missing_));
 }
 
-void CloudSource::take(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+void CloudSource::take(Waiting one) {
   std::optional<Waiting> dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    countMissing(cloud->header.seq);
-    line_.push_back({cloud, ros::SteadyTime::now()});
+    countMissing(one.header.seq);
+    line_.push_back(std::move(one));
     if (line_.size() > static_cast<std::size_t>(options_.points.queue_size)) {
       dropped = line_.front();
       line_.pop_front();
     }
     countWaiting();
   }
-  if (dropped) {
-    accounting_.givenUp(cloudName(dropped->cloud->header), options_.points.queue_size);
-  }
+  if (dropped) accounting_.givenUp(dropped->name, options_.points.queue_size);
   changed_.notify_all();
 }
 
@@ -123,10 +129,9 @@ bool CloudSource::work() {
       line_.pop_front();
     }
   }
-  const std_msgs::Header& header = at_hand_->cloud->header;
   std::string reason;
   try {
-    publish(*at_hand_->cloud);
+    publish(*at_hand_);
   } catch (const NoTransform& error) {
     if ((ros::SteadyTime::now() - at_hand_->since).toSec() < options_.points.transform_timeout)
       return false;
@@ -135,9 +140,9 @@ bool CloudSource::work() {
     reason = reasonOf(error);
   }
   if (reason.empty()) {
-    accounting_.published(cloudName(header));
+    accounting_.published(at_hand_->name);
   } else {
-    accounting_.refused(cloudName(header), reason);
+    accounting_.refused(at_hand_->name, reason);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   at_hand_.reset();
@@ -145,16 +150,16 @@ bool CloudSource::work() {
   return true;
 }
 
-void CloudSource::publish(const sensor_msgs::PointCloud2& cloud) {
-  const std_msgs::Header& header = cloud.header;
+void CloudSource::publish(const Waiting& one) {
+  const std_msgs::Header& header = one.header;
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  cv::Mat points = cloudPoints(cloud);
+  cv::Mat points = one.points();
   dropUnmeasured(points, options_.points.map);
   if (transforms_)
     transformPoints(transforms_->at(options_.points.frame, header.frame_id, stamp), points);
   const CloudMap map = mapOfPoints(points, options_.points.map);
   for (const std::string& note : map.notes)
-    logSoon(ros::console::levels::Info, cloudName(header) + ": " + note);
+    logSoon(ros::console::levels::Info, one.name + ": " + note);
   accounting_.show("last_map", map.notes.empty() ? "on the grid of the points" : map.notes.front());
   publisher_.publish(map.surface, options_.identity,
                      transforms_ ? options_.points.frame : header.frame_id,

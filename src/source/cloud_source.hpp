@@ -1,11 +1,13 @@
 #pragma once
 
 /// @file
-/// The door `cloud`: each PointCloud2 of a sensor that sees a whole field becomes a scan.
+/// The doors `cloud` and `grid_map`: each PointCloud2 of a sensor that sees a whole field, and each
+/// GridMap, becomes a scan.
 
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,7 +15,8 @@
 #include <thread>
 
 #include <ros/node_handle.h>
-#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <opencv2/core.hpp>
 
 #include "ros/transform_listener.hpp"
 #include "source/cloud_grid.hpp"
@@ -23,31 +26,37 @@
 
 namespace mems_stiction {
 
-/// Takes clouds on the handle's queue and works on a thread of its own.
+/// Takes messages on the handle's queue and works on a thread of its own.
 class CloudSource {
  public:
   /// - @p publisher, @p accounting must outlive this
   CloudSource(const SourceOptions& options, ros::NodeHandle& handle, ScanPublisher& publisher,
               SourceAccounting& accounting);
-  /// Finishes the cloud at hand.
+  /// Finishes the message at hand.
   ~CloudSource();
   CloudSource(const CloudSource&) = delete;
   CloudSource& operator=(const CloudSource&) = delete;
 
  private:
+  /// A message that has come.
   struct Waiting {
-    sensor_msgs::PointCloud2ConstPtr cloud;
+    std_msgs::Header header;
+    std::string name;                 ///< in the books
+    std::function<cv::Mat()> points;  ///< throws SurfaceError
     ros::SteadyTime since;
   };
 
-  void take(const sensor_msgs::PointCloud2ConstPtr& cloud);
+  template <typename Message>
+  ros::Subscriber subscribe(ros::NodeHandle& handle, const char* topic, const char* kind,
+                            std::function<cv::Mat(const Message&)> points_of);
+  void take(Waiting one);
   void countWaiting() { accounting_.waits(line_.size() + (at_hand_ ? 1 : 0)); }
   void countMissing(std::uint32_t number);
   void loop();
   /// @return whether there was something to do
   bool work();
-  /// @throw NoTransform while it is not there; SurfaceError with a reason to refuse the cloud
-  void publish(const sensor_msgs::PointCloud2& cloud);
+  /// @throw NoTransform while it is not there; SurfaceError with a reason to refuse the message
+  void publish(const Waiting& one);
 
   const SourceOptions options_;
   ScanPublisher& publisher_;
@@ -63,12 +72,5 @@ class CloudSource {
   std::thread thread_;
   ros::Subscriber points_;
 };
-
-/// The points in another frame.
-/// - @p points CV_64FC3
-void transformPoints(const geometry_msgs::Transform& transform, cv::Mat& points);
-
-/// Of a message in the books: its stamp and frame.
-std::string cloudName(const std_msgs::Header& header);
 
 }  // namespace mems_stiction

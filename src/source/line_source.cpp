@@ -11,7 +11,6 @@
 #include "ros/own_log.hpp"
 #include "ros/topic_names.hpp"
 #include "source/cloud_points.hpp"
-#include "source/cloud_source.hpp"
 
 namespace mems_stiction {
 namespace {

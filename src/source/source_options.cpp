@@ -101,6 +101,7 @@ void PointsOptions::describe(OptionVisitor& visitor) {
                  "points with a higher z are not measured");
   visitor.number("grid_tolerance", map.grid_tolerance, "-", Range::within(0.0, 0.5),
                  "how far points may lie from their places on an even grid, over its pitch");
+  visitor.text("layer", layer, "of a grid map, that the heights [m] are in");
   visitor.text("frame", frame, "tf frame that heights are taken in; empty = that of the points");
   visitor.number("transform_timeout", transform_timeout, "s", Range::within(0.0, 1e6),
                  "how long points wait for the transform at their stamp");
@@ -133,6 +134,7 @@ void SourceOptions::describe(OptionVisitor& visitor) {
   visitor.enumeration<SourceKind>("source", source,
                                   {{"folder", SourceKind::kFolder},
                                    {"cloud", SourceKind::kCloud},
+                                   {"grid_map", SourceKind::kGridMap},
                                    {"lines", SourceKind::kLines}},
                                   "where scans come from");
   visitor.text("listener", listener,

@@ -24,9 +24,10 @@ enum class OldFiles {
 
 /// Where scans come from.
 enum class SourceKind {
-  kFolder,  ///< files that an instrument's program writes
-  kCloud,   ///< clouds of points, a whole field each
-  kLines,   ///< clouds of points, a line each
+  kFolder,   ///< files that an instrument's program writes
+  kCloud,    ///< clouds of points, a whole field each
+  kGridMap,  ///< maps of the package grid_map
+  kLines,    ///< clouds of points, a line each
 };
 
 /// The door `folder`.
@@ -45,9 +46,10 @@ struct FolderOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// The door `cloud`.
+/// The doors `cloud` and `grid_map`.
 struct PointsOptions {
   CloudOptions map;
+  std::string layer = "elevation";  ///< of a grid map
   std::string frame;               ///< of tf, that heights are taken in; empty = that of the points
   double transform_timeout = 0.5;  ///< how long points wait for their transform [s]
   int queue_size = 10;             ///< clouds that wait; older ones are given up

@@ -9,16 +9,17 @@ import subprocess
 import tempfile
 import unittest
 
+import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
 import rostest
 import yaml
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node, get_pkg_dir
 from sensor_msgs.msg import Image, PointCloud2, PointField
-from std_msgs.msg import String
+from std_msgs.msg import Float32MultiArray, Header, MultiArrayDimension, MultiArrayLayout, String
 from stiction_client import STATION, TIMEOUT, Collector, Counts, wait_until
 from tf2_msgs.msg import TFMessage
 
@@ -62,6 +63,54 @@ def snapshot(heights, stamp, frame=FRAME):
         PointField(name=name, offset=4 * place, datatype=PointField.FLOAT32, count=1)
         for place, name in enumerate("xyz")
     ]
+    return message
+
+
+# The fields of grid_map_msgs/GridMap (ANYbotics, package grid_map, BSD licence): with those of the
+# messages in it they give the definition's checksum, which is all that names it on the wire.
+GRID_MAP = """grid_map_msgs/GridMapInfo info
+string[] layers
+string[] basic_layers
+std_msgs/Float32MultiArray[] data
+uint16 outer_start_index
+uint16 inner_start_index
+"""
+GRID_MAP_INFO = """std_msgs/Header header
+float64 resolution
+float64 length_x
+float64 length_y
+geometry_msgs/Pose pose
+"""
+
+
+KINDS = (Header, Float32MultiArray, MultiArrayLayout, MultiArrayDimension, Pose, Point, Quaternion)
+TEXTS = dict(
+    {"grid_map_msgs/GridMapInfo": GRID_MAP_INFO},
+    **{kind._type: kind._full_text.split("=" * 80)[0] for kind in KINDS},
+)
+GridMap = genpy.dynamic.generate_dynamic(
+    "grid_map_msgs/GridMap",  # its text and those of all messages in it, as a bag keeps them
+    GRID_MAP + "".join("=" * 80 + "\nMSG: %s\n%s\n" % part for part in TEXTS.items()),
+)["grid_map_msgs/GridMap"]
+
+
+def grid_map(heights, stamp, start=(0, 0)):
+    """As grid_map's converter fills it: by columns, x falls along rows and y along columns, from
+    where the circular buffer begins."""
+    cells = np.roll(heights[:, ::-1].T, start, axis=(0, 1))
+    rows, cols = cells.shape
+    message = GridMap(layers=["elevation"], basic_layers=["elevation"])
+    message.info.header.stamp, message.info.header.frame_id = stamp, "map"
+    message.info.resolution = PITCH
+    message.info.length_x, message.info.length_y = rows * PITCH, cols * PITCH
+    message.info.pose.orientation.w = 1.0
+    layer = Float32MultiArray(data=cells.T.ravel())
+    layer.layout.dim = [
+        MultiArrayDimension("column_index", cols, rows * cols),
+        MultiArrayDimension("row_index", rows, rows),
+    ]
+    message.data = [layer]
+    message.outer_start_index, message.inner_start_index = start
     return message
 
 
@@ -196,7 +245,36 @@ class CloudTest(unittest.TestCase):
         self.assertIn("nowhere", refused.wait(1)[0].data)
         counts.wait(found=2, published=1, refused=1, waiting=0)
 
-    def test_5_the_recording_has_each_cloud_that_became_a_scan(self):
+    def test_5_a_layer_of_a_grid_map_becomes_a_scan(self):
+        for key, value in dict(source="grid_map", diagnostic_period=0.1).items():
+            rospy.set_param("/map/source/" + key, value)
+        source = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=dict(os.environ, ROS_NAMESPACE="/map"),
+        )
+        self.addCleanup(source.terminate)
+        heights, infos = Collector("/map/height", Image), Collector("/map/scan_info", ScanInfo)
+        refused = Collector("/map/source/refused", String).connect()
+        counts = Counts()
+        counts._name = "map/source: scan_source"
+        maps = rospy.Publisher("/map/grid_map", GridMap, queue_size=10)
+        wait_until(maps.get_num_connections, "the source to listen")
+        wait_until(lambda: counts["found"] == "0" and not counts["hindered_by"], "listeners")
+        expected = surface(6)
+        expected[4, 7] = np.nan
+        maps.publish(grid_map(expected, rospy.Time(4000, 7), start=(5, 17)))
+        height = heights.of(rospy.Time(4000, 7))
+        np.testing.assert_array_equal(heights_of(height), expected)
+        self.assertEqual(height.header.frame_id, "map")
+        info = infos.of(height.header.stamp)
+        np.testing.assert_allclose([info.pitch_x, info.pitch_y], PITCH, rtol=1e-12)
+        bad = grid_map(expected, rospy.Time(4001))
+        bad.layers = ["height"]
+        maps.publish(bad)
+        self.assertRegex(refused.wait(1)[0].data, "grid map of stamp 4001.*'elevation', but height")
+        counts.wait(found=2, published=1, refused=1, waiting=0)
+
+    def test_6_the_recording_has_each_cloud_that_became_a_scan(self):
         sent = {message.header.stamp for message in self.predictions.messages}
         self.stop()
         (bag,) = self.top.glob("day*.bag")
