@@ -28,10 +28,10 @@ from stiction_client import (
     STATION,
     TIMEOUT,
     Collector,
-    Counts,
     predict_scan,
     process_of,
     rough_surface,
+    source_counts,
     thread_seconds,
     unlike,
     wait_until,
@@ -154,8 +154,7 @@ class FolderTest(unittest.TestCase):
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.infos = Collector("scan_info", ScanInfo).connect()
         cls.refused = Collector("scan_source/refused", String).connect()
-        cls.counts = Counts("scan_source")
-        cls.counts._name = "scan_source: scan_source"
+        cls.counts = source_counts()
 
     @classmethod
     def stop(cls):
@@ -334,8 +333,7 @@ class FolderTest(unittest.TestCase):
         heights.wait(len(contents))
         source.end()
         source.start()
-        counts = Counts("kill/source")
-        counts._name = "kill/source: scan_source"
+        counts = source_counts("kill/source")
         counts.wait(waiting=0, published=0)
         counts.fresh()
         source.end()
@@ -385,8 +383,7 @@ class FolderTest(unittest.TestCase):
             path.write_bytes(grid_bytes(400 + number, 24, 32))
             os.utime(str(path), (1.5e9 + number, 1.5e9 + number))
         source = Source("old", folder, home, old_files="newest", patterns=["*.txt", "*.di"]).start()
-        counts = Counts("old/source")
-        counts._name = "old/source: scan_source"
+        counts = source_counts("old/source")
         counts.wait(waiting=1, published=0, found=1)
         wait_until(lambda: "listens" in counts["hindered_by"], "what it waits for")
         infos, _ = Collector("/old/scan_info", ScanInfo), Collector("/old/height", Image)

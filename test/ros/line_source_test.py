@@ -13,61 +13,23 @@ import numpy as np
 import rospy
 import rostest
 import yaml
-from geometry_msgs.msg import TransformStamped
+from instrument_drivers import (
+    LINE_PITCH,
+    LINES,
+    POINT_PITCH,
+    POINTS,
+    heights_of,
+    line,
+    lines_of,
+    stage_at,
+)
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node, get_pkg_dir
-from sensor_msgs.msg import Image, JointState, PointCloud2, PointField
+from sensor_msgs.msg import Image, JointState, PointCloud2
 from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
-from stiction_client import STATION, TIMEOUT, Collector, Counts, wait_until
+from stiction_client import STATION, TIMEOUT, Collector, source_counts, wait_until
 from tf2_msgs.msg import TFMessage
-
-LINES, POINTS = 40, 50
-PITCH, LINE_PITCH = 10e-6, 15e-6  # [m]
-SENSOR = "sensor_optical_frame"
-
-
-def surface(seed=0):
-    """LINES x POINTS float32 [m] in the order of the map: a cap on a tilted plane, off the middle,
-    with noise; row 0 has the largest y."""
-    rows, cols = np.mgrid[0:LINES, 0:POINTS]
-    cap = np.maximum(
-        0.0, 1e-5 - ((cols * PITCH - 1.5e-4) ** 2 + (rows * LINE_PITCH - 4e-4) ** 2) / 3e-3
-    )
-    noise = np.random.RandomState(seed).normal(scale=1e-6, size=cap.shape)
-    return (0.02 * cols * PITCH - 0.01 * rows * LINE_PITCH + cap + noise).astype(np.float32)
-
-
-def line(heights, stamp, size=16, missing=np.nan):
-    """One line as the drivers fill it: PCL's PointXYZ (16 bytes) of the LJ-V7000 with NaN,
-    PointXYZI (32) of the scanCONTROL with +infinity."""
-    kind = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("padding", "<f4")] + (
-        [("intensity", "<f4"), ("more", "<f4", 3)] if size == 32 else []
-    )
-    points = np.zeros(heights.size, dtype=kind)
-    points["x"] = np.arange(heights.size) * PITCH
-    points["z"] = np.where(np.isnan(heights), missing, heights)
-    message = PointCloud2(
-        height=1,
-        width=heights.size,
-        is_bigendian=False,
-        point_step=size,
-        row_step=size * heights.size,
-        is_dense=False,
-        data=points.tobytes(),
-    )
-    message.header.stamp, message.header.frame_id = stamp, SENSOR
-    names = [("x", 0), ("y", 4), ("z", 8)] + ([("intensity", 16)] if size == 32 else [])
-    message.fields = [
-        PointField(name=name, offset=offset, datatype=PointField.FLOAT32, count=1)
-        for name, offset in names
-    ]
-    return message
-
-
-def heights_of(message):
-    kind = {"32FC1": np.float32, "64FC1": np.float64}[message.encoding]
-    return np.frombuffer(message.data, kind).reshape(message.height, message.width)
 
 
 class Scanner:
@@ -89,8 +51,7 @@ class Scanner:
             Collector("/%s/scan_info" % name, ScanInfo),
         )
         self.refused = Collector("/%s/source/refused" % name, String).connect()
-        self.counts = Counts()
-        self.counts._name = name + "/source: scan_source"
+        self.counts = source_counts(name + "/source")
         self.sensor = rospy.Publisher("/%s/points" % name, PointCloud2, queue_size=1000)
         self.trigger = rospy.Publisher("/%s/trigger" % name, Bool, queue_size=10)
         self.joints = rospy.Publisher("/%s/joint_states" % name, JointState, queue_size=1000)
@@ -121,15 +82,17 @@ class LinesTest(unittest.TestCase):
         height = scanner.heights.wait(number)[-1]
         np.testing.assert_allclose(heights_of(height), expected, rtol=0, atol=tolerance)
         info = scanner.infos.of(height.header.stamp)
-        np.testing.assert_allclose([info.pitch_x, info.pitch_y], [PITCH, LINE_PITCH], rtol=1e-4)
+        np.testing.assert_allclose(
+            [info.pitch_x, info.pitch_y], [POINT_PITCH, LINE_PITCH], rtol=1e-4
+        )
 
     def test_1_counted_lines_between_the_services_are_a_scan(self):
         scanner = Scanner(self, "count", motion="count", line_pitch=LINE_PITCH)
-        scanner.send(surface()[:3])  # before the scan
+        scanner.send(lines_of()[:3])  # before the scan
         scanner.counts.wait(lines_outside=3)
         self.assertFalse(scanner.end().success)
         self.assertTrue(scanner.begin().success)
-        expected = surface()
+        expected = lines_of()
         expected[7, 4:9] = np.nan
         scanner.send(expected)
         scanner.counts.wait(lines_of_this_scan=LINES, waiting=1)
@@ -139,9 +102,9 @@ class LinesTest(unittest.TestCase):
 
     def test_2_a_speed_and_a_number_of_lines_make_one_scan_after_the_other(self):
         scanner = Scanner(self, "speed", motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
-        scanner.send(surface(1), first=1000.0, size=32, missing=np.inf)
-        scanner.send(surface(2), first=2000.0, size=32, missing=np.inf)
-        self.check(scanner, surface(2), number=2, tolerance=1e-11)
+        scanner.send(lines_of(1), first=1000.0, size=32, missing=np.inf)
+        scanner.send(lines_of(2), first=2000.0, size=32, missing=np.inf)
+        self.check(scanner, lines_of(2), number=2, tolerance=1e-11)
         scanner.counts.wait(found=2, published=2, waiting=0)
 
     def test_3_a_joint_that_turns_back_and_lines_that_are_lost_or_doubled(self):
@@ -155,7 +118,7 @@ class LinesTest(unittest.TestCase):
             end_at_turn=True,
             pause=2.0,
         )
-        expected = surface(3)
+        expected = lines_of(3)
         order = list(range(LINES))
         lost = 20
         order.remove(lost)
@@ -194,25 +157,16 @@ class LinesTest(unittest.TestCase):
 
     def test_4_tf_places_the_lines_and_the_trigger_says_when(self):
         scanner = Scanner(self, "moved", motion="tf", frame="stage", line_pitch=LINE_PITCH)
-        expected = surface(4)
+        expected = lines_of(4)
         scanner.trigger.publish(True)
         scanner.counts.wait(scan_is_open="true")
-
-        def place(stamp, way):
-            transform = TransformStamped()
-            transform.header.stamp, transform.header.frame_id, transform.child_frame_id = (
-                stamp,
-                "stage",
-                SENSOR,
-            )
-            transform.transform.rotation.w = 1.0
-            transform.transform.translation.y = way
-            scanner.frames.publish(TFMessage([transform]))
 
         for number, heights in enumerate(expected[::-1]):
             stamp = rospy.Time.from_sec(5000.0 + 0.01 * number)
             scanner.sensor.publish(line(heights, stamp, size=32, missing=np.inf))
-            place(stamp, number * LINE_PITCH)  # behind the line, as tf comes late
+            scanner.frames.publish(
+                TFMessage([stage_at(stamp, number * LINE_PITCH)])
+            )  # it comes late
         scanner.counts.wait(lines_of_this_scan=LINES)
         scanner.sensor.publish(
             line(expected[0], rospy.Time(9000))
@@ -226,12 +180,12 @@ class LinesTest(unittest.TestCase):
         scanner = Scanner(self, "bad", motion="count", line_pitch=LINE_PITCH, max_lines=LINES)
         scanner.send(np.full((LINES, POINTS), np.nan, np.float32))
         self.assertIn("measured", scanner.refused.wait(1)[0].data)
-        broken = line(surface()[0], rospy.Time(1))
+        broken = line(lines_of()[0], rospy.Time(1))
         broken.fields.pop()
         scanner.sensor.publish(broken)
         scanner.counts.wait(lines_refused=1)
-        scanner.send(surface(5))
-        self.check(scanner, surface(5))
+        scanner.send(lines_of(5))
+        self.check(scanner, lines_of(5))
         scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
 
     def test_6_the_station_predicts_the_scan_of_a_line_scanner(self):
@@ -258,14 +212,13 @@ class LinesTest(unittest.TestCase):
             )
             try:
                 predictions = Collector("prediction", StictionPrediction).connect()
-                counts = Counts()
-                counts._name = "scan_source: scan_source"
+                counts = source_counts()
                 sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
                 wait_until(sensor.get_num_connections, "the source to listen")
                 wait_until(
                     lambda: counts["found"] and not counts["hindered_by"], "the node to listen"
                 )
-                for number, heights in enumerate(surface(6)[::-1]):
+                for number, heights in enumerate(lines_of(6)[::-1]):
                     sensor.publish(line(heights, rospy.Time.from_sec(1000.0 + 0.01 * number)))
                 self.assertEqual(predictions.wait(1)[0].header.stamp, rospy.Time(1000))
             finally:

@@ -198,10 +198,10 @@ class Collector:
 
 
 class Counts:
-    """The newest figures of the node on /diagnostics."""
+    """The newest figures of a node on /diagnostics."""
 
-    def __init__(self, node="stiction_node"):
-        self._name = node + ": scans"
+    def __init__(self, node="stiction_node", status="scans"):
+        self._name = "%s: %s" % (node, status)
         self._lock = threading.Lock()
         self._values = {}
         self._reports = []
@@ -240,6 +240,11 @@ class Counts:
             wait_until(reached, "the counts %s" % expected)
         except AssertionError as error:
             raise AssertionError("%s; they are %s" % (error, self._values))
+
+
+def source_counts(node="scan_source"):
+    """The books of a scan_source."""
+    return Counts(node, "scan_source")
 
 
 class Station:
