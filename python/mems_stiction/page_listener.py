@@ -19,10 +19,10 @@ from mems_stiction.msg import (
     SweepLoadActionFeedback,
     SweepLoadActionResult,
 )
+from mems_stiction.page_words import SOURCE_STATUS
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
-SOURCE_STATUS = "scan_source"  # whatever the name of its node, beside ours
 MAPS = ("height", "contacts")
 SMALLEST_PITCH, LARGEST_PITCH = 1e-12, 1e-3  # of a size that is shown [m]
 MAP_BUFFER = 2**28  # bytes: the newest map alone is kept

@@ -15,6 +15,7 @@ from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (
     AWAITED,
     NO_EQUILIBRIUM,
+    SOURCE_STATUS,
     awaits_device,
     curve_of,
     device_of,
@@ -28,6 +29,7 @@ from mems_stiction.page_words import (
     provisional_of,
     ratio_of,
     sentence,
+    source_of,
     thinned_points,
     trace_of,
     verdict_of,
@@ -58,6 +60,7 @@ STALE_UNTIL_KNOWN = (
     30.0  # without a scan for so long, what is shown is old, while the scans' rate is not known [s]
 )
 STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
+SILENT_SOURCE = 10.0  # without its diagnostics for so long, a source is perhaps gone [s]
 UP = 0  # SweepPoint.UP
 
 
@@ -187,8 +190,9 @@ class PageState:
         entry = diagnostics_of(status)
         values = dict(entry["values"])
         with self._lock:
-            self._diagnostics.pop(entry["name"], None)
-            self._diagnostics[entry["name"]] = (entry, self._clock())
+            _, before, _ = self._diagnostics.pop(entry["name"], (None, self._clock(), None))
+            now = self._clock()
+            self._diagnostics[entry["name"]] = (entry, now, now - before)
             while len(self._diagnostics) > MOST_DIAGNOSTICS:
                 del self._diagnostics[next(iter(self._diagnostics))]
             counts = [count_of(values.get(name, "")) for name in ("rejected", "dropped")]
@@ -424,7 +428,19 @@ class PageState:
                 "diagnostics": (
                     lambda: [
                         dict(entry, age=now - heard)
-                        for _, (entry, heard) in sorted(self._diagnostics.items())
+                        for _, (entry, heard, _) in sorted(self._diagnostics.items())
+                    ],
+                    [],
+                ),
+                "sources": (
+                    lambda: [
+                        dict(
+                            source_of(entry),
+                            age=now - heard,
+                            silent_after=max(SILENT_SOURCE, STALE_PERIODS * period),
+                        )
+                        for name, (entry, heard, period) in sorted(self._diagnostics.items())
+                        if name.endswith(": " + SOURCE_STATUS)
                     ],
                     [],
                 ),

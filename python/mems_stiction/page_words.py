@@ -29,6 +29,7 @@ VERDICTS = {
 AWAITED = "on device_force"  # in the reason of a prediction whose device's force is on its way
 ON_ITS_WAY = "provisional: the force of the whole device is on its way"
 LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
+SOURCE_STATUS = "scan_source"  # of its diagnostics, behind whatever the name of its node is
 DEVICE_REFUSED = 2  # DeviceAdhesion.status
 WIDEST_INTERVAL = 1e4  # upper over lower end of a ratio that is shown as a number
 LARGEST = 1e30  # of a number that is drawn, as of settings
@@ -425,3 +426,25 @@ def diagnostics_of(status):
         "message": status.message,
         "values": [[entry.key, entry.value] for entry in status.values],
     }
+
+
+def source_of(entry):
+    """What a scan_source does by its entry of diagnostics_of(), in sentences: what came last, what
+    waits and for what, what was refused and why."""
+    values = dict(entry["values"])
+    told = "Source: %s of %s scans published" % (
+        values.get("published", "?"),
+        values.get("found", "?"),
+    )
+    if values.get("last_published"):
+        told += ", the last: " + values["last_published"]
+    sentences = [told]
+    if values.get("waiting", "0") != "0":
+        sentences.append("Waiting: " + values["waiting"])
+    if values.get("hindered_by"):
+        sentences.append("Hindered: " + values["hindered_by"])
+    if values.get("refused", "0") != "0":
+        sentences.append(
+            "Refused: %s, the last: %s" % (values["refused"], values.get("last_refused", ""))
+        )
+    return {"level": entry["level"], "text": ". ".join(sentences) + "."}

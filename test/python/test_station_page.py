@@ -572,6 +572,47 @@ class StateTest(unittest.TestCase):
             {status["name"] for status in state.snapshot()["diagnostics"]}, set(names[:2])
         )
 
+    def test_what_brings_the_scans_is_told_in_a_line_and_silence_shows(self):
+        now = [0.0]
+        state = PageState(clock=lambda: now[0])
+
+        def tell(level=0, **values):
+            state.add_diagnostics(
+                DiagnosticStatus(
+                    name="scan_source: scan_source",
+                    level=level,
+                    values=[KeyValue(key=key, value=value) for key, value in values.items()],
+                )
+            )
+            return state.snapshot()["sources"]
+
+        (source,) = tell(found="0", published="0", refused="0", waiting="0")
+        self.assertEqual(source["text"], "Source: 0 of 0 scans published.")
+        now[0] = 1.0
+        (source,) = tell(
+            1,
+            found="6",
+            published="3",
+            refused="1",
+            waiting="2",
+            last_published="beam 3 um.di",
+            last_refused="notes.docx: no scan",
+            hindered_by="nobody listens",
+        )
+        self.assertEqual(source["level"], "warn")
+        self.assertEqual(
+            source["text"],
+            "Source: 3 of 6 scans published, the last: beam 3 um.di. Waiting: 2. "
+            "Hindered: nobody listens. Refused: 1, the last: notes.docx: no scan.",
+        )
+        self.assertEqual(source["silent_after"], 10.0)
+        now[0] = 31.0
+        self.assertGreater(
+            state.snapshot()["sources"][0]["age"], state.snapshot()["sources"][0]["silent_after"]
+        )
+        (source,) = tell(found="6")
+        self.assertEqual(source["silent_after"], 90.0)  # it tells every half minute
+
     def test_a_map_that_is_none_keeps_the_one_before_and_is_named(self):
         state = PageState()
         good = map_message([[0, 1], [2, 3]])

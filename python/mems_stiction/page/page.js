@@ -41,6 +41,7 @@ function attempt(name, part) {
 function show() {
   attempt("verdict", showVerdict);
   attempt("part", showPart);
+  attempt("source", showSources);
   say("origin", state.scan ? state.scan.origin : "");
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showDownloads();
@@ -113,6 +114,18 @@ function showPart() {
   // that of a part that releases is its interval, which stands above
   const said = part ? (part.level === "releases" && part.ratio ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
   say("part-reason", said.concat(flags.length ? [`Of its other scans: ${flags.join("; ")}.`] : []).join(" "));
+}
+
+/** What brings the scans: its last one, how many wait, what was refused and why. */
+function showSources() {
+  const lines = state.sources.map((source) => {
+    const age = source.age + sinceState();
+    const isSilent = age > source.silent_after;
+    return {isWarning: isSilent || source.level !== "ok", text: (isSilent ? `Nothing heard of the source for ${duration(age)}. ` : "") + source.text};
+  });
+  byId("sources").hidden = !lines.length;
+  byId("sources").classList.toggle("warn", lines.some((line) => line.isWarning));
+  say("sources-text", lines.map((line) => line.text).join("\n"));
 }
 
 function showAge() {
