@@ -23,12 +23,12 @@ from instrument_drivers import (
     lines_of,
     stage_at,
 )
-from mems_stiction.msg import ScanInfo, StictionPrediction
+from mems_stiction.msg import DeviceVerdict, ScanInfo, StictionPrediction
 from roslib.packages import find_node, get_pkg_dir
 from sensor_msgs.msg import Image, JointState, PointCloud2
 from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
-from stiction_client import STATION, TIMEOUT, Collector, source_counts, wait_until
+from stiction_client import TIMEOUT, Collector, settings_of, source_counts, wait_until
 from tf2_msgs.msg import TFMessage
 
 
@@ -188,7 +188,7 @@ class LinesTest(unittest.TestCase):
         self.check(scanner, lines_of(5))
         scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
 
-    def test_6_the_station_predicts_the_scan_of_a_line_scanner(self):
+    def test_6_the_verdict_on_a_line_scanner_alone_is_unknown(self):
         with tempfile.TemporaryDirectory() as name:
             top = pathlib.Path(name)
             settings = yaml.safe_load(
@@ -198,11 +198,23 @@ class LinesTest(unittest.TestCase):
             )
             settings.update(motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
             (top / "source.yaml").write_text(yaml.safe_dump(settings))
+            # No other rule makes it unknown: a strong spring, and a contact as large as the scan.
+            area = LINES * POINTS * LINE_PITCH * POINT_PITCH
+            device = dict(spring_stiffness=1e6, travel=1e-6, contact_area=area)
+            (top / "device.yaml").write_text(
+                yaml.safe_dump(
+                    settings_of(
+                        preprocessing=dict(level="plane"),
+                        device=device,
+                        device_force=dict(enabled=False),
+                    )
+                )
+            )
             station = subprocess.Popen(
                 [
                     "roslaunch",
                     get_pkg_dir("mems_stiction") + "/launch/station.launch",
-                    "config:=%s" % STATION,
+                    "config:=%s/device.yaml" % top,
                     "points:=/profiles",
                     "source_config:=%s/source.yaml" % top,
                     "page:=false",
@@ -212,6 +224,7 @@ class LinesTest(unittest.TestCase):
             )
             try:
                 predictions = Collector("prediction", StictionPrediction).connect()
+                verdicts = Collector("verdict", DeviceVerdict)
                 counts = source_counts()
                 sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
                 wait_until(sensor.get_num_connections, "the source to listen")
@@ -220,7 +233,15 @@ class LinesTest(unittest.TestCase):
                 )
                 for number, heights in enumerate(lines_of(6)[::-1]):
                     sensor.publish(line(heights, rospy.Time.from_sec(1000.0 + 0.01 * number)))
-                self.assertEqual(predictions.wait(1)[0].header.stamp, rospy.Time(1000))
+                prediction = predictions.wait(1)[0]
+                self.assertEqual(prediction.header.stamp, rospy.Time(1000))
+                self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_UNRESOLVED)
+                self.assertGreater(prediction.unresolved_height, prediction.unresolved_limit)
+                self.assertLess(prediction.needed_pitch, 0.1 * POINT_PITCH)
+                verdict = verdicts.of(prediction.header.stamp)
+                for one in (prediction, verdict):
+                    self.assertEqual(one.sticks, StictionPrediction.STICKS_UNKNOWN)
+                    self.assertIn("pixels", one.reason)
             finally:
                 station.send_signal(signal.SIGINT)
                 station.wait(timeout=TIMEOUT)
