@@ -15,7 +15,6 @@ namespace {
 
 const std::string kPage = std::string(MEMS_STICTION_DOC_DIR) + "/architecture.md";
 constexpr double kStep = 1e-9;
-constexpr int kSteps = 5;
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
   char line[128];
@@ -81,39 +80,6 @@ TEST_F(WorkedFrame, HasTheGroupsAndDalesOfThePage) {
         "\n";
   }
   documents::expectUpToDate(kPage, "frame", fenced(text));
-}
-
-TEST_F(WorkedFrame, HasThePatchesOfThePage) {
-  PatchSweep sweep;
-  sweep.start(field_, order_, Connectivity::kFour);
-  std::string heading;
-  std::string frames[4];
-  std::string figures = "\nD     cells in  patch  cells  rows  columns  edges  deepest cell\n";
-  for (int step = 1; step <= kSteps; ++step) {
-    const int count = order_.sortBelow(step * kStep);
-    sweep.advanceTo(count);
-    heading += format("%-16s", format("D = %d nm", step).c_str());
-    for (int row = 0; row < field_.rows(); ++row) {
-      for (int col = 0; col < field_.cols(); ++col) {
-        const std::int32_t id = sweep.patchOf(field_.cellAt(row, col));
-        frames[row] += (id < 0 ? "." : letter(id)) + "  ";
-      }
-      frames[row] += "    ";
-    }
-    std::string before = format("%d nm  %8d", step, count);
-    for (const std::int32_t id : sweep.livePatches()) {
-      const ContactPatch& patch = sweep.patch(id);
-      const GridCell deepest = field_.cellAt(patch.deepest);
-      figures += format("%-14s  %-5s  %5d  %d..%d  %d..%d     %5.0f  (%d, %d), %s nm\n",
-                        before.c_str(), letter(id).c_str(), patch.area, patch.min_row,
-                        patch.max_row, patch.min_col, patch.max_col, patch.boundary.count,
-                        deepest.row, deepest.col, nanometres(patch.deepest_gap).c_str());
-      before.clear();
-    }
-  }
-  std::string text = withoutTrailingSpaces(heading) + "\n";
-  for (const std::string& frame : frames) text += withoutTrailingSpaces(frame) + "\n";
-  documents::expectUpToDate(kPage, "patches", fenced(text + figures));
 }
 
 }  // namespace
