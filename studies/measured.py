@@ -143,8 +143,8 @@ def device(study, case, rms_height, area, **settings):
     frame = made[0][0]
     return mems_stiction.predict_device(
         [heights for _, heights in made],
-        area,
         frame["pitch"],
+        area=area,
         config=trust_run.settings_of(frame, "separation_curve"),
         device_force=options,
         **settings,

@@ -29,6 +29,11 @@ METRES = {
 }
 AS_IT_IS = ("float32", "float64", "uint8", "uint16", "int16")
 
+NO_PITCH = (
+    "pitch: an array says nothing of it; must be a number > 0 m, or two of them (x, y), "
+    "here or as scan/pitch_x and scan/pitch_y"
+)
+
 Pitch = Union[float, Sequence[float]]
 Kind = TypeVar("Kind", bound=type)
 
@@ -74,6 +79,8 @@ def surface_of(
         return own
     if callable(getattr(heights, "heights", None)):
         return _of_topography(heights, pitch, settings, what)
+    if is_data_array(heights):
+        return _of_data_array(heights, pitch, settings, what)
     unit = getattr(heights, "unit", getattr(heights, "units", None))
     if unit is not None:
         raise SurfaceError(
@@ -83,11 +90,73 @@ def surface_of(
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
     pixels = pixels_of(heights, what)
     if pitch is None and settings._configuration.pitch[0] <= 0:
-        raise SurfaceError(
-            "pitch: an array says nothing of it; must be a number > 0 m, or two of them (x, y), "
-            "here or as scan/pitch_x and scan/pitch_y"
-        )
+        raise SurfaceError(NO_PITCH)
     return Surface(_core.height_map(pixels, x, y, settings._configuration), "", False)
+
+
+def is_data_array(heights: Any) -> bool:
+    """Whether it is one of xarray's, which is not imported for that."""
+    return hasattr(heights, "dims") and hasattr(heights, "coords") and hasattr(heights, "values")
+
+
+def _factor_of(unit: Any, what: str, whose: str) -> float:
+    """Metres of a unit of length; a number without one is in metres. Raises SurfaceError."""
+    if unit is None or unit == "":
+        return 1.0
+    factor = METRES.get(unit) if isinstance(unit, str) else None
+    if factor is None:
+        raise SurfaceError(
+            "%s: the unit '%s' of %s is not allowed, must be one of: %s"
+            % (what, unit, whose, ", ".join(METRES))
+        )
+    return factor
+
+
+def _of_data_array(array: Any, pitch: Optional[Pitch], settings: Settings, what: str) -> Surface:
+    """By xarray: heights over x and y in either order, each with its unit (attrs["units"])."""
+    if set(array.dims) != {"x", "y"}:
+        raise SurfaceError(
+            "%s: dimensions (%s) are not allowed, must be y and x, in either order"
+            % (what, ", ".join(map(str, array.dims)))
+        )
+    packed = [name for name in ("scale_factor", "add_offset") if name in array.attrs]
+    if packed:
+        raise SurfaceError(
+            "%s: numbers with %s are not heights; open the file with decode_cf=True"
+            % (what, " and ".join(packed))
+        )
+    factor = _factor_of(array.attrs.get("units", array.attrs.get("unit")), what, "the heights")
+    placed = [name for name in ("x", "y") if name in array.coords]
+    if placed and pitch is not None:
+        raise SurfaceError(
+            "pitch: %r is given, but the array brings its own (coordinates %s); leave it out"
+            % (pitch, " and ".join(placed))
+        )
+    if len(placed) == 1:
+        raise SurfaceError("%s: the array has coordinates of %s alone" % (what, placed[0]))
+    pixels = pixels_of(np.asarray(array.transpose("y", "x").values), what)
+    if factor != 1.0:
+        pixels = pixels * factor
+    if placed:
+        x, y = (_pitch_along(array.coords[name], what, name) for name in placed)
+    elif pitch is None and settings._configuration.pitch[0] <= 0:
+        raise SurfaceError(NO_PITCH)
+    else:
+        x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
+    return Surface(
+        _core.height_map(pixels, x, y, settings._configuration), "", tuple(array.dims) == ("x", "y")
+    )
+
+
+def _pitch_along(places: Any, what: str, axis: str) -> float:
+    """Of evenly spaced coordinates [m]. Raises SurfaceError."""
+    factor = _factor_of(places.attrs.get("units", places.attrs.get("unit")), what, axis)
+    steps = np.diff(np.asarray(places.values, dtype=float)) * factor
+    if not len(steps) or not np.allclose(steps, steps.mean(), rtol=1e-6, atol=0.0):
+        raise SurfaceError(
+            "%s: coordinates of %s: they are not even, so that pixels have no pitch" % (what, axis)
+        )
+    return float(abs(steps.mean()))
 
 
 def _of_topography(

@@ -12,6 +12,7 @@ import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._settings import Config, OptionsError, Settings, values_of
+from mems_stiction.other_packages import require_package
 from mems_stiction.calibration_data import Measurement, measurements_of, pooled, shared_scans
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
 from mems_stiction.calibration_grid import between_nodes
@@ -175,6 +176,7 @@ class Calibration(ReadOnly):
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG, PDF or SVG: measured against fitted values with their errors."""
+        require_package("matplotlib", "a picture")
         from mems_stiction.calibration_figure import save_calibration
 
         save_calibration(self.to_dict(), path)

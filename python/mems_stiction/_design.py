@@ -16,7 +16,9 @@ import numpy as np
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._device import Pitches, scans_of_device
 from mems_stiction._settings import Config, OptionsError, values_of
+from mems_stiction._types import Scans, UpperScans
 from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction.other_packages import require_package
 from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
 from mems_stiction.design_points import Holding, axes_of
 from mems_stiction.design_rows import FIGURES, Rows
@@ -102,6 +104,7 @@ class DesignSweep(ReadOnly):
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG, PDF or SVG: the margin over the axes, with the line of margin 1 and its 95 %
         band."""
+        require_package("matplotlib", "a picture")
         from mems_stiction.design_figure import save_design
 
         save_design(self.to_dict(), path)
@@ -114,28 +117,28 @@ class DesignSweep(ReadOnly):
 
 
 def design_sweep(
-    scans: Any,
-    axes: Mapping[str, Any],
-    config: Optional[Config] = None,
+    scans: Scans,
     pitch: Optional[Pitches] = None,
+    config: Optional[Config] = None,
+    *,
+    axes: Mapping[str, Any],
     output: Optional[Union[str, "os.PathLike[str]"]] = None,
     workers: Optional[int] = None,
     on_progress: Optional[OnProgress] = None,
-    *,
-    upper: Any = None,
+    upper: Optional[UpperScans] = None,
     etch_wavelength: Optional[float] = None,
     executor: Optional[Executor] = None,
     **settings: Any,
 ) -> DesignSweep:
     """Which design of this device releases?
 
-        found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], {"device/spring_stiffness": (0.5, 50,
-        12),
-                                           "interface/work_of_adhesion": [0.02, 0.05, 0.1]},
-                                           config="part.yaml", output="rows.csv")
+        found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], config="part.yaml",
+                                           axes={"device/spring_stiffness": (0.5, 50, 12),
+                                                 "interface/work_of_adhesion": [0.02, 0.1]},
+                                           output="rows.csv")
         found.statements
 
-    scans, pitch, upper, config, settings: as of predict_device(); the settings state the device.
+    scans, pitch, config, upper, settings: as of predict_device(); the settings state the device.
     axes: one or two names of settings, each with its values: a list, or (from, to, count), which is
     filled by ratio where the ends lie a factor of 10 or more apart. `hardness` [Pa] is that of both
     bodies, load/pressure what presses them before they are drawn apart.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -21,7 +22,9 @@ from mems_stiction._arrays import (
 from mems_stiction._inputs import brings_pitch, section_or_surface
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config, Settings, SurfaceError, settings_with
+from mems_stiction._types import Scans, UpperScans
 from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction.other_packages import require_package
 from mems_stiction.quantities import area as area_text
 from mems_stiction.quantities import with_interval, with_unit
 
@@ -37,14 +40,16 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
     what was measured. spectrum: a record for each band of waves: wavelength [m], density,
     density_lower, density_upper [m^4], rms_height [m], rms_slope, rms_curvature [1/m], is_measured.
     verdict: a Verdict, or None where the settings state no spring and no beam. scans: their names.
+    pitches: (along columns, along rows) of each [m], as it was taken.
     warnings: about scans, settings, and what the scans do not show.
     """
 
-    def __init__(self, core: _core.DevicePrediction) -> None:
+    def __init__(self, core: _core.DevicePrediction, scans: List[Surface]) -> None:
         self.__dict__.update(core.figures)
         verdict = core.verdict
         self.verdict: Optional[Verdict]
         self.scans: Tuple[str, ...]
+        self.pitches: Tuple[Tuple[float, float], ...]
         self.warnings: Tuple[str, ...]
         self.realisations: np.recarray
         self.parts_of_scans: np.recarray
@@ -52,6 +57,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
         self.__dict__.update(
             verdict=None if verdict is None else Verdict(verdict),
             scans=tuple(core.scans),
+            pitches=tuple(tuple(scan.core.pitch) for scan in scans),
             warnings=tuple(core.warnings),
             realisations=records_of(core.realisations),
             parts_of_scans=records_of(core.parts_of_scans),
@@ -77,6 +83,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG, PDF or SVG: the spectrum with its 95 % range, roughness against scale, a made
         surface, force against area."""
+        require_package("matplotlib", "a picture")
         from mems_stiction import device_figure
 
         device_figure.save_device(self.to_dict(), path, self._made_surface)
@@ -91,6 +98,10 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
 
     def __repr__(self) -> str:
         lines = ["Device of %s, by %s" % (area_text(self.area), _count(len(self.scans), "scan"))]
+        lines += [
+            "  %s: pixels of %s" % (name or "scan %d" % (place + 1), _pitch_text(pitch))
+            for place, (name, pitch) in enumerate(zip(self.scans, self.pitches))
+        ]
         lines.append(
             "  pull-off force %s; the scans' force by area would say %s"
             % (
@@ -116,6 +127,11 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
             lines.append("  sticks: %s" % self.verdict.summary)
         lines += ["  warning: " + text for text in self.warnings]
         return "\n".join(lines)
+
+
+def _pitch_text(pitch: Tuple[float, float]) -> str:
+    x, y = (with_unit(value, "m") for value in pitch)
+    return x if x == y else "%s x %s" % (x, y)
 
 
 def _count(number: int, word: str) -> str:
@@ -171,6 +187,18 @@ def _pitches_of(pitch: Any, scans: List[Any]) -> List[Optional[Pitch]]:
     return [value if _is_number(value) else tuple(value) for value in pitch]
 
 
+def with_pitches(
+    scans: Mapping, pitch: Optional[Pitches]
+) -> Tuple[List[Any], List[Optional[Pitch]]]:
+    """Paths and pitches of {path: pitch}."""
+    if pitch is not None:
+        raise SurfaceError(
+            "pitch: %r is given, but scans is a dictionary with that of each; leave it out"
+            % (pitch,)
+        )
+    return list(scans), list(scans.values())
+
+
 def _surfaces(
     scans: List[Any], pitches: List[Optional[Pitch]], settings: Settings, what: str
 ) -> List[Surface]:
@@ -200,6 +228,8 @@ def scans_of_device(
     checked = settings_with(
         config, settings, {name: value for name, value in stated.items() if value is not None}
     )
+    if isinstance(scans, Mapping):
+        scans, pitch = with_pitches(scans, pitch)
     lower = _listed(scans, "scans")
     surfaces = _surfaces(lower, _pitches_of(pitch, lower), checked, "scans")
     if upper is None:
@@ -230,17 +260,17 @@ def predict_device_under(
         [one._configuration for one in settings],
     )
     warn(list(predicted[0].scan_warnings) + list(predicted[0].force_warnings), ScanWarning)
-    return [DeviceForce(one) for one in predicted]
+    return [DeviceForce(one, lower) for one in predicted]
 
 
 def predict_device(
-    scans: Any,
-    area: Optional[float] = None,
+    scans: Scans,
     pitch: Optional[Pitches] = None,
-    contacts: Optional[int] = None,
     config: Optional[Config] = None,
     *,
-    upper: Any = None,
+    area: Optional[float] = None,
+    contacts: Optional[int] = None,
+    upper: Optional[UpperScans] = None,
     **settings: Any,
 ) -> DeviceForce:
     """Which force holds a device of this area, larger or smaller than the scans of its surface?
@@ -249,11 +279,11 @@ def predict_device(
         config="part.yaml").pull_off_force
 
     scans: whatever predict() takes (arrays, topographies, Scans, paths), one or a list, of any
-    pitch, size and instrument.
-    area: nominal, of all contacts together [m^2]; None: device/contact_area. contacts: that share
-    it; None: device/contacts, which is 1 unless stated.
+    pitch, size and instrument; or a dictionary {path: pitch}.
     pitch: of the scans that bring none [m]: a number, a pair (x, y), or a list of them with one for
     each scan; in a list None stands for the scan's own.
+    area: nominal, of all contacts together [m^2]; None: device/contact_area. contacts: that share
+    it; None: device/contacts, which is 1 unless stated.
     upper: scans of the surface that meets it, in the same forms, in place of the configured
     counter-surface; counter_surface/facing must say which way they face.
     config, settings: as of predict(); device_force/... say how many surfaces are made and how
@@ -267,4 +297,4 @@ def predict_device(
     )
     predicted = _core.predict_device(core_scans(lower), core_scans(above), checked._configuration)
     warn(list(predicted.scan_warnings) + list(predicted.force_warnings), ScanWarning)
-    return DeviceForce(predicted)
+    return DeviceForce(predicted, lower)

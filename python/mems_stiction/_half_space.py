@@ -21,6 +21,8 @@ from mems_stiction._arrays import (
 from mems_stiction._inputs import inputs_of
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
+from mems_stiction._types import Heights, Upper
+from mems_stiction.other_packages import require_package
 from mems_stiction.quantities import percent, with_unit
 
 
@@ -93,6 +95,7 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: pressure at rest, and force over height."""
+        require_package("matplotlib", "a picture")
         from mems_stiction import _pictures
 
         _pictures.save_half_space(self, os.fspath(path))
@@ -139,10 +142,10 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
 
 
 def half_space(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
     config: Optional[Config] = None,
-    upper: Any = None,
+    upper: Optional[Upper] = None,
     **settings: Any,
 ) -> HalfSpace:
     """Solves the same surfaces, with the same settings, as one elastic half-space: seconds to

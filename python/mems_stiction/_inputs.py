@@ -7,13 +7,16 @@ from collections.abc import Mapping
 from typing import Any, Dict, Iterable, List, Optional, Tuple
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, pixels_of, surface_of
+from mems_stiction._arrays import Pitch, Surface, is_data_array, pixels_of, surface_of
 from mems_stiction._settings import Config, Settings, values_of
 from mems_stiction._warnings import ScanWarning, warn
 
 
 def brings_pitch(heights: Any) -> bool:
-    """Whether it says itself how far apart its pixels are: a file, a Scan, a topography."""
+    """Whether it says itself how far apart its pixels are: a file, a Scan, a topography, an array
+    with coordinates."""
+    if is_data_array(heights):
+        return "x" in heights.coords or "y" in heights.coords
     return isinstance(heights, (str, os.PathLike)) or hasattr(heights, "heights")
 
 

@@ -98,6 +98,7 @@ class LotComparison(ReadOnly):
 
     def save_picture(self, path: Path) -> None:
         """PNG, PDF or SVG: where differences lie, parts side by side, the share that sticks."""
+        require_package("matplotlib", "a picture")
         from mems_stiction.lots_figure import save_comparison
 
         save_comparison(self.to_dict(), path)
@@ -126,6 +127,7 @@ class LotComparison(ReadOnly):
     def maps(self) -> Iterator[Tuple[str, str, Any]]:
         """lot_id, wafer_id and the figure of each wafer with sites, drawn when its turn comes. The
         caller saves it."""
+        require_package("matplotlib", "a picture")
         from mems_stiction.lots_maps import has_map, map_figure
 
         for (lot, wafer), places in by_wafer(self._lots.chosen).items():

@@ -11,6 +11,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Surface, array_of, pixels_of, records_of
 from mems_stiction._device import Pitches, core_scans, scans_of_device
 from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._types import Scans, UpperScans
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.quantities import with_unit
 
@@ -25,7 +26,7 @@ class MadeSurface:
         [m] parts = [surface.cells(first, rows) for first, rows in surface.strips(8)]
         surface.adhesion(parts).pull_off_force                              # [N]
 
-    scans, area, pitch, contacts, config, upper, settings: as of predict_device().
+    scans, pitch, config, area, contacts, upper, settings: as of predict_device().
     seed: goes before device_force/seed. realisation: which of the surfaces of this seed, from 0.
     depth: how far below its highest place the cells of a strip are told one by one [m]; None: what
     suffices as a rule.
@@ -48,15 +49,15 @@ class MadeSurface:
 
     def __init__(
         self,
-        scans: Any,
-        area: Optional[float] = None,
+        scans: Scans,
         pitch: Optional[Pitches] = None,
-        contacts: Optional[int] = None,
         config: Optional[Config] = None,
-        seed: Optional[int] = None,
         *,
+        area: Optional[float] = None,
+        contacts: Optional[int] = None,
+        seed: Optional[int] = None,
         realisation: int = 0,
-        upper: Any = None,
+        upper: Optional[UpperScans] = None,
         depth: Optional[float] = None,
         **settings: Any,
     ) -> None:

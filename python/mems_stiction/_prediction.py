@@ -32,6 +32,8 @@ from mems_stiction._inputs import (
 )
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
+from mems_stiction._types import Heights, Upper
+from mems_stiction.other_packages import require_package
 from mems_stiction.provenance import FIELDS
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 
@@ -246,6 +248,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: heights, contacts by regime, cross-section through the contact that carries most."""
+        require_package("matplotlib", "a picture")
         from mems_stiction import _pictures, plots
 
         plots.save_picture(_pictures.picture_of(self), os.fspath(path))
@@ -346,7 +349,9 @@ class Predictor:
         self.settings = Settings(config, **settings)
         self._core = _core.Predictor(self.settings._configuration)
 
-    def predict(self, heights: Any, pitch: Optional[Pitch] = None, upper: Any = None) -> Prediction:
+    def predict(
+        self, heights: Heights, pitch: Optional[Pitch] = None, upper: Optional[Upper] = None
+    ) -> Prediction:
         """As the function predict()."""
         surface = surface_of(heights, pitch, self.settings)
         settings = boundary_of(surface, self.settings)
@@ -362,10 +367,10 @@ class Predictor:
 
 
 def predict(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
     config: Optional[Config] = None,
-    upper: Any = None,
+    upper: Optional[Upper] = None,
     **settings: Any,
 ) -> Prediction:
     """Will this surface stick to its counter-surface?
@@ -397,10 +402,10 @@ def predict(
 
 
 def predict_under(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
     configs: Iterable[Config] = (),
-    upper: Any = None,
+    upper: Optional[Upper] = None,
     **settings: Any,
 ) -> Iterator[Prediction]:
     """Predicts one pair of surfaces under settings after settings, and yields the predictions in
@@ -427,7 +432,7 @@ def predict_under(
 
 
 def _predictions_under(
-    heights: Any, pitch: Optional[Pitch], configs: Iterator[Settings], upper: Any
+    heights: Heights, pitch: Optional[Pitch], configs: Iterator[Settings], upper: Any
 ) -> Iterator[Prediction]:
     scan: Optional[_core.OneScan] = None
     for settings in configs:
@@ -446,7 +451,7 @@ def _predictions_under(
 
 
 def predict_many(
-    frames: Iterable[Any],
+    frames: Iterable[Heights],
     pitch: Optional[Pitch] = None,
     config: Optional[Config] = None,
     *,

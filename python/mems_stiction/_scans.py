@@ -12,6 +12,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, pitch_of, pixels_of
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._types import Heights
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.quantities import with_unit
 
@@ -146,20 +147,19 @@ class Roughness(_core.RoughnessFigures, ReadOnly):
 
 def read(
     path: Union[str, "os.PathLike[str]"],
-    channel: str = "",
     pitch: Optional[Pitch] = None,
     config: Optional[Config] = None,
     *,
+    channel: str = "",
     ignore_mask: bool = False,
     **settings: Any,
 ) -> Scan:
     """A scan from a file of any kind that predict_scan reads (doc/scans.md lists them).
 
-    channel: title or number, of a file with several; the likeliest heights if empty. channels()
-    lists them.
     pitch: distance of pixels [m], a number or (x, y); goes before what the file says. Settings
-    scan/... serve where a file states nothing. ignore_mask: pixels under the mask of a .gwy file
-    are heights as the others.
+    scan/... serve where a file states nothing. channel: title or number, of a file with several;
+    the likeliest heights if empty. channels() lists them. ignore_mask: pixels under the mask of a
+    .gwy file are heights as the others.
     Raises FileError in one line with file and cause, OptionsError for a bad sidecar. Warns
     (ScanWarning) of what the programs warn about: how the file was read, and what looks like a
     wrong unit.
@@ -187,7 +187,10 @@ def channels(
 
 
 def clean(
-    heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, **settings: Any
+    heights: Heights,
+    pitch: Optional[Pitch] = None,
+    config: Optional[Config] = None,
+    **settings: Any,
 ) -> Cleaned:
     """The surface after the steps that preprocessing/... switches on, in the order of doc/scans.md;
     without any it is the scan itself, and shares its memory. predict() does the same by itself.
@@ -233,7 +236,7 @@ def generate(
     )
 
 
-def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Scan:
+def decimate(heights: Heights, pitch: Optional[Pitch] = None, *, factor: int) -> Scan:
     """A coarser scan, as an instrument with larger pixels would see it: means over factor x factor
     pixels. A block with fewer than half of its pixels measured is missing; rows and columns beyond
     the last whole block are left out.
@@ -250,7 +253,7 @@ def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Sca
 
 
 def roughness(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
     config: Optional[Config] = None,
     *,

@@ -111,11 +111,14 @@ def _plain(mapping: Mapping) -> Dict[str, Any]:
 def _half_space_section(value: Any, level: int, budget: List[int]) -> Any:
     """half_space="auto" is short for its setting `enabled`."""
     plain = _plain_value(value, level, budget)
-    return (
-        {"enabled": "flagged" if plain == "auto" else plain}
-        if isinstance(plain, (bool, str))
-        else plain
-    )
+    if isinstance(plain, Mapping):
+        return plain
+    if not isinstance(plain, bool) and plain != "auto":
+        raise OptionsError(
+            'half_space: %r is not allowed, must be True, False, "auto", or a dictionary of '
+            "half_space/..." % (value,)
+        )
+    return {"enabled": "flagged" if plain == "auto" else plain}
 
 
 def _plain_value(value: Any, level: int, budget: List[int]) -> Any:
@@ -156,6 +159,9 @@ def _lines(text: str) -> Any:
 
 def values_of(settings: Settings) -> Dict[str, Any]:
     """Every setting with its value, by "section/key"."""
+    from mems_stiction.other_packages import require_package
+
+    require_package("yaml", "a setting by its name")
     import yaml  # type: ignore[import]
 
     values: Dict[str, Any] = {}

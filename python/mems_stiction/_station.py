@@ -11,6 +11,8 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, OptionsError
+from mems_stiction._types import Heights, Upper
+from mems_stiction.other_packages import require_package
 
 LARGEST_COUNT = 2**31 - 1
 
@@ -54,6 +56,7 @@ class LoadSweep(ReadOnly):
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: contact and margins against the voltage, both ways."""
+        require_package("matplotlib", "a picture")
         from mems_stiction import station_figures
 
         station_figures.save_sweep(self, path)
@@ -99,6 +102,7 @@ class ContactCycles(ReadOnly):
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: pull-off force, contact, rms height and margin against the number of the contact."""
+        require_package("matplotlib", "a picture")
         from mems_stiction import station_figures
 
         station_figures.save_cycles(self, path)
@@ -115,12 +119,13 @@ def _numbers(values: Any, name: str, unit: str) -> List[float]:
 
 
 def sweep_loads(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
+    config: Optional[Config] = None,
+    upper: Optional[Upper] = None,
+    *,
     voltages: Sequence[float] = (0.0,),
     mechanical_loads: Sequence[float] = (0.0,),
-    config: Optional[Config] = None,
-    upper: Any = None,
     **settings: Any,
 ) -> LoadSweep:
     """Up to which voltage does the device still come off? For each mechanical load [N] the voltage
@@ -140,11 +145,12 @@ def sweep_loads(
 
 
 def cycle_contact(
-    heights: Any,
+    heights: Heights,
     pitch: Optional[Pitch] = None,
-    count: int = 10,
     config: Optional[Config] = None,
-    upper: Any = None,
+    upper: Optional[Upper] = None,
+    *,
+    count: int = 10,
     **settings: Any,
 ) -> ContactCycles:
     """After how many contacts does the device fail? The surfaces meet `count` times under the same

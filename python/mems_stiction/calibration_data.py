@@ -17,7 +17,7 @@ import numpy as np
 import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import surface_of
-from mems_stiction._device import _listed, _pitches_of
+from mems_stiction._device import _listed, _pitches_of, with_pitches
 from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
 from mems_stiction.calibration_places import Figures, Place, digest_of
 from mems_stiction.calibration_words import UNITS
@@ -117,6 +117,8 @@ class _Reader:
         return self.settings[key]
 
     def surfaces(self, given: Any, pitch: Any, settings: Settings, what: str) -> List[Any]:
+        if isinstance(given, Mapping):
+            given, pitch = with_pitches(given, pitch)
         scans = _listed(given, what)
         names = [
             what if len(scans) == 1 else "%s[%d]" % (what, place) for place in range(len(scans))

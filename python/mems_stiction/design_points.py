@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import re
 import warnings
 from collections.abc import Mapping
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
@@ -98,8 +99,8 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
         setting = settings_named(name)[0] if isinstance(name, str) else name
         if name not in OF_THE_SURFACE and setting not in known:
             raise OptionsError(
-                "axes: there is no setting '%s'; must be one of doc/parameters.md, or %s"
-                % (name, ", ".join([*OF_BOTH_BODIES, *OF_THE_SURFACE]))
+                "axes: there is no setting '%s'%s; must be one of doc/parameters.md, or %s"
+                % (name, _meant(name, settings), ", ".join([*OF_BOTH_BODIES, *OF_THE_SURFACE]))
             )
         if setting in known and (
             isinstance(known[setting], bool) or not isinstance(known[setting], (int, float))
@@ -113,6 +114,16 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
         _check(axis, known, settings)
         axes.append(axis)
     return axes
+
+
+def _meant(name: Any, settings: Settings) -> str:
+    """ " (did you mean ...?)", by the reader of settings; empty where it knows none."""
+    try:
+        Settings(settings, **{str(name): 0.0})
+    except OptionsError as error:
+        found = re.search(r" \(did you mean [^)]*\)", str(error))
+        return found.group() if found else ""
+    return ""
 
 
 def _values(name: str, given: Any, whole: bool) -> Tuple[float, ...]:
@@ -235,8 +246,8 @@ class Holding:
             settings = Settings(self.settings, **stated)
             scans = [self._changed(scan, point) for scan in self.scans]
             found = mems_stiction.predict_device(
-                scans, config=settings, upper=self.upper or None, **SURE_SPRING
-            )  # type: ignore[arg-type]
+                scans, config=Settings(settings, **SURE_SPRING), upper=self.upper or None
+            )
         verdict = found.verdict
         assert verdict is not None
         shares = tuple(

@@ -7,13 +7,26 @@ import importlib
 
 from mems_stiction._settings import Error
 
+# Which extra of setup.py brings it.
+EXTRAS = {
+    "h5py": "formats",
+    "pyarrow": "formats",
+    "matplotlib": "pictures",
+    "scipy": "process",
+    "yaml": "process",
+}
+
+
+class MissingPackage(Error, ImportError):
+    """What is asked for needs a package that is not installed."""
+
 
 def require_package(name: str, purpose: str) -> None:
-    """Raises Error; purpose: what needs it."""
+    """Raises MissingPackage; purpose: what needs it."""
     try:
         importlib.import_module(name)
     except ImportError:
-        raise Error(
-            "%s needs the Python package %s (apt install python3-%s, or pip install %s)"
-            % (purpose, name, name, name)
+        raise MissingPackage(
+            "%s needs the Python package %s (apt install python3-%s, or pip install "
+            '"mems_stiction[%s]")' % (purpose, name, name, EXTRAS[name])
         ) from None

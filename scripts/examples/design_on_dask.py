@@ -69,10 +69,10 @@ def main():
         with Client(arguments.scheduler or cluster) as client:
             found = mems_stiction.design_sweep(
                 arguments.scans,
-                dict(arguments.axis),
-                arguments.config,
                 arguments.pitch,
-                arguments.output,
+                arguments.config,
+                axes=dict(arguments.axis),
+                output=arguments.output,
                 on_progress=show_progress,
                 executor=client.get_executor(pure=False, retries=2),
             )

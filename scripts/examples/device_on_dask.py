@@ -76,11 +76,11 @@ def main():
     try:
         surface = mems_stiction.MadeSurface(
             arguments.scans,
-            arguments.area,
             arguments.pitch,
-            arguments.contacts,
             arguments.config,
-            arguments.seed,
+            area=arguments.area,
+            contacts=arguments.contacts,
+            seed=arguments.seed,
             realisation=arguments.realisation,
             depth=arguments.depth,
         )

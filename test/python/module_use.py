@@ -15,6 +15,15 @@ def forces(frames: List[np.ndarray]) -> List[float]:
     ]
 
 
+def device(paths: List[Path], plane: np.ndarray) -> float:
+    together = mems_stiction.predict_device(paths, config="part.yaml", area=1e-8)
+    by_pitch = mems_stiction.predict_device({"a.npy": 10e-9, "b.npy": 2e-8}, area=1e-8)
+    alone = mems_stiction.predict_device(plane, 1e-8, area=1e-8, upper=plane)
+    swept = mems_stiction.sweep_loads(plane, 1e-8, voltages=[0.0, 5.0])
+    assert len(swept.points)
+    return together.pull_off_force + by_pitch.pull_off_force + alone.pull_off_force
+
+
 def report(path: Path) -> str:
     scan = mems_stiction.read(path, pitch=(20e-9, 25e-9))
     prediction = mems_stiction.predict(mems_stiction.clean(scan, preprocessing={"level": "plane"}))

@@ -53,9 +53,9 @@ def swept(axes, scans=SCAN, workers=1, **others):
         warnings.simplefilter("ignore")
         return mems_stiction.design_sweep(
             scans,
-            axes,
-            PART,
             PITCH if isinstance(scans, np.ndarray) else None,
+            PART,
+            axes=axes,
             workers=workers,
             **others,
         )
@@ -64,7 +64,7 @@ def swept(axes, scans=SCAN, workers=1, **others):
 def verdict_of(heights=SCAN, **settings):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return mems_stiction.predict_device(heights, None, PITCH, None, PART, **settings).verdict
+        return mems_stiction.predict_device(heights, PITCH, PART, **settings).verdict
 
 
 def held(force=1e-7, lower=0.5, upper=2.0, doubt="", is_bound=False):
@@ -231,9 +231,9 @@ class CoverageTest(unittest.TestCase):
                 warnings.simplefilter("ignore")
                 found = mems_stiction.design_sweep(
                     scans,
-                    {STIFFNESS: (1e-4, 1e3, 1000)},
-                    {"device": device, "device_force": {"realisations": 4}},
                     PITCH,
+                    {"device": device, "device_force": {"realisations": 4}},
+                    axes={STIFFNESS: (1e-4, 1e3, 1000)},
                     workers=1,
                 )
                 forces = self.forces_of_devices(number)
@@ -446,6 +446,11 @@ class AxesTest(unittest.TestCase):
             ({}, "must be a dictionary with one or two names"),
             ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
             ({"device/spring": [1]}, "there is no setting 'device/spring'"),
+            (
+                {"device/spring_stifness": [1]},
+                "'device/spring_stifness' (did you mean device/spring_stiffness?); must be",
+            ),
+            ({"spring_stiffness": [1]}, "(did you mean device/spring_stiffness?)"),
             ({"device/guidance": [1]}, "device/guidance is no number"),
             ({STIFFNESS: "1"}, "must be numbers"),
             ({STIFFNESS: []}, "must be numbers"),
@@ -617,11 +622,11 @@ class ProgramTest(unittest.TestCase):
             warnings.simplefilter("ignore")
             found = mems_stiction.design_sweep(
                 [str(self.path / "scan.npy")],
-                {WORK: (0.01, 0.1, count)},
-                self.path / "part.yaml",
                 PITCH,
-                rows,
-                1,
+                self.path / "part.yaml",
+                axes={WORK: (0.01, 0.1, count)},
+                output=rows,
+                workers=1,
             )
         self.assertEqual(at.call_count, count - done)
         self.assertEqual(len(found.rows), count)

@@ -325,7 +325,7 @@ class ParquetTest(InFolder):
         heights = np.outer(waves, np.cos(np.arange(64) / 7.0)) * 2e-9
         found = mems_stiction.design_sweep(
             [heights],
-            {"device/spring_stiffness": [1.0, 2.0]},
+            axes={"device/spring_stiffness": [1.0, 2.0]},
             pitch=1e-8,
             workers=1,
             device={"travel": 1e-6, "contact_area": 1e-11},
@@ -400,6 +400,50 @@ class MapFileTest(InFolder):
                 scan.heights, expected if y[0] == 0.0 else expected[::-1], rtol=1e-12
             )
             np.testing.assert_allclose(scan.pitch, (1e-6, 2e-6), rtol=1e-12)
+
+    @needs("xarray")
+    def test_a_data_array_brings_coordinates_and_units(self):
+        import xarray
+
+        heights = 1e9 * self.heights  # [nm]
+        coordinates = {
+            "y": ("y", np.arange(24) * 0.02, {"units": "um"}),
+            "x": ("x", np.arange(40) * 0.01, {"units": "um"}),
+        }
+        given = xarray.DataArray(heights, coordinates, ("y", "x"), attrs={"units": "nm"})
+        wanted = self.prediction.pull_off_force
+        for array in (given, given.T):
+            found = mems_stiction.predict(array, None, SETTINGS, **MAPS)
+            self.assertAlmostEqual(found.pull_off_force / wanted, 1.0, places=9)
+            self.assertEqual(found.contact_map.shape, array.shape)
+        plain = xarray.DataArray(self.heights, dims=("y", "x"))
+        self.assertEqual(
+            mems_stiction.predict(plain, (1e-8, 2e-8), SETTINGS, **MAPS).pull_off_force, wanted
+        )
+        with_volts = xarray.DataArray(heights, coordinates, ("y", "x"), attrs={"units": "V"})
+        packed = xarray.DataArray(heights, coordinates, ("y", "x"), attrs={"scale_factor": 2.0})
+        seconds = dict(coordinates, x=("x", np.arange(40.0), {"units": "s"}))
+        uneven = dict(coordinates, x=("x", np.arange(40.0) ** 2, {"units": "um"}))
+        for wrong, pitch, words in (
+            (given, 1e-8, "brings its own"),
+            (given.rename(x="time"), None, "must be y and x"),
+            (plain, None, "pitch: an array says nothing of it"),
+            (with_volts, None, "the unit 'V'"),
+            (packed, None, "scale_factor"),
+            (xarray.DataArray(heights, seconds, ("y", "x")), None, "the unit 's'"),
+            (xarray.DataArray(heights, uneven, ("y", "x")), None, "x: .* even"),
+        ):
+            with self.assertRaisesRegex(mems_stiction.SurfaceError, words):
+                mems_stiction.predict(wrong, pitch, SETTINGS)
+
+    @needs("xarray", "h5netcdf")
+    def test_what_save_maps_wrote_comes_back_through_xarray(self):
+        import xarray
+
+        self.prediction.save_maps(self.folder / "maps.nc")
+        with xarray.open_dataset(str(self.folder / "maps.nc"), engine="h5netcdf") as data:
+            found = mems_stiction.predict(data["heights"], None, SETTINGS)
+        self.assertAlmostEqual(found.pull_off_force / self.prediction.pull_off_force, 1.0, places=9)
 
     @needs("xarray", "h5netcdf")
     def test_xarray_reads_it_as_netcdf(self):

@@ -39,7 +39,7 @@ SCANS = [rough(128, 128, 6e-9, 1), rough(128, 128, 6e-9, 2)]
 def made(area=AREA, given=SCANS, **settings):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mems_stiction.ScanWarning)
-        return mems_stiction.MadeSurface(given, area, PITCH, **settings)
+        return mems_stiction.MadeSurface(given, PITCH, area=area, **settings)
 
 
 def adhesion(surface, cuts):
@@ -55,8 +55,8 @@ def predicted(area=AREA, given=SCANS, seed=1, **settings):
         warnings.simplefilter("ignore", mems_stiction.ScanWarning)
         return mems_stiction.predict_device(
             given,
-            area,
             PITCH,
+            area=area,
             device_force={"realisations": 3, "max_cells": 1e8, "seed": seed},
             **settings,
         )

@@ -42,10 +42,12 @@ def device_program():
     return str(pathlib.Path(program()).with_name("predict_device"))
 
 
-def predicted(given, *arguments, **settings):
+def predicted(given, area, pitch=None, contacts=None, **settings):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mems_stiction.ScanWarning)
-        return mems_stiction.predict_device(given, *arguments, **dict(QUICK, **settings))
+        return mems_stiction.predict_device(
+            given, pitch, area=area, contacts=contacts, **dict(QUICK, **settings)
+        )
 
 
 class DeviceTest(unittest.TestCase):
@@ -193,6 +195,20 @@ class DeviceTest(unittest.TestCase):
         ):
             predicted(given, AREA)
 
+    def test_a_dictionary_has_files_with_their_pitches_which_are_shown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("fine.npy", "wide.npy")]
+            for path, heights in zip(paths, scans()):
+                np.save(path, heights)
+            pitches = [PITCH, (2 * PITCH, 4 * PITCH)]
+            found = predicted(dict(zip(paths, pitches)), AREA)
+            self.assertEqual(found.pull_off_force, predicted(paths, AREA, pitches).pull_off_force)
+            with self.assertRaisesRegex(mems_stiction.SurfaceError, "^pitch: .* dictionary"):
+                predicted({paths[0]: PITCH}, AREA, PITCH)
+        self.assertEqual(found.pitches, ((PITCH, PITCH), pitches[1]))
+        self.assertIn("fine.npy: pixels of 10.0 nm\n", repr(found))
+        self.assertIn("wide.npy: pixels of 20.0 nm x 40.0 nm\n", repr(found))
+
     def test_area_and_contacts_by_argument_or_settings(self):
         given = scans()
         stated = predicted(given, None, PITCH, device={"contact_area": AREA, "contacts": 2})
@@ -231,7 +247,7 @@ class DeviceTest(unittest.TestCase):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             surface = mems_stiction.MadeSurface(
-                given, (64 * 8 * PITCH) ** 2, [PITCH, PITCH, 8 * PITCH]
+                given, [PITCH, PITCH, 8 * PITCH], area=(64 * 8 * PITCH) ** 2
             )
         self.assertTrue(np.isfinite(surface.heights(0, 0, 50, 50)).all())
         self.assertRegex(
@@ -296,11 +312,13 @@ class VerdictTest(unittest.TestCase):
         heights = rough(64, 64, 2e-9, 1)
         settings = dict(QUICK, device=dict(SPRING["device"], contact_area=AREA))
         prediction = mems_stiction.predict(heights, PITCH, **settings)
-        sweep = mems_stiction.sweep_loads(heights, PITCH, [0.0], [0.0, 1e-7], **settings)
+        sweep = mems_stiction.sweep_loads(
+            heights, PITCH, voltages=[0.0], mechanical_loads=[0.0, 1e-7], **settings
+        )
         self.assertAlmostEqual(sweep.points.margin[0] / prediction.verdict.margin, 1.0, delta=1e-9)
         ratios = sweep.points.margin * sweep.points.pull_off_force
         self.assertAlmostEqual(ratios.max() / ratios.min(), 1.0, delta=1e-9)
-        cycles = mems_stiction.cycle_contact(heights, PITCH, 2, **settings).cycles
+        cycles = mems_stiction.cycle_contact(heights, PITCH, count=2, **settings).cycles
         self.assertAlmostEqual(cycles.margin[0] / prediction.verdict.margin, 1.0, delta=1e-9)
 
 
@@ -309,7 +327,7 @@ import mems_stiction, numpy
 heights = 2e-9 * numpy.random.default_rng(1).standard_normal((64, 64))
 print("started", flush=True)
 try:
-    mems_stiction.predict_device(heights, 1e-8, 10e-9, device_force={"realisations": 1000, "max_cells": 2e5})
+    mems_stiction.predict_device(heights, 10e-9, area=1e-8, device_force={"realisations": 1000, "max_cells": 2e5})
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """  # noqa: E501

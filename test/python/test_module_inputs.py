@@ -208,7 +208,7 @@ class SlipTest(unittest.TestCase):
                 mems_stiction.sweep_loads,
                 good,
                 PITCH,
-                voltages,
+                voltages=voltages,
             )
         for count in ("3", 3.0, True, 10**12, None):
             self.named(
@@ -217,7 +217,7 @@ class SlipTest(unittest.TestCase):
                 mems_stiction.cycle_contact,
                 good,
                 PITCH,
-                count,
+                count=count,
             )
         for shape in ("ab", 64, (64, 64.0), (10**12, 1), (64,) * 3):
             self.named(
@@ -500,7 +500,7 @@ class VerdictTest(unittest.TestCase):
         self.assertIn("half_space/max_flagged_pixels = 2000", large.verdict.reason)
         with self.assertRaisesRegex(
             mems_stiction.OptionsError,
-            "half_space/enabled: 'maybe' is not allowed, must be one of: false, flagged, true",
+            "half_space: 'maybe' is not allowed, must be True, False, \"auto\"",
         ):
             mems_stiction.predict(smooth, pitch, half_space="maybe")
 
@@ -548,9 +548,9 @@ class CopyTest(unittest.TestCase):
             mems_stiction.predict(topography, device=DEVICE, device_force=FEW),
             mems_stiction.half_space(rough(12, 12), PITCH, SOFT, device=DEVICE, device_force=FEW),
             mems_stiction.sweep_loads(
-                heights, PITCH, [0, 1], interface={"insulator_thickness": 1e-7}
+                heights, PITCH, voltages=[0, 1], interface={"insulator_thickness": 1e-7}
             ),
-            mems_stiction.cycle_contact(heights, PITCH, 2),
+            mems_stiction.cycle_contact(heights, PITCH, count=2),
             mems_stiction.clean(heights, PITCH),
             mems_stiction.Settings(SOFT),
             mems_stiction.roughness(heights, PITCH),
@@ -629,7 +629,7 @@ prediction = mems_stiction.predict(heights, 2e-8, settings)
 assert pickle.loads(pickle.dumps(settings)).yaml() == settings.yaml()
 assert pickle.loads(pickle.dumps(mems_stiction.Predictor(settings))).predict(heights, 2e-8).pull_off_force == prediction.pull_off_force
 assert prediction._repr_html_() is None and "pull-off force" in repr(copy.deepcopy(prediction))
-print(mems_stiction.cycle_contact(heights, 2e-8, 2), mems_stiction.sweep_loads(heights, 2e-8), mems_stiction.roughness(heights, 2e-8))
+print(mems_stiction.cycle_contact(heights, 2e-8, count=2), mems_stiction.sweep_loads(heights, 2e-8), mems_stiction.roughness(heights, 2e-8))
 for needed in (lambda: mems_stiction.compare_lots([{"margin": 2.0}]), lambda: mems_stiction.calibrate([]), lambda: prediction.save_maps("maps.h5")):
     try:
         needed()
@@ -639,6 +639,7 @@ try:
     prediction.save_picture("picture.png")
 except ImportError as missing:
     print(missing)
+    assert isinstance(missing, mems_stiction.Error)
 """  # noqa: E501
 
     def test_all_but_pictures_work(self):
@@ -651,11 +652,13 @@ except ImportError as missing:
         )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         lines = done.stdout.splitlines()
-        self.assertIn("matplotlib", lines[-1])
+        self.assertIn("the Python package matplotlib", lines[-1])
+        self.assertIn('pip install "mems_stiction[pictures]"', lines[-1])
         for line, words in zip(
             lines[-4:-1],
             (
-                "compare_lots needs the Python package scipy",
+                "compare_lots needs the Python package scipy (apt install python3-scipy, or pip "
+                'install "mems_stiction[process]")',
                 "calibrate needs the Python package scipy",
                 "HDF5 needs the Python package h5py",
             ),

@@ -63,6 +63,9 @@ class WrongInputTest(unittest.TestCase):
             mems_stiction.predict(good, PITCH, upper=good[0])
         with self.assertRaisesRegex(options, "config: 3 is not allowed"):
             mems_stiction.predict(good, PITCH, 3)
+        for unfit in ("yes", 1, None, "True"):
+            with self.assertRaisesRegex(options, "^half_space: %r is not allowed" % unfit):
+                mems_stiction.predict(good, PITCH, half_space=unfit)
         with self.assertRaisesRegex(
             mems_stiction.FileError, "missing.yaml: the configuration file cannot be opened"
         ):
@@ -240,14 +243,14 @@ class StationTest(unittest.TestCase):
         sweep = mems_stiction.sweep_loads(
             heights,
             PITCH,
-            [0, 5],
-            [0, 1e-7],
+            voltages=[0, 5],
+            mechanical_loads=[0, 1e-7],
             interface={"insulator_thickness": 1e-7},
             device=DEVICE,
             device_force=FEW,
         )
         cycles = mems_stiction.cycle_contact(
-            heights, PITCH, 3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9}
+            heights, PITCH, count=3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9}
         )
         self.assertEqual(sorted(sweep.points.dtype.names), sorted(self.fields_of("SweepPoint")))
         self.assertEqual(
@@ -274,7 +277,9 @@ class StationTest(unittest.TestCase):
             settings = dict(
                 interface={"insulator_thickness": 1e-7}, device=device, device_force=FEW
             )
-            swept = mems_stiction.sweep_loads(heights, PITCH, [0, 10, 20], [0, 1e-7], **settings)
+            swept = mems_stiction.sweep_loads(
+                heights, PITCH, voltages=[0, 10, 20], mechanical_loads=[0, 1e-7], **settings
+            )
             with tempfile.TemporaryDirectory() as folder:
                 scan, config = os.path.join(folder, "scan.npy"), os.path.join(folder, "config.yaml")
                 np.save(scan, heights)
@@ -317,9 +322,9 @@ class StationTest(unittest.TestCase):
 
     def test_wrong_requests_are_named(self):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "voltages"):
-            mems_stiction.sweep_loads(rough(20, 20), PITCH, [5, 0])
+            mems_stiction.sweep_loads(rough(20, 20), PITCH, voltages=[5, 0])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "0"):
-            mems_stiction.cycle_contact(rough(20, 20), PITCH, 0)
+            mems_stiction.cycle_contact(rough(20, 20), PITCH, count=0)
 
 
 if __name__ == "__main__":

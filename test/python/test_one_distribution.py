@@ -89,8 +89,8 @@ class FacesTest(unittest.TestCase):
             found["predict_device()"] = mems_stiction.predict_device(
                 [SCAN], pitch=PITCH, **settings
             ).to_dict()
-            sweep = mems_stiction.sweep_loads(SCAN, PITCH, [0.0], **settings).points
-            cycles = mems_stiction.cycle_contact(SCAN, PITCH, 1, **settings).cycles
+            sweep = mems_stiction.sweep_loads(SCAN, PITCH, voltages=[0.0], **settings).points
+            cycles = mems_stiction.cycle_contact(SCAN, PITCH, count=1, **settings).cycles
         for name, points in (("sweep", sweep), ("cycles", cycles)):
             found[name] = {column: points[0][column] for column in points.dtype.names}
         return found

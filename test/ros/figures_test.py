@@ -323,8 +323,12 @@ class FiguresTest(unittest.TestCase):
         config = settings_of(DEVICE_STATION)
         swept, cycled = [], []
         for surface in self.surfaces:
-            swept.append(mems_stiction.sweep_loads(surface, PITCH, voltages, loads, config=config))
-            cycled.append(mems_stiction.cycle_contact(surface, PITCH, 4, config=config))
+            swept.append(
+                mems_stiction.sweep_loads(
+                    surface, PITCH, config, voltages=voltages, mechanical_loads=loads
+                )
+            )
+            cycled.append(mems_stiction.cycle_contact(surface, PITCH, config, count=4))
 
         def run(client, goal):
             client.send_goal(goal)
