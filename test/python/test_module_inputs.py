@@ -184,7 +184,7 @@ class SlipTest(unittest.TestCase):
         for line in (rough(1, 30), rough(30, 1), rough(1, 30)[0]):
             self.named(
                 mems_stiction.SurfaceError,
-                "surface_of_profile() makes grooves or a random surface of it",
+                r"surface_of_profile\(\) makes grooves or a random surface of it",
                 mems_stiction.predict,
                 line,
                 PITCH,
