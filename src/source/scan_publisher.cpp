@@ -1,12 +1,15 @@
 #include "source/scan_publisher.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <sensor_msgs/Image.h>
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/ScanInfo.h"
+#include "numeric/words.hpp"
 #include "ros/image_conversion.hpp"
+#include "ros/own_log.hpp"
 #include "ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -15,12 +18,20 @@ namespace {
 /// roscpp drops the oldest message of a full queue and counts nothing; max_ahead bounds this one.
 constexpr std::uint32_t kUnlimitedQueue = 0;
 
+std::vector<std::string> fullNames(const ros::NodeHandle& handle, const std::string& list) {
+  std::vector<std::string> names = wordsOf(replaced(list, ",", " "));
+  for (std::string& name : names) name = handle.resolveName(name);
+  return names;
+}
+
 }  // namespace
 
 ScanPublisher::ScanPublisher(ros::NodeHandle& handle, const SourceOptions& options)
     : max_ahead_(static_cast<std::size_t>(options.max_ahead)),
       answer_timeout_(options.answer_timeout),
       listener_(options.listener.empty() ? "" : handle.resolveName(options.listener)),
+      audience_(fullNames(handle, options.audience)),
+      audience_until_(ros::SteadyTime::now() + ros::WallDuration(options.audience_timeout)),
       height_(advertise<sensor_msgs::Image>(handle, kHeightTopic, height_listeners_)),
       info_(advertise<ScanInfo>(handle, kScanInfoTopic, info_listeners_)) {
   if (max_ahead_ == 0) return;
@@ -52,6 +63,20 @@ bool ScanPublisher::isHeard() {
   return height_listeners_.count(listener_) > 0 && info_listeners_.count(listener_) > 0;
 }
 
+std::string ScanPublisher::missingListener() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto missing =
+      std::find_if(audience_.begin(), audience_.end(),
+                   [this](const std::string& name) { return info_listeners_.count(name) == 0; });
+  if (missing != audience_.end() && ros::SteadyTime::now() < audience_until_) return *missing;
+  if (missing != audience_.end()) {
+    logSoon(ros::console::levels::Warn,
+            *missing + " does not listen to " + info_.getTopic() + ": scans go on without");
+  }
+  audience_.clear();  // who leaves later is not waited for
+  return "";
+}
+
 void ScanPublisher::takeAnswer(const StictionPrediction& prediction) {
   const std::lock_guard<std::mutex> lock(mutex_);
   unanswered_.erase(prediction.header.stamp.toNSec());
@@ -62,6 +87,9 @@ std::string ScanPublisher::waitsFor() {
     return (listener_.empty() ? "nobody" : "no " + listener_) + " listens to " +
            height_.getTopic() + " and " + info_.getTopic() + ": scans wait";
   }
+  const std::string missing = missingListener();
+  if (!missing.empty())
+    return missing + " does not listen to " + info_.getTopic() + " yet: scans wait";
   if (max_ahead_ == 0 || predictions_.getNumPublishers() == 0) return "";
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::SteadyTime now = ros::SteadyTime::now();

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 
@@ -42,11 +43,16 @@ class ScanPublisher {
   ros::Publisher advertise(ros::NodeHandle& handle, const char* topic,
                            std::multiset<std::string>& listeners);
   bool isHeard();
+  /// Of the audience, the first node that is not there yet; empty = all are, or were, or the time
+  /// is over.
+  std::string missingListener();
   void takeAnswer(const StictionPrediction& prediction);
 
   const std::size_t max_ahead_;
   const double answer_timeout_;
-  const std::string listener_;  ///< its full name; empty = anybody
+  const std::string listener_;         ///< its full name; empty = anybody
+  std::vector<std::string> audience_;  ///< their full names; empty once all have listened
+  const ros::SteadyTime audience_until_;
   std::mutex mutex_;
   std::multiset<std::string> height_listeners_, info_listeners_;  ///< names of nodes
   ros::Publisher height_, info_;

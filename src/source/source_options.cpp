@@ -140,6 +140,11 @@ void SourceOptions::describe(OptionVisitor& visitor) {
   visitor.text("listener", listener,
                "node that must listen before a scan is published, of nodelets their manager; empty "
                "= anybody will do");
+  visitor.text("audience", audience,
+               "nodes that must listen to scan_info before the first scan is published, as a "
+               "recorder and a page that start beside the source; a list or a text with commas");
+  visitor.number("audience_timeout", audience_timeout, "s", Range::within(0.0, 1e6),
+                 "the first scan waits no longer for the audience");
   visitor.integer(
       "max_ahead", max_ahead, Range::within(0, 1e6),
       "scans that are published beyond those that the node has answered; 0 = any number");
@@ -162,6 +167,7 @@ SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
     tree = yamlFromParameters(parameters);
   }
   joinList(tree, "patterns");
+  joinList(tree, "audience");
   std::vector<std::string> violations = readYaml(tree, [&](OptionVisitor& visitor) {
     options.describe(visitor);
     options.scan.describe(visitor);

@@ -79,8 +79,10 @@ struct LineOptions {
 struct SourceOptions {
   SourceKind source = SourceKind::kFolder;
   std::string listener;  ///< node without which nothing is published; empty = anybody will do
-  int max_ahead = 20;    ///< scans beyond those that the node has answered; 0 = any number
-  double answer_timeout = 60.0;    ///< the node's answer is waited for no longer [s]
+  std::string audience;  ///< nodes that the first scan waits for, with commas between them
+  double audience_timeout = 30.0;  ///< so long at most [s]
+  int max_ahead = 20;            ///< scans beyond those that the node has answered; 0 = any number
+  double answer_timeout = 60.0;  ///< the node's answer is waited for no longer [s]
   double diagnostic_period = 1.0;  ///< between messages on /diagnostics [s]
   FolderOptions folder;
   PointsOptions points;

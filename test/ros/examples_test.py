@@ -65,12 +65,14 @@ class Example:
     """A launch file as a user starts it, with a device whose contact is as large as a scan, and a
     browser that looks at its page."""
 
-    def __init__(self, test, name, scanned_area, **arguments):
+    def __init__(self, test, name, scanned_area, old_files=None, **arguments):
         temporary = tempfile.TemporaryDirectory()
         test.addCleanup(temporary.cleanup)
         self.top = pathlib.Path(temporary.name)
         self.folder = self.top / "scans"
         self.folder.mkdir()
+        for old, content in (old_files or {}).items():
+            (self.folder / old).write_bytes(content)
         settings = settings_of(
             STATION,
             preprocessing=dict(level="plane"),
@@ -167,21 +169,34 @@ class ExamplesTest(unittest.TestCase):
         self.assertLess(prediction.needed_pitch, POINT_PITCH)
 
     def test_1_an_afm_whose_program_saves_files(self):
-        example = Example(self, "afm_folder", 48 * 64 * AFM_PITCH**2, folder="{0.folder}")
+        example = Example(
+            self,
+            "afm_folder",
+            48 * 64 * AFM_PITCH**2,
+            old_files={"beam 0.gsf": afm_file(rough_surface(3, rms_height=5e-10))},
+            folder="{0.folder}",
+        )
+        old, _ = example.verdict(1)  # what lay there is for page and recorder, too
+        self.assertEqual(old.scan_name, "beam 0")
         content = afm_file(rough_surface(2, rms_height=5e-10))
         with open(example.folder / "beam 1.gsf", "wb", buffering=0) as stream:  # as it grows
             for piece in range(4):
                 stream.write(content[piece * len(content) // 4 : (piece + 1) * len(content) // 4])
                 time.sleep(0.5)
-        verdict, prediction = example.verdict(1)
+        verdict, prediction = example.verdict(2)
         self.assertEqual(verdict.scan_name, "beam 1")
         self.assertEqual(shown(verdict), "RELEASES")
-        verdicts = [verdict]
+        verdicts = [old, verdict]
         scans = os.environ.get("MEMS_STICTION_SCANS")
         for path in sorted(pathlib.Path(scans).glob("*.di")) if scans else []:
             (example.folder / path.name).write_bytes(path.read_bytes())
             verdicts.append(example.verdict(len(verdicts) + 1)[0])
         example.counts.wait(found=len(verdicts), published=len(verdicts), refused=0, waiting=0)
+        self.assertEqual(example.page.value("state.count"), len(verdicts))
+        example.page.wait(
+            "document.querySelector('#sources-text').textContent.startsWith("
+            "'Source: %d of %d scans published')" % (len(verdicts), len(verdicts))
+        )
         self.assert_recorded(example, verdicts)
 
     def test_2_an_areal_sensor_whose_driver_publishes_fields(self):
