@@ -325,8 +325,10 @@ def page(lines, figure):
         "- **Reference.** The half-space solved %d in the time given. Its pixels resolve the "
         "cohesive length E z0^2/Gamma on %d of these, and only those "
         "count." % (len(solved), len(resolved)),
-        "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* "
-        "the standard deviation of their logarithm. Shares of frames are in percent.",
+        "- **Figures** as on the [map](trust.md)."
+        if is_of_processes
+        else "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, "
+        "*spread* the standard deviation of their logarithm. Shares of frames are in percent.",
         "",
         "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name,
         "",
@@ -342,13 +344,13 @@ def page(lines, figure):
             row("rigid, at first touch", rigid),
         ],
     )
-    text += [
-        "## Where `separation_curve` is right",
-        "",
-        "*conforming*: frames that are bonded. *doubted*: other frames with the flag NEAR_BONDING; "
-        "`model_doubt` gives the reason. *sparse*: the rest.",
-        "",
-    ]
+    text += ["## Where `separation_curve` is right", ""]
+    if not is_of_processes:
+        text += [
+            "*conforming*: frames that are bonded. *doubted*: other frames with the flag "
+            "NEAR_BONDING; `model_doubt` gives the reason. *sparse*: the rest.",
+            "",
+        ]
     rows = [row("pull-off force, all", ratios(resolved, ours, reference))]
     for name in (SPARSE, CONFORMING, DOUBTED):
         of_name = [line for line in resolved if regime(line) == name]
