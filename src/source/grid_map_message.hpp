@@ -38,12 +38,14 @@ struct GridMapMessage {
 namespace ros {
 namespace message_traits {
 
+/// That of the definition in grid_map_msgs.
 template <>
 struct MD5Sum<mems_stiction::GridMapMessage> {
   static const char* value() { return "95681e052b1f73bf87b7eb984382b401"; }
   static const char* value(const mems_stiction::GridMapMessage&) { return value(); }
 };
 
+/// The name by which publishers and bags know it.
 template <>
 struct DataType<mems_stiction::GridMapMessage> {
   static const char* value() { return "grid_map_msgs/GridMap"; }
@@ -54,6 +56,7 @@ struct DataType<mems_stiction::GridMapMessage> {
 
 namespace serialization {
 
+/// Reads and writes its fields in the order of the definition.
 template <>
 struct Serializer<mems_stiction::GridMapMessage> {
   template <typename Stream, typename Message>
