@@ -98,7 +98,7 @@ class PredictionFigures:
     van_der_waals_force: float
     """[N] attraction of the cells out of contact (2)"""
     electrostatic_force: float
-    """[N] attraction by the voltage (3)"""
+    """[N] attraction by voltage and contact potential (3)"""
     normal_load: float
     """[N] mechanical, van der Waals, electrostatic, capillary together"""
     capillary_force: float

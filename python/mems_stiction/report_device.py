@@ -30,6 +30,7 @@ STATED = (
     ("interface/insulator_thickness", "thickness of the insulator", "m"),
     ("interface/relative_humidity", "relative humidity", ""),
     ("load/voltage", "voltage", "V"),
+    ("load/contact_potential", "contact potential", "V"),
     ("load/mechanical_load", "mechanical load on the scan", "N"),
     ("load/pressure", "pressure", "Pa"),
     ("load/device_force", "force on the device", "N"),

@@ -292,8 +292,7 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
   }
-  const bool is_pressed = model_.load.mechanical_load > 0.0 || model_.load.voltage != 0.0;
-  if (found.flows && is_pressed) {
+  if (found.flows && model_.load.presses()) {
     warnOnce(
         "the load makes contacts flow, and of the device's own they flow as whole contacts: a "
         "scan's prediction, by "

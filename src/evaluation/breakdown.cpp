@@ -13,11 +13,19 @@ constexpr double kNarrowGapStrength = 3e9;     // [V/m]
 constexpr double kWideGapStrength = 0.11e9;    // [V/m]
 constexpr double kNarrowestMeasured = 0.5e-6;  // [m]
 
-std::string sentence(double voltage, const std::string& over, double field, double strength,
-                     const std::string& what) {
-  return "load/voltage " + shortNumber(voltage) + " V over " + over + " is a field of " +
-         shortNumber(field * 1e-9) + " GV/m: " + what + " from about " +
-         shortNumber(strength * 1e-9) + " GV/m on";
+/// "load/voltage 20 V and load/contact_potential 0.3 V": what of them is on.
+std::string nameOf(const LoadOptions& load) {
+  std::string name;
+  if (load.voltage != 0.0) name = "load/voltage " + shortNumber(std::abs(load.voltage)) + " V";
+  if (load.contact_potential == 0.0) return name;
+  return name + (name.empty() ? "" : " and ") + "load/contact_potential " +
+         shortNumber(std::abs(load.contact_potential)) + " V";
+}
+
+std::string sentence(const LoadOptions& load, const std::string& over, double field,
+                     double strength, const std::string& what) {
+  return nameOf(load) + " over " + over + " is a field of " + shortNumber(field * 1e-9) +
+         " GV/m: " + what + " from about " + shortNumber(strength * 1e-9) + " GV/m on";
 }
 
 }  // namespace
@@ -25,15 +33,15 @@ std::string sentence(double voltage, const std::string& over, double field, doub
 std::vector<std::string> breakdownWarnings(const Options& options, const DeviceOptions& device,
                                            double mean_gap) {
   std::vector<std::string> lines;
-  const double voltage = std::abs(options.load.voltage);
+  const LoadOptions& load = options.load;
+  const double voltage = load.fieldVoltage();
   if (voltage == 0.0) return lines;
   const double thickness = options.interface.insulator_thickness;
   const double permittivity = options.interface.insulator_relative_permittivity;
   const double in_contact =
       surface_forces::gapField(0.0, voltage, thickness, permittivity) / permittivity;
   if (in_contact > kInsulatorStrength) {
-    lines.push_back(sentence(voltage,
-                             "interface/insulator_thickness " + shortNumber(thickness) + " m",
+    lines.push_back(sentence(load, "interface/insulator_thickness " + shortNumber(thickness) + " m",
                              in_contact, kInsulatorStrength, "thermal SiO2 breaks down"));
   }
   const auto check = [&](const std::string& name, double gap) {
@@ -41,7 +49,7 @@ std::vector<std::string> breakdownWarnings(const Options& options, const DeviceO
     const bool is_narrow = gap < kNarrowestMeasured;
     const double strength = is_narrow ? kNarrowGapStrength : kWideGapStrength;
     if (!(gap > 0.0 && field > strength)) return;
-    lines.push_back(sentence(voltage, name + " of " + shortNumber(gap) + " m", field, strength,
+    lines.push_back(sentence(load, name + " of " + shortNumber(gap) + " m", field, strength,
                              is_narrow ? "metals emit electrons" : "gaps in air break down"));
   };
   check("the mean gap", mean_gap);

@@ -1,14 +1,15 @@
 #pragma once
 
 /// @file
-/// Does the voltage lie over more than insulator and gap can stand?
+/// Do voltage and contact potential lie over more than insulator and gap can stand?
 ///
 ///     closed  E_i = U/t                     in the insulator where the surfaces touch
 ///             E_g = U/(mean gap + t/eps_r)  in the gap beside the contacts
 ///     open    E_e = U/(d_e + t/eps_r)     between the electrodes of the device, at rest and closed
 ///
-/// These are the fields of the electrostatic pressure (surface_forces.hpp), so the forces go with
-/// their squares. A warning comes above
+/// U is the size of both together (LoadOptions::fieldVoltage()). These are the fields of the
+/// electrostatic pressure (surface_forces.hpp), so the forces go with their squares. A warning
+/// comes above
 ///
 ///     1 GV/m     in the insulator: what thermal SiO2 stands, the best of the usual ones (8 to 11
 ///                MV/cm; films of a few nanometres up to 1.5 GV/m). Deposited oxides and nitrides,
@@ -30,7 +31,8 @@
 
 namespace mems_stiction {
 
-/// One sentence for each field that nothing stands, without commas; none without a voltage.
+/// One sentence for each field that nothing stands, without commas; none without a
+/// voltage or contact potential.
 /// - @p mean_gap of the surfaces out of contact [m]; NaN if it is not known
 std::vector<std::string> breakdownWarnings(const Options& options, const DeviceOptions& device,
                                            double mean_gap);

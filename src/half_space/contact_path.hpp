@@ -27,8 +27,8 @@
 /// the loading branch only where it leads to counts: its jumps are met in steps of the usual size.
 ///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are
-/// drawn apart: the device opens when its loads have gone. From there to no force the unloading
-/// branch takes the load that the voltage was, and then the mechanical one.
+/// drawn apart: the device opens when its loads have gone. A contact potential stays. From there to
+/// no force the unloading branch takes the load that the voltage was, and then the mechanical one.
 
 #include <functional>
 #include <limits>

@@ -84,7 +84,7 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
   law.attracts = options.attraction;
   if (options.flow)
     law.hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
-  law.voltage = problem.load.voltage;
+  law.voltage = problem.load.fieldVoltage();
   law.insulator_thickness = problem.interface.insulator_thickness;
   law.insulator_relative_permittivity = problem.interface.insulator_relative_permittivity;
   law.water = problem.capillary;
@@ -194,18 +194,18 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
 }
 
 /// The unloading branch from rest, when the voltage has gone; and, where there was one, a second
-/// one under it.
+/// one under it. A contact potential stays on both.
 /// - @p law of the loading branch
 /// - @p flowed on the first one
 PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser,
-                        TractionLawOptions law, LargePageVector<float>& flowed,
-                        SolvedHalfSpace& solution) {
-  const bool has_voltage = law.voltage != 0.0;
+                        TractionLawOptions law, const LoadOptions& load,
+                        LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
+  const bool has_voltage = load.voltage != 0.0;
   std::optional<ContactPath::Place> rest;
   PathStatus status = PathStatus::kDone;
   if (has_voltage) {
     rest = path.place();
-    law.voltage = 0.0;
+    law.voltage = load.contact_potential;
     status = path.change(TractionLaw(law));
   }
   if (status == PathStatus::kDone) status = path.retract();
@@ -333,7 +333,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
       takeRest(path, minimiser, solution);
       status = options_.path == HalfSpacePath::kRest
                    ? leaveRest(path, minimiser, flowed, solution)
-                   : partFromRest(path, minimiser, law_options, flowed, solution);
+                   : partFromRest(path, minimiser, law_options, problem.load, flowed, solution);
     }
     solution.status = statusOf(status);
     solution.message = sentenceOf(status, problem, options_, path);

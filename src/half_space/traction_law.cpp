@@ -34,7 +34,7 @@ std::vector<std::string> TractionLawOptions::validate() const {
   require(Range::any().contains(voltage), "load/voltage", voltage, "finite");
   if (voltage != 0.0) {
     require(positive.contains(insulator_thickness), "interface/insulator_thickness",
-            insulator_thickness, "> 0 m when the voltage is not 0");
+            insulator_thickness, "> 0 m when voltage or contact potential is not 0");
     require(insulator_relative_permittivity >= 1.0, "interface/insulator_relative_permittivity",
             insulator_relative_permittivity, ">= 1");
   }

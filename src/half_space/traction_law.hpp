@@ -41,7 +41,7 @@ struct TractionLawOptions {
   bool attracts = true;              ///< false: no attraction, the surfaces repel closer than z0
   double hardness = std::numeric_limits<double>::infinity();  ///< Ha of the softer body [Pa], > 0;
                                                               ///< infinity: elastic
-  double voltage = 0.0;                                       ///< U [V]
+  double voltage = 0.0;                                       ///< whose field acts [V]
   double insulator_thickness = 0.0;              ///< t [m], > 0 when the voltage is not 0
   double insulator_relative_permittivity = 3.9;  ///< eps_r [-], >= 1
   CapillaryOptions water;                        ///< relative_humidity 0: none

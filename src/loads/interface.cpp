@@ -11,7 +11,8 @@ void InterfaceOptions::describe(OptionVisitor& visitor) {
                  "equilibrium distance of Tabor's parameter");
   visitor.number(
       "interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),
-      "thickness of the insulator between the electrodes; must be > 0 when the voltage is not 0");
+      "thickness of the insulator between the electrodes; must be > 0 when voltage or contact "
+      "potential is not 0");
   visitor.number("interface/insulator_relative_permittivity", insulator_relative_permittivity, "",
                  Range{1.0}, "relative permittivity of the insulator");
   visitor.number("interface/hardness_ratio_limit", hardness_ratio_limit, "",
@@ -26,6 +27,11 @@ void LoadOptions::describe(OptionVisitor& visitor) {
                  "largest mechanical load that may be set");
   visitor.number("load/voltage", voltage, "V", Range::within(-max_voltage, max_voltage),
                  "voltage between the surfaces");
+  visitor.number(
+      "load/contact_potential", contact_potential, "V",
+      Range::within(-kMostContactPotential, kMostContactPotential),
+      "potential between the surfaces that stays when voltage and load have gone; adds to "
+      "the size of the voltage, whatever its sign");
   visitor.number("load/mechanical_load", mechanical_load, "N",
                  Range::within(0.0, max_mechanical_load),
                  "external force that presses the scanned area together");

@@ -33,7 +33,7 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
   const SearchSetting setting{
       AsperityLaw(pair, settings.interface.work_of_adhesion, problem.composite_rms_height,
                   formulation_, settings.deformation),
-      CellForces(settings.interface, cutoff, settings.load.voltage, problem.gap.cellArea()),
+      CellForces(settings.interface, cutoff, settings.load.fieldVoltage(), problem.gap.cellArea()),
       settings.load.mechanical_load,
       step,
       settings.approach.max_steps,
@@ -56,8 +56,9 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
                        state_.plastic_work};
   listAsperities(problem, setting.law, solution);
   sumAsperities(setting.law, solution);
-  solution.pull_off_force =
-      solution.pull_off_force_jkr + solution.load.van_der_waals + solution.load.capillary;
+  solution.pull_off_force = solution.pull_off_force_jkr + solution.load.van_der_waals +
+                            solution.load.capillary +
+                            settings.load.lastingFieldShare() * solution.load.electrostatic;
   solution.energy_curve.assign(state_.curve.begin(), state_.curve.end());
   fillMaps(problem, setting.law, solution);
 }

@@ -64,11 +64,15 @@ class ContactGrowth : public ContactResponse {
       : pair_(contact.settings.lower, contact.settings.upper),
         contacts_(contact.asperities, pair_, contact.settings.deformation == Deformation::kElastic),
         adhesion_(kPi * contact.settings.interface.work_of_adhesion * contacts_.radiusSum()),
+        load_(contact.settings.load),
+        field_(contact.electrostatic_force),
+        lasting_(load_.lastingFieldShare() * field_),
         applied_(contact.mechanical_load + contact.electrostatic_force),
-        other_(contact.pull_off_force - contact.pull_off_force_jkr - contact.van_der_waals_force),
+        other_(contact.pull_off_force - contact.pull_off_force_jkr - contact.van_der_waals_force -
+               lasting_),
         demand_(applied_ + contact.van_der_waals_force + other_ + 2.0 * adhesion_),
         carried_(contacts_.carriedLoad(1.0, 1.0, 1.0)),
-        pull_off_(1.5 * adhesion_ + contact.van_der_waals_force + other_),
+        pull_off_(1.5 * adhesion_ + contact.van_der_waals_force + other_ + lasting_),
         far_(farAttraction(contact)),
         near_(contact.van_der_waals_force - far_),
         parting_work_(jkrEnergy(contact.asperities, contact.settings.interface.work_of_adhesion,
@@ -79,7 +83,8 @@ class ContactGrowth : public ContactResponse {
     const double area = factors.pitch * factors.pitch;
     const double near_now =
         area * (factors.hamaker * near_ / (factors.cutoff * factors.cutoff) + other_);
-    const double demand_now = applied_ + near_now + area * factors.hamaker * far_ +
+    const double demand_now = applied_ + field_ * (fieldFactor(factors) - 1.0) + near_now +
+                              area * factors.hamaker * far_ +
                               2.0 * area * factors.adhesion * adhesion_;
     const double carried_now =
         contacts_.carriedLoad(factors.modulus * factors.pitch, factors.hardness * area,
@@ -88,7 +93,8 @@ class ContactGrowth : public ContactResponse {
         demand_ > 0.0 && carried_ > 0.0 ? demand_now / carried_now * (carried_ / demand_) : 1.0;
     const double pull_off_now =
         factors.place * growth * (1.5 * area * factors.adhesion * adhesion_ + near_now) +
-        area * factors.hamaker * far_;
+        area * factors.hamaker * far_ +
+        area * factors.contact_potential * factors.contact_potential * lasting_;
     // JKR's energy at no load goes with Gamma^(5/3) R^(4/3) K^(-2/3)
     const double energy = std::pow(factors.adhesion, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) *
                           std::pow(factors.modulus, -2.0 / 3.0);
@@ -97,7 +103,7 @@ class ContactGrowth : public ContactResponse {
   }
 
   double placeDeviation(double deviation) const override {
-    return pull_off_ > 0.0 ? deviation * (pull_off_ - far_) / pull_off_ : 0.0;
+    return pull_off_ > 0.0 ? deviation * (pull_off_ - far_ - lasting_) / pull_off_ : 0.0;
   }
 
   double partingWork() const override { return parting_work_; }
@@ -112,9 +118,21 @@ class ContactGrowth : public ContactResponse {
                                     contact.mean_gap, contact.settings.interface.hamaker_constant));
   }
 
+  /// Of the field at rest, when the contact potential is another [-].
+  double fieldFactor(const ConstantFactors& factors) const {
+    if (load_.contact_potential == 0.0) return 1.0;
+    LoadOptions other = load_;
+    other.contact_potential *= factors.contact_potential;
+    const double ratio = other.fieldVoltage() / load_.fieldVoltage();
+    return ratio * ratio;
+  }
+
   ContactPair pair_;
   ContactList contacts_;
   double adhesion_;  ///< pi Gamma sum R_i [N]
+  LoadOptions load_;
+  double field_;     ///< F_e [N]
+  double lasting_;   ///< what of it stays on the way out [N]
   double applied_;   ///< F_m + F_e [N]
   double other_;     ///< what else attracts around the contacts, such as condensed water [N]
   double demand_;    ///< B [N]

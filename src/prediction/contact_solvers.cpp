@@ -150,6 +150,9 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation,
     }
     addOfOtherSide(settings.lower, "lower", entry.skills.doubts_thin_bodies, ignored);
     addOfOtherSide(settings.upper, "upper", entry.skills.doubts_thin_bodies, ignored);
+    if (settings.load.contact_potential == 0.0) {
+      ignored.push_back({"uncertainty/contact_potential", "load/contact_potential is 0"});
+    }
     if (settings.capillary.relative_humidity > 0.0) continue;
     for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});
   }

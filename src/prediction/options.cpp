@@ -29,11 +29,19 @@ std::vector<std::string> Options::validate() const {
   std::vector<std::string> violations = rangeViolations(*this);
   const std::string reason = retirement(formulation);
   if (!reason.empty()) violations.push_back(reason);
-  if (load.voltage != 0.0 && interface.insulator_thickness == 0.0) {
-    violations.push_back(
-        "interface/insulator_thickness: 0 m is not allowed with load/voltage " +
-        numberText(load.voltage) +
-        " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
+  if (interface.insulator_thickness == 0.0) {
+    const std::string not_allowed = "interface/insulator_thickness: 0 m is not allowed with ";
+    if (load.voltage != 0.0) {
+      violations.push_back(
+          not_allowed + "load/voltage " + numberText(load.voltage) +
+          " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
+    }
+    if (load.contact_potential != 0.0) {
+      violations.push_back(not_allowed + "load/contact_potential " +
+                           numberText(load.contact_potential) +
+                           " V: its field has no limit where bare surfaces touch; must be > 0 m, "
+                           "such as the native oxides, or the potential 0 V");
+    }
   }
   for (const auto& [name, body] : {std::pair("lower", &lower), std::pair("upper", &upper)}) {
     for (std::string& contradiction : body->contradictions(name))

@@ -86,7 +86,7 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit({"mechanical_load", "N", "pressing, on the scanned area"}, prediction.mechanical_load);
   visit({"van_der_waals_force", "N", "attraction of the cells out of contact (2)"},
         prediction.van_der_waals_force);
-  visit({"electrostatic_force", "N", "attraction by the voltage (3)"},
+  visit({"electrostatic_force", "N", "attraction by voltage and contact potential (3)"},
         prediction.electrostatic_force);
   visit({"normal_load", "N", "mechanical, van der Waals, electrostatic, capillary together"},
         prediction.normal_load);

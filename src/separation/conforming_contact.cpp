@@ -11,7 +11,11 @@ namespace mems_stiction {
 namespace {
 
 /// Of the strength of the law, Gamma/z0: nearly that of springs, too.
-constexpr Exponents kLawExponents{1.5, 0.0, -0.5};
+/// - @p field_share of the force that is a field's
+Exponents lawExponents(double field_share) {
+  const double rest = 1.0 - field_share;
+  return {1.5 * rest, 0.0, -0.5 * rest, 2.0 * field_share};
+}
 
 /// k = 2 U/(A sigma^2); bodies without relief have nothing to give way.
 double stiffnessOf(double flattening_energy, double rms_height) {
@@ -22,16 +26,20 @@ double stiffnessOf(double flattening_energy, double rms_height) {
 
 /// Of a work that is nearly what flattening, which goes with the modulus, leaves of the work of
 /// adhesion.
-Exponents flatteningExponents(double flattening_energy, double work) {
+/// - @p field_energy what a field gives of it
+Exponents flatteningExponents(double flattening_energy, double field_energy, double work) {
   const double share = flattening_energy / work;
-  return {1.0 + share, -share, 0.0};
+  const double field_share = field_energy / work;
+  return {1.0 + share - field_share, -share, 0.0, 2.0 * field_share};
 }
 
 }  // namespace
 
-void ConformingContact::start(const GapField& field, const ContactTraction& law,
-                              double contact_modulus, double flattening_energy) {
-  field_ = &field;
+void ConformingContact::start(const GapField& gap, const ContactTraction& law,
+                              const FieldLaw& field, double contact_modulus,
+                              double flattening_energy) {
+  gap_ = &gap;
+  field_ = field;
   law_ = &law;
   contact_modulus_ = contact_modulus;
   flattening_energy_ = flattening_energy;
@@ -39,20 +47,28 @@ void ConformingContact::start(const GapField& field, const ContactTraction& law,
 }
 
 std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) {
-  ReliefClasses depths(0.0, field_->largestGap());
-  line_.resize(static_cast<std::size_t>(field_->cols()));
-  for (int row = 0; row < field_->rows(); ++row) {
-    field_->gapsOfRow(row, line_.data());
+  ReliefClasses depths(0.0, gap_->largestGap());
+  line_.resize(static_cast<std::size_t>(gap_->cols()));
+  for (int row = 0; row < gap_->rows(); ++row) {
+    gap_->gapsOfRow(row, line_.data());
     for (const double gap : line_) {
-      if (gap <= field_->largestGap()) depths.add(gap);
+      if (gap <= gap_->largestGap()) depths.add(gap);
     }
   }
-  return springBranch(depths.classes(), *law_, stiffnessOf(flattening_energy, field_->rmsGap()));
+  return springBranch(depths.classes(), *law_, field_,
+                      stiffnessOf(flattening_energy, gap_->rmsGap()));
 }
 
 const std::vector<SpringState>& ConformingContact::branch() {
   if (branch_.empty()) branch_ = springsOf(flattening_energy_);
   return branch_;
+}
+
+bool ConformingContact::holds() {
+  const std::vector<SpringState>& springs = branch();
+  // where all springs have let go the field still pulls
+  const double apart = field_.isOn() ? field_.energy(springs.back().height - law_->range()) : 0.0;
+  return energyGained(springs) > apart;
 }
 
 double ConformingContact::energyGained(const std::vector<SpringState>& springs) {
@@ -64,7 +80,8 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
   Unloading unloading;
   unloading.contact_area = rest->contact_fraction * area();
   unloading.force = area() * strengthFrom(rest, branch_);
-  unloading.force_exponents = kLawExponents;
+  unloading.force_exponents = lawExponents(
+      field_.isOn() ? area() * field_.pressure(law_->strongestGap()) / unloading.force : 0.0);
   if (mayTear())
     unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
@@ -75,7 +92,7 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
 }
 
 bool ConformingContact::mayTear() const {
-  const double rms_height = field_->rmsGap();
+  const double rms_height = gap_->rmsGap();
   if (!(flattening_energy_ > 0.0 && rms_height > 0.0)) return false;
   const double strength = law_->strength();
   const double wave_number =
@@ -88,16 +105,17 @@ bool ConformingContact::mayTear() const {
 
 // (S10a)
 void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
-  const double flattening = waves_.of(*field_, contact_modulus_);
+  const double flattening = waves_.of(*gap_, contact_modulus_);
+  const double by_field = field_.isOn() ? field_.energy(0.0) : 0.0;
   // the surfaces rest in the state of the least energy, and contacts jump in either
-  const double work =
-      std::min(energyGained(springsOf(flattening)) + by_contacts.lost, law_->workOfAdhesion());
+  const double work = std::min(energyGained(springsOf(flattening)) + by_contacts.lost,
+                               law_->workOfAdhesion() + by_field);
   if (by_contacts.work > work) {
     unloading.work = by_contacts.work;
     unloading.work_exponents = by_contacts.work_exponents;
   } else {
     unloading.work = work;
-    unloading.work_exponents = flatteningExponents(flattening, work);
+    unloading.work_exponents = flatteningExponents(flattening, by_field, work);
   }
 }
 

@@ -31,13 +31,14 @@ namespace mems_stiction {
 class ConformingContact {
  public:
   /// What the next calls are about. Everything must outlive them; nothing is computed yet.
+  /// - @p field that stays on the way out
   /// - @p flattening_energy U/A [J/m^2], >= 0
   /// - @p contact_modulus E [Pa], > 0
-  void start(const GapField& field, const ContactTraction& law, double contact_modulus,
-             double flattening_energy);
+  void start(const GapField& gap, const ContactTraction& law, const FieldLaw& field,
+             double contact_modulus, double flattening_energy);
 
   /// Whether springs hold the bonded surfaces together without a load.
-  bool holds() { return energyGained(branch()) > 0.0; }
+  bool holds();
   /// From rest under a pressure [Pa], >= 0.
   /// - @p by_contacts whose work is taken where it is more, and that says what jumps lose
   Unloading unloading(const Unloading& by_contacts, double pressure);
@@ -51,10 +52,11 @@ class ConformingContact {
   void takeWork(const Unloading& by_contacts, Unloading& unloading);
   /// (S10b): whether the interface may tear before all springs pull at their best.
   bool mayTear() const;
-  double area() const { return field_->validCount() * field_->cellArea(); }
+  double area() const { return gap_->validCount() * gap_->cellArea(); }
 
-  const GapField* field_ = nullptr;
+  const GapField* gap_ = nullptr;
   const ContactTraction* law_ = nullptr;
+  FieldLaw field_{0.0, 0.0, 1.0};
   double contact_modulus_ = 0.0;
   double flattening_energy_ = 0.0;
   std::vector<SpringState> branch_;  ///< empty until it is asked for

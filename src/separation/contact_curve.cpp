@@ -24,7 +24,7 @@ constexpr double kDoubtedFactor = 1.3;
 /// and a force that is the difference of larger ones, so that what is out in these weighs more in
 /// it. Or where the surfaces may have come to another rest, or what is out in the load of the
 /// contacts decides how near to it they part.
-/// - @p exponent of the force with the work of adhesion: 1 where nothing is subtracted
+/// - @p exponent of the force with all that attracts: 1 where nothing is subtracted
 const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a "
@@ -202,7 +202,9 @@ void ContactCurve::part(double force_from_next_rest) {
   by_contacts_.lost = has_flowed_ || flow_ != nullptr
                           ? 0.0
                           : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
-  by_contacts_.doubt = doubtOf(curve, exponents.pull_off.adhesion, force_from_next_rest);
+  const double by_attraction =  // a lasting field pulls as adhesion does
+      exponents.pull_off.adhesion + 0.5 * exponents.pull_off.contact_potential;
+  by_contacts_.doubt = doubtOf(curve, by_attraction, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   if (!has_unloading_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;

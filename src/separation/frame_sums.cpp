@@ -42,7 +42,7 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings, co
   settings_ = &settings;
   patch_forces_.emplace(settings, field.cellArea(), flows);
   wider_law_.emplace(withMoreHamaker(settings.interface));
-  voltage_.emplace(settings.load.voltage, settings.interface.insulator_thickness,
+  voltage_.emplace(settings.load.fieldVoltage(), settings.interface.insulator_thickness,
                    settings.interface.insulator_relative_permittivity);
   water_ = settings.capillary.law();
   dales_.start(field);
@@ -219,21 +219,44 @@ FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double
   return attraction;
 }
 
-double FrameSums::energyAt(const ContactTraction& law, double approach) {
-  const int contact_count = overlappingAt(approach);
+template <typename OfGap, typename OfMoments>
+double FrameSums::sumApart(double approach, int contact_count, const ContactTraction& law,
+                           const OfGap& of_gap, const OfMoments& of_moments) const {
   double sum = 0.0;
   const auto add_moments = [&](const GapMoments& gaps) {
-    const double gap = gaps.mean - approach;
-    sum += gaps.count * (law.energy(gap) - 0.5 * law.slope(gap) * gaps.variance);
+    sum += gaps.count * of_moments(gaps, gaps.mean - approach);
   };
   pyramid_.visit(
       approach, contact_count, ruleOf(law),
       [&](const OrderedCell* cells, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) sum += law.energy(cells[i].gap - approach);
+        for (std::size_t i = 0; i < count; ++i) sum += of_gap(cells[i].gap - approach);
       },
       add_moments);
   if (far_ != nullptr) std::for_each(far_->moments().begin(), far_->moments().end(), add_moments);
+  return sum;
+}
+
+double FrameSums::energyAt(const ContactTraction& law, double approach) {
+  const int contact_count = overlappingAt(approach);
+  const double sum = sumApart(
+      approach, contact_count, law, [&](double gap) { return law.energy(gap); },
+      [&](const GapMoments& gaps, double gap) {
+        return law.energy(gap) - 0.5 * law.slope(gap) * gaps.variance;
+      });
   return field_->cellArea() * (sum + contact_count * law.workOfAdhesion());
+}
+
+double FrameSums::lastingFieldEnergy(double approach) {
+  const double share = lastingFieldShare();
+  if (share == 0.0) return 0.0;
+  const FieldLaw& field = *voltage_;
+  const int contact_count = overlappingAt(approach);
+  const double sum = sumApart(
+      approach, contact_count, law(), [&](double gap) { return field.energy(gap); },
+      [&](const GapMoments& gaps, double gap) {
+        return field.energy(gap) - 0.5 * field.slope(gap) * gaps.variance;
+      });
+  return share * field_->cellArea() * (sum + contact_count * field.energy(0.0));
 }
 
 double FrameSums::hamakerExponentOfForce(double approach, double hold) {

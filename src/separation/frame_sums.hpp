@@ -59,6 +59,10 @@ class FrameSums {
   /// What taking the surfaces apart would cost if they only attracted each other, w summed over the
   /// cells [J].
   double energy(double approach) { return energyAt(law(), approach); }
+  /// What taking the surfaces apart would cost by a contact potential alone [J].
+  double lastingFieldEnergy(double approach);
+  /// What of the field's force stays when the voltage has gone [-].
+  double lastingFieldShare() const { return settings_->load.lastingFieldShare(); }
   /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger
   /// one widens the law's range, which pulls more over wide gaps and less near contacts.
   double hamakerExponentOfForce(double approach, double hold);
@@ -130,6 +134,11 @@ class FrameSums {
   Attraction attractionOver(const ContactTraction& law, double approach, int contact_count) const;
   Attraction attractionAt(const ContactTraction& law, double approach, double hold);
   double energyAt(const ContactTraction& law, double approach);
+  /// Sums an energy over the cells apart [J/m^2 times their number].
+  /// - @p of_gap of one cell; @p of_moments of several, by their gaps and mean gap less approach
+  template <typename OfGap, typename OfMoments>
+  double sumApart(double approach, int contact_count, const ContactTraction& law,
+                  const OfGap& of_gap, const OfMoments& of_moments) const;
 
   const GapField* field_ = nullptr;
   const FarGaps* far_ = nullptr;

@@ -79,7 +79,7 @@ void PlateTilt::addPatches(Balance& balance) {
 void PlateTilt::addAttraction(const ContactSettings& settings, Balance& balance) {
   const SeparationState& rest = curve_.rest();
   const ContactTraction& law = curve_.frame().law();
-  const FieldLaw field(settings.load.voltage, settings.interface.insulator_thickness,
+  const FieldLaw field(settings.load.fieldVoltage(), settings.interface.insulator_thickness,
                        settings.interface.insulator_relative_permittivity);
   const WaterLaw water = settings.capillary.law();
   Balance adhesion;

@@ -79,11 +79,24 @@ double positivePart(double from, double to, double length) {
 /// more [J].
 double mostAdhesion(const FrameSums& frame) { return frame.law().workOfAdhesion() * frame.area(); }
 
+/// What both give before the first state [J].
+struct EnergiesApart {
+  double adhesion;
+  double lasting_field;
+};
+
+EnergiesApart energiesApart(FrameSums& frame, const SeparationCurve& curve) {
+  const double approach = curve.states.front().approach;
+  return {frame.energy(approach), frame.lastingFieldEnergy(approach)};
+}
+
 /// Integrals along the states; the part before the first one by its energies.
-void takeWork(const FrameSums& frame, double work_apart, SeparationCurve& curve) {
+void takeWork(const FrameSums& frame, const EnergiesApart& apart, SeparationCurve& curve) {
   curve.elastic_energy = 0.0;
-  curve.work = curve.work_apart = work_apart;
-  double adhesion = work_apart;
+  curve.work_apart = apart.adhesion;
+  curve.lasting_field_apart = apart.lasting_field;
+  curve.work = apart.adhesion + apart.lasting_field;
+  double adhesion = apart.adhesion;
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
@@ -96,20 +109,27 @@ void takeWork(const FrameSums& frame, double work_apart, SeparationCurve& curve)
 }
 
 /// What a curve says once all of its states are there.
-/// - @p work_apart what lies before the first of them [J]
-void takeFigures(const FrameSums& frame, double work_apart, SeparationCurve& curve) {
+void takeFigures(const FrameSums& frame, const EnergiesApart& apart, SeparationCurve& curve) {
   spreadEdges(curve.states);
   takeMaximum(curve.states, curve);
-  takeWork(frame, work_apart, curve);
+  takeWork(frame, apart, curve);
 }
 
-/// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of
-/// the patches. The law's range goes with sqrt(H/Gamma), so that at a given H Gamma moves the
-/// attraction by the rest.
-Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, double carried) {
+/// The parts of a force or a work.
+struct Parts {
+  double adhesion = 0.0;
+  double carried = 0.0;
+  double lasting_field = 0.0;
+};
+
+/// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), load of the
+/// patches, and field, which goes with the square of the contact potential. The law's range goes
+/// with sqrt(H/Gamma), so that at a given H Gamma moves the attraction by the rest.
+Exponents exponentsOf(double figure, const Parts& parts, double hamaker_exponent) {
   if (!(figure > 0.0)) return {};
-  const double by_hamaker = adhesion * hamaker_exponent;
-  return {(adhesion - by_hamaker) / figure, -carried / figure, by_hamaker / figure};
+  const double by_hamaker = parts.adhesion * hamaker_exponent;
+  return {(parts.adhesion - by_hamaker) / figure, -parts.carried / figure, by_hamaker / figure,
+          2.0 * parts.lasting_field / figure};
 }
 
 /// Steps before first touch. What is left of the work where they begin is that of bodies which do
@@ -192,6 +212,7 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.contact_count = sums.contact_count;
   state.carried = sums.carried;
   state.electrostatic = sums.electrostatic;
+  state.lasting_field = frame.lastingFieldShare() * sums.electrostatic;
   state.capillary = sums.capillary;
   state.is_in_reach = sums.weight > 0.0;
   if (state.is_in_reach) {
@@ -216,7 +237,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   for (int step = -stepsApart(); step < 0; ++step) {
     curve.states.push_back(stateAt(frame, approachAfter(step, range), curve.way));
   }
-  const double work_apart = frame.energy(curve.states.front().approach);
+  const EnergiesApart apart = energiesApart(frame, curve);
   curve.status = Status::kNoEquilibrium;
   for (int step = 0; step < settings.approach.max_steps; ++step) {
     const double approach = loadingAfter(frame, step);
@@ -232,7 +253,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
     }
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
-  takeFigures(frame, work_apart, curve);
+  takeFigures(frame, apart, curve);
 }
 
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
@@ -288,16 +309,17 @@ void followUnloading(FrameSums& frame, double first_touch, const Way& way, Separ
     const double approach = first_touch + approachAfter(step++, range);
     curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
   } while (curve.states.back().approach < way.rest);
-  const double work_apart = frame.energy(curve.states.front().approach);
-  takeFigures(frame, work_apart, curve);
+  const EnergiesApart apart = energiesApart(frame, curve);
+  takeFigures(frame, apart, curve);
 }
 
 CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   // force and work are stationary in the displacements where they are taken: their parts there tell
   // how they change
   const SeparationState& strongest = curve.states[curve.strongest];
-  double adhesion = curve.work_apart;
-  double carried = 0.0;
+  Parts work;
+  work.adhesion = curve.work_apart;
+  work.lasting_field = curve.lasting_field_apart;
   const SeparationState* last = &curve.states.front();
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
@@ -305,23 +327,23 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
     if (!(from.givenForce() + to.givenForce() > 0.0))
       continue;  // a step that pushes more than it pulls
     const double length = to.approach - from.approach;
-    adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
-    carried += 0.5 * (from.carried + to.carried) * length;
+    work.adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
+    work.carried += 0.5 * (from.carried + to.carried) * length;
+    work.lasting_field += 0.5 * (from.lasting_field + to.lasting_field) * length;
     last = &to;
   }
-  adhesion = std::min(adhesion, mostAdhesion(frame));
+  work.adhesion = std::min(work.adhesion, mostAdhesion(frame));
   const double attraction = strongest.edge_share * strongest.adhesion;
-  Exponents pull_off = exponentsOf(curve.pull_off_force, attraction,
-                                   frame.hamakerExponentOfForce(strongest.approach, strongest.hold),
-                                   strongest.carried);
+  Exponents pull_off =
+      exponentsOf(curve.pull_off_force, {attraction, strongest.carried, strongest.lasting_field},
+                  frame.hamakerExponentOfForce(strongest.approach, strongest.hold));
   if (curve.pull_off_force > 0.0) {  // a0 goes with E z0^2/Gamma, E H/Gamma^2
     const double by_edges = strongest.edge_slope * attraction / curve.pull_off_force;
     pull_off.adhesion -= 2.0 * by_edges;
     pull_off.modulus += by_edges;
     pull_off.hamaker += by_edges;
   }
-  return {pull_off, exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach),
-                                carried)};
+  return {pull_off, exponentsOf(curve.work, work, frame.hamakerExponentOfEnergy(last->approach))};
 }
 
 }  // namespace mems_stiction

@@ -26,6 +26,7 @@ struct SeparationState {
   int contact_count = 0;         ///< cells that overlap
   double adhesion = 0.0;         ///< of the cells apart
   double electrostatic = 0.0;    ///< of all cells
+  double lasting_field = 0.0;    ///< of it: of a contact potential alone, when the voltage has gone
   double capillary = 0.0;        ///< of condensed water
   double carried = 0.0;          ///< by all patches
   double tabor_parameter = 0.0;  ///< of the summits in reach [-]
@@ -40,9 +41,11 @@ struct SeparationState {
   double force() const { return adhesion + electrostatic + capillary - carried; }
   /// The same when the loads that brought the surfaces together, voltage too, have been taken away:
   /// what bodies give that are drawn apart, whatever the way takes. Its integral is the work.
-  double givenForce() const { return adhesion + capillary - carried; }
+  double givenForce() const { return adhesion + capillary + lasting_field - carried; }
   /// What it takes to draw them apart: edges let go at less, and over a longer way.
-  double partingForce() const { return edge_share * adhesion + capillary - carried; }
+  double partingForce() const {
+    return edge_share * adhesion + capillary + lasting_field - carried;
+  }
 };
 
 /// On which way the surfaces are.
@@ -64,7 +67,8 @@ struct SeparationCurve {
   double elastic_energy =
       0.0;            ///< integral of what the patches carry, from first touch to rest [J]
   double work = 0.0;  ///< integral of the attracting part of the curve, from rest to apart [J]
-  double work_apart = 0.0;  ///< what of it lies before the first state [J]
+  double work_apart = 0.0;           ///< what adhesion gives of it before the first state [J]
+  double lasting_field_apart = 0.0;  ///< what a contact potential gives there [J]
 
   const SeparationState& rest() const { return states.back(); }
   /// The first state that pushes the surfaces apart when no load presses them: on the near side of

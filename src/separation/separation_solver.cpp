@@ -81,7 +81,11 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
   if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio))
     return std::nullopt;
-  conforming_.start(problem.gap, law, curve_.frame().patchForces().contactModulus(),
+  const InterfaceOptions& interface = problem.settings.interface;
+  const FieldLaw lasting_field(problem.settings.load.contact_potential,
+                               interface.insulator_thickness,
+                               interface.insulator_relative_permittivity);
+  conforming_.start(problem.gap, law, lasting_field, curve_.frame().patchForces().contactModulus(),
                     solution.flattening_energy);
   if (!conforming_.holds()) return std::nullopt;
   return conforming_.unloading(curve_.byContacts(),
@@ -89,8 +93,7 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
 }
 
 bool SeparationSolver::mayFlow(const LoadOptions& load) const {
-  const bool is_pressed = load.mechanical_load > 0.0 || load.voltage != 0.0;
-  return is_pressed && curve_.loading().status != Status::kNoEquilibrium &&
+  return load.presses() && curve_.loading().status != Status::kNoEquilibrium &&
          curve_.largestFullness() > chosen::kMayFlow;
 }
 

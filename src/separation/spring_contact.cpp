@@ -25,13 +25,20 @@ class Spring {
   /// - @p nearest distance that is asked for [m]
   /// - @p span from the nearest cell to the farthest one [m]: where the nearest has let go, the
   /// farthest is that much beyond
-  Spring(const ContactTraction& law, double stiffness, double nearest, double span) {
+  Spring(const ContactTraction& law, const FieldLaw& field, double stiffness, double nearest,
+         double span) {
     constexpr double kGrowth = 1.0 + chosen::kAccuracy;
     // counted from the atoms' centres: the plane of contact is at z0
     const auto pointAt = [&](double gap) {
-      const double traction = law.traction(gap - law.range());
+      double traction = law.traction(gap - law.range());
+      double energy = law.energy(gap - law.range());
+      if (field.isOn()) {
+        const double apart = std::max(gap - law.range(), 0.0);
+        traction += field.pressure(apart);
+        energy += field.energy(apart) + field.pressure(0.0) * (apart - (gap - law.range()));
+      }
       return Point{gap + traction / stiffness, traction,
-                   0.5 * traction * traction / stiffness - law.energy(gap - law.range()), gap};
+                   0.5 * traction * traction / stiffness - energy, gap};
     };
     double gap = law.range();
     while (pointAt(gap).start > nearest && gap > chosen::kAccuracy * law.range()) gap /= kGrowth;
@@ -121,11 +128,12 @@ std::vector<ReliefClass> ReliefClasses::classes() const {
 }
 
 std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
-                                      const ContactTraction& law, double stiffness) {
+                                      const ContactTraction& law, const FieldLaw& field,
+                                      double stiffness) {
   const double range = law.range();
   const double deepest = range - relief.back().depth;
   const double span = relief.back().depth - relief.front().depth;
-  const Spring spring(law, stiffness, range - span, span);
+  const Spring spring(law, field, stiffness, range - span, span);
   const double highest = spring.end() - relief.front().depth;
   std::vector<SpringState> branch;
   for (int i = 0; i <= chosen::kParts; ++i) {

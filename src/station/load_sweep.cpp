@@ -42,11 +42,13 @@ void addListViolations(const std::string& name, const std::vector<double>& value
   addFirst(first, count, violations);
 }
 
-/// The force of the field that holds the closed device [N].
+/// The force of the voltage's field that holds the closed device; what stays without the voltage is
+/// in the pull-off force [N].
 double holdingField(const DeviceOptions& device, const InterfaceOptions& interface,
                     const RemainingState& state, const Prediction& contact) {
   if (device.electrode_area <= 0.0)
-    return state.electrostatic_force * device.contact_area / contact.nominal_area;
+    return (1.0 - state.lasting_field_share) * state.electrostatic_force * device.contact_area /
+           contact.nominal_area;
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
   return device.electrode_area *
          surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
@@ -72,7 +74,7 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
     const FieldHold field = fieldHold(beam, *electrode, state.voltage, contact.mean_gap);
     shares += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
   } else {
-    shares += shareOfForce(state.electrostatic_force);
+    shares += shareOfForce((1.0 - state.lasting_field_share) * state.electrostatic_force);
   }
   return 1.0 / shares;
 }

@@ -10,8 +10,8 @@
 ///     - the approach, the cells in contact, sum R_i, and with them the pull-off force (11), F_w
 ///       and F_c, stay those of the largest load (the approach does not retreat; the elastic
 ///       retreat that is left out would let F_w fall a little, so what holds is an upper bound);
-///     - F_e follows the voltage squared at that approach, F_m follows the load, and the contacts
-///       share the new total in the same proportions;
+///     - F_e follows the square of voltage and contact potential together at that approach, F_m
+///       follows the load, and the contacts share the new total in the same proportions;
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its
 ///       radius: a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
 ///
@@ -31,7 +31,8 @@ namespace mems_stiction {
 struct RemainingState {
   double voltage = 0.0;              ///< [V]
   double mechanical_load = 0.0;      ///< [N]
-  double electrostatic_force = 0.0;  ///< at this voltage [N]
+  double electrostatic_force = 0.0;  ///< at this voltage, with the contact potential [N]
+  double lasting_field_share = 0.0;  ///< of that force: what stays without the voltage [-]
   double normal_load = 0.0;          ///< F_w + F_e + F_m + F_c [N]
   double contact_area =
       0.0;  ///< real area [m^2]; of the paper's formulations that of the largest load
@@ -63,7 +64,7 @@ class RemainingContact {
   double largest_voltage_ = 0.0;  ///< in size [V]
   double largest_load_ = 0.0;     ///< [N]
   double field_factor_ =
-      0.0;  ///< F_e/U^2 of the closest approach that was searched with a voltage [N/V^2]
+      0.0;  ///< F_e/U^2 of the closest approach that was searched with a field [N/V^2]
   Prediction contact_;
   SurfacePair pressed_;  ///< the surfaces as that load has left them
 };

@@ -26,7 +26,7 @@ double logDeviation(double relative_deviation) {
 /// Standard normal numbers that are the same everywhere: std::normal_distribution is not.
 class NormalNumbers {
  public:
-  explicit NormalNumbers(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
+  explicit NormalNumbers(std::uint64_t seed) : engine_(seed) {}
 
   double next() {  // Box and Muller, one of the pair
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
@@ -45,8 +45,15 @@ class NormalNumbers {
   std::mt19937_64 engine_;
 };
 
-/// No other seed is below 0: the numbers of the other constants are the same with and without it.
-int hamakerSeed(const UncertaintyOptions& uncertainty) { return -1 - uncertainty.seed; }
+/// Constants that came later have seeds of their own, which no other run has: the numbers of the
+/// others are the same with and without them.
+std::uint64_t hamakerSeed(const UncertaintyOptions& uncertainty) {
+  return static_cast<std::uint64_t>(-1 - uncertainty.seed);
+}
+std::uint64_t contactPotentialSeed(const UncertaintyOptions& uncertainty) {
+  constexpr std::uint64_t kBeyondSeeds = 1ULL << 32U;
+  return kBeyondSeeds + static_cast<std::uint64_t>(uncertainty.seed);
+}
 
 std::unique_ptr<ContactResponse> responseOf(const Prediction& prediction, const Options& options) {
   if (prediction.model.respond == nullptr) return nullptr;
@@ -62,7 +69,8 @@ FigureFactors byExponents(const Prediction& prediction, const ConstantFactors& f
   const auto moved = [&](const Exponents& exponents) {
     return std::pow(factors.adhesion, exponents.adhesion) *
            std::pow(factors.modulus, exponents.modulus) *
-           std::pow(factors.hamaker, exponents.hamaker);
+           std::pow(factors.hamaker, exponents.hamaker) *
+           std::pow(factors.contact_potential, exponents.contact_potential);
   };
   return {factors.place * moved(prediction.pull_off_exponents) * error.pull_off,
           factors.place * moved(prediction.work_exponents) * error.work / factors.pitch};
@@ -105,8 +113,9 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
   const double place_deviation = logDeviation(sampling);
   spread.place_deviation = response ? response->placeDeviation(place_deviation) : place_deviation;
 
-  NormalNumbers numbers(uncertainty.seed);
+  NormalNumbers numbers(static_cast<std::uint64_t>(uncertainty.seed));
   NormalNumbers hamaker_numbers(hamakerSeed(uncertainty));
+  NormalNumbers potential_numbers(contactPotentialSeed(uncertainty));
   const auto count = static_cast<std::size_t>(uncertainty.samples);
   spread.pull_off.reserve(count);
   spread.apparent_work.reserve(count);
@@ -118,6 +127,7 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
     factors.pitch = numbers.factor(uncertainty.pitch);
     factors.cutoff = numbers.factor(uncertainty.cutoff_distance);
     factors.hamaker = hamaker_numbers.factor(uncertainty.hamaker_constant);
+    factors.contact_potential = potential_numbers.factor(uncertainty.contact_potential);
     factors.place = numbers.factor(sampling);
     FigureFactors moved;
     if (response) {

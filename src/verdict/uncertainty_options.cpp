@@ -16,6 +16,8 @@ void UncertaintyOptions::describe(OptionVisitor& visitor) {
                  "relative standard uncertainty of the cut-off distance");
   visitor.number("uncertainty/hamaker_constant", hamaker_constant, "", relative,
                  "relative standard uncertainty of the Hamaker constant");
+  visitor.number("uncertainty/contact_potential", contact_potential, "", relative,
+                 "relative standard uncertainty of the contact potential");
   visitor.flag("uncertainty/scan_sampling", scan_sampling,
                "count that another place of the surface would have other contacts");
   visitor.integer("uncertainty/samples", samples, Range::within(20, 100000),

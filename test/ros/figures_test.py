@@ -47,6 +47,7 @@ SETTINGS = settings_of(DEVICE_STATION)
 # Of each setting that changes while the node runs another value than that of device_station.yaml.
 CHANGED = {
     "load/voltage": 7.0,
+    "load/contact_potential": 3.0,
     "load/mechanical_load": 3e-6,
     "load/max_voltage": 40.0,
     "load/max_mechanical_load": 2e-3,

@@ -99,7 +99,7 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
   }
   const CellForces forces(problem.options.interface,
                           problem.options.solver.of<PaperOptions>().cutoff_distance,
-                          problem.options.load.voltage, problem.field.cellArea());
+                          problem.options.load.fieldVoltage(), problem.field.cellArea());
   state.load =
       sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
   state.balance = forceBalance(state.responses, state.load.total(), problem.law);
@@ -189,7 +189,9 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
   prediction.pull_off_force_transition = sums.pull_off_force_transition;
   prediction.contact_area_jkr = sums.contact_area_jkr;
   prediction.adhesion_parameter = sums.adhesion_parameter;
-  prediction.pull_off_force = prediction.pull_off_force_jkr + prediction.van_der_waals_force;
+  prediction.pull_off_force =
+      prediction.pull_off_force_jkr + prediction.van_der_waals_force +
+      problem.options.load.lastingFieldShare() * prediction.electrostatic_force;
   prediction.asperity_count = static_cast<int>(sums.asperities.size());
   for (const Asperity& asperity : sums.asperities) {
     prediction.max_tilt = std::max(prediction.max_tilt, asperity.tilt);

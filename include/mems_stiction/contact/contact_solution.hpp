@@ -88,9 +88,10 @@ struct Asperity {
 struct Exponents {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  double adhesion = kUnknown;  ///< with the work of adhesion
-  double modulus = kUnknown;   ///< with the contact modulus
-  double hamaker = kUnknown;   ///< with the Hamaker constant
+  double adhesion = kUnknown;      ///< with the work of adhesion
+  double modulus = kUnknown;       ///< with the contact modulus
+  double hamaker = kUnknown;       ///< with the Hamaker constant
+  double contact_potential = 0.0;  ///< with the contact potential
 };
 
 /// The energies of a contact.

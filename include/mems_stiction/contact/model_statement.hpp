@@ -21,6 +21,7 @@ struct ConstantFactors {
   double pitch = 1.0;  ///< of the scan
   double cutoff = 1.0;
   double hamaker = 1.0;
+  double contact_potential = 1.0;
   double place = 1.0;  ///< sum of the contacts' radii: another place of the surface has others
 };
 

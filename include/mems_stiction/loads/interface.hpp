@@ -4,6 +4,8 @@
 /// What acts between the two bodies: adhesion, van der Waals attraction, the insulator; and what is
 /// applied to them.
 
+#include <cmath>
+
 #include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
@@ -14,7 +16,7 @@ struct InterfaceOptions {
   double hamaker_constant =
       65e-21;  ///< H across the gap's medium [J], >= 0 (SiO2 across air: Bergstrom 1997)
   double equilibrium_distance = 0.2e-9;  ///< z0 of Tabor's parameter [m], > 0
-  double insulator_thickness = 0.0;      ///< t [m], >= 0; must be > 0 when the voltage is not 0
+  double insulator_thickness = 0.0;      ///< t [m], >= 0; must be > 0 when anything makes a field
   double insulator_relative_permittivity = 3.9;  ///< eps_r [-], >= 1 (thermal SiO2)
   double hardness_ratio_limit =
       0.9;  ///< a of (12): beyond a H1 <= H2 <= H1/a only the softer body deforms, in (0, 1)
@@ -22,9 +24,19 @@ struct InterfaceOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// What the outside applies.
+/// What the outside applies, and the potential between the surfaces that nobody takes away.
+///
+/// Contact potentials and trapped charge have a sign of their own, which is seldom known and may
+/// change from part to part: with a voltage they count as if both had the same sign, which is the
+/// worse case. The field is that of U + V_c as long as the voltage is on, and of V_c on the way
+/// out.
 struct LoadOptions {
+  /// Largest contact potential, and potential of trapped charge, that is taken for one [V].
+  static constexpr double kMostContactPotential = 50.0;
+
   double voltage = 0.0;  ///< U [V], |U| <= max_voltage
+  double contact_potential =
+      0.0;  ///< V_c, stays when the loads have gone [V]; its sign is no matter
   double mechanical_load =
       0.0;                ///< F_m, pressing, on the scanned area [N], in [0, max_mechanical_load]
   double pressure = 0.0;  ///< instead of it: pressing, per nominal area [Pa], >= 0
@@ -37,6 +49,17 @@ struct LoadOptions {
   /// Whether the load is stated by what is to be scaled to a frame; models take a mechanical_load
   /// alone.
   bool isPerArea() const { return pressure > 0.0 || device_force > 0.0; }
+  /// |U| + |V_c|: whose field acts while the loads are on [V].
+  double fieldVoltage() const { return std::abs(voltage) + std::abs(contact_potential); }
+  /// What is left of that field's pressure when the voltage has gone [-]; 0 without a contact
+  /// potential.
+  double lastingFieldShare() const {
+    if (contact_potential == 0.0) return 0.0;
+    const double share = std::abs(contact_potential) / fieldVoltage();
+    return share * share;
+  }
+  /// Whether anything presses the surfaces together beside their adhesion and a load per area.
+  bool presses() const { return mechanical_load > 0.0 || fieldVoltage() != 0.0; }
   /// In place of whatever pressed before [N].
   void setMechanicalLoad(double newtons) {
     mechanical_load = newtons;

@@ -53,6 +53,21 @@ TEST(Breakdown, ofTheElectrodesIsAskedAtRestAndClosed) {
   EXPECT_EQ(breakdownWarnings(optionsOf(400.0, 1e-6), device, 20e-9).size(), 2u);
 }
 
+TEST(Breakdown, ofAContactPotentialCountsWithTheVoltages) {
+  Options options = optionsOf(-3.0, 4e-9);
+  EXPECT_TRUE(breakdownWarnings(options, {}, 20e-9).empty());
+  options.load.contact_potential = 2.0;
+  const std::string both = onlyLine(breakdownWarnings(options, {}, 20e-9));
+  EXPECT_EQ(both.find("load/voltage 3 V and load/contact_potential 2 V over "
+                      "interface/insulator_thickness 4e-09 m is a field of 1.25 GV/m"),
+            0u)
+      << both;
+  options.load.voltage = 0.0;
+  options.load.contact_potential = -5.0;
+  const std::string alone = onlyLine(breakdownWarnings(options, {}, 20e-9));
+  EXPECT_EQ(alone.find("load/contact_potential 5 V over "), 0u) << alone;
+}
+
 TEST(Breakdown, needsAVoltage) {
   EXPECT_TRUE(breakdownWarnings(optionsOf(0.0, 0.0), {}, 1e-9).empty());
   EXPECT_TRUE(breakdownWarnings(optionsOf(5.0, 100e-9), {}, std::nan("")).empty())

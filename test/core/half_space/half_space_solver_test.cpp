@@ -422,6 +422,30 @@ TEST(HalfSpaceSolver, TheVoltageHasGoneBeforeTheBodiesAreDrawnApart) {
   }
 }
 
+TEST(HalfSpaceSolver, AContactPotentialStaysWhenTheVoltageHasGone) {
+  HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
+  problem.interface.insulator_thickness = 20e-9;
+  problem.load.voltage = 20.0;
+  const SolvedHalfSpace voltage = solve(problem);
+  problem.load = {};
+  problem.load.contact_potential = -20.0;
+  const SolvedHalfSpace potential = solve(problem);
+  ASSERT_EQ(potential.status, HalfSpaceStatus::kSolved) << potential.message;
+  EXPECT_EQ(potential.rest_height, voltage.rest_height);
+  EXPECT_EQ(potential.contact_area, voltage.contact_area);
+  // by other states on the way
+  EXPECT_NEAR(potential.pull_off_force / voltage.pull_off_force_under_voltage, 1.0, 1e-3);
+  EXPECT_EQ(potential.pull_off_force_under_voltage, potential.pull_off_force);
+  EXPECT_GT(potential.work_of_adhesion, voltage.work_of_adhesion);
+  // with a voltage beside it the bodies part under the potential alone
+  problem.load.voltage = 15.0;
+  const SolvedHalfSpace both = solve(problem);
+  EXPECT_GT(both.contact_area, potential.contact_area);
+  EXPECT_NEAR(both.pull_off_force / potential.pull_off_force, 1.0, 0.005);
+  EXPECT_NEAR(both.work_of_adhesion / potential.work_of_adhesion, 1.0, 0.005);
+  EXPECT_GT(both.pull_off_force_under_voltage, both.pull_off_force);
+}
+
 TEST(HalfSpaceSolver, AVoltageThatStaysOnHoldsByItsField) {
   HalfSpaceProblem problem = problemOf(analytic::flat(12, 15, 2e-9, 3e-9));
   problem.interface.insulator_thickness = 20e-9;

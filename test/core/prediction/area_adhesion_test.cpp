@@ -121,6 +121,12 @@ std::vector<Case> cases() {
       {"eight", gaussian(3e-9),
        changed(pressed(20e-6), [](Options& o) { o.approach.connectivity = Connectivity::kEight; })},
       {"voltage", gaussian(3e-9), changed(stiff(), [](Options& o) { o.load.voltage = 10.0; })},
+      {"contact_potential", gaussian(3e-9),
+       changed(stiff(),
+               [](Options& o) {
+                 o.load.contact_potential = 1.0;
+                 o.load.voltage = 2.0;
+               })},
       {"water", gaussian(3e-9),
        changed(stiff(), [](Options& o) { o.capillary.relative_humidity = 0.5; }),
        5e-3},  // the frame counts cells that water fills in wider buckets, and rest is found to
@@ -158,8 +164,8 @@ TEST_P(AreaAdhesionOf, tilesIsThatOfTheFrame) {
                "stiffness");
     expectNear(found.median_composite_radius, expected.median_composite_radius, one.tolerance,
                "radius");
-    for (double Exponents::*exponent :
-         {&Exponents::adhesion, &Exponents::modulus, &Exponents::hamaker}) {
+    for (double Exponents::*exponent : {&Exponents::adhesion, &Exponents::modulus,
+                                        &Exponents::hamaker, &Exponents::contact_potential}) {
       expectNear(found.pull_off_exponents.*exponent, expected.pull_off_exponents.*exponent, 5e-3,
                  "force's exponent");
       expectNear(found.work_exponents.*exponent, expected.work_exponents.*exponent, 5e-3,

@@ -144,6 +144,7 @@ TEST_P(ModelAgainstPlain, isTheSameUnderAttraction) {
     Setting setting;
     Options options = optionsOf(setting);
     options.load.voltage = voltage;
+    options.load.contact_potential = 0.25 * voltage;
     expectSame(predictFast(options), predictPlain(options), kSameLoads);
   }
 }

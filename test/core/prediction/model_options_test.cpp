@@ -99,6 +99,18 @@ TEST(ModelOptions, needAnInsulatorUnderAVoltage) {
   expectViolation(options, "load/voltage", "2000", "[-1000, 1000]");
 }
 
+TEST(ModelOptions, needAnInsulatorUnderAContactPotential) {
+  Options options;
+  options.load.contact_potential = -0.2;
+  expectViolation(options, "interface/insulator_thickness", "load/contact_potential -0.2 V", "> 0");
+  options.interface.insulator_thickness = 4e-9;
+  EXPECT_TRUE(violationsOf(options).empty());
+  for (const double wrong : {50.5, -300.0, std::nan("")}) {
+    options.load.contact_potential = wrong;
+    expectViolation(options, "load/contact_potential", "V is not allowed", "[-50, 50]");
+  }
+}
+
 TEST(ModelOptions, stayWhenNewOnesAreRefused) {
   AdhesionModel model{Options()};
   Options bad;

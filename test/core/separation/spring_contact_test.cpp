@@ -12,6 +12,7 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kRigid = std::numeric_limits<double>::infinity();
+const FieldLaw kNoField(0.0, 0.0, 1.0);
 
 ContactTraction law() {
   InterfaceOptions interface;
@@ -22,7 +23,7 @@ ContactTraction law() {
 
 TEST(SpringContact, aPlaneHasTheStrengthAndTheEnergyOfTheLaw) {
   const ContactTraction traction = law();
-  const auto branch = springBranch({{0.0, 1.0}}, traction, kRigid);
+  const auto branch = springBranch({{0.0, 1.0}}, traction, kNoField, kRigid);
   const auto rest = restOf(branch, 0.0);
   EXPECT_NEAR(rest->energy, -0.05, 1e-4 * 0.05);
   EXPECT_NEAR(strengthFrom(rest, branch) / traction.strength(), 1.0, 1e-3);
@@ -36,14 +37,14 @@ TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
   const double height = 0.4e-9;
   const double flattening = 0.01;
   const double stiffness = 2.0 * flattening / (0.25 * height * height);
-  const auto branch = springBranch({{0.0, 0.5}, {height, 0.5}}, law(), stiffness);
+  const auto branch = springBranch({{0.0, 0.5}, {height, 0.5}}, law(), kNoField, stiffness);
   // all else but the give of the law, some U/(Gamma 27/...) of it: a stiff law would give exactly
   // Gamma - U
   EXPECT_NEAR(-restOf(branch, 0.0)->energy, 0.05 - flattening, 0.1 * flattening);
 }
 
 TEST(SpringContact, workIsTheAreaOfTheBranchWhereNothingSnaps) {
-  const auto branch = springBranch({{0.0, 0.3}, {0.05e-9, 0.7}}, law(), 1e20);
+  const auto branch = springBranch({{0.0, 0.3}, {0.05e-9, 0.7}}, law(), kNoField, 1e20);
   const auto rest = restOf(branch, 0.0);
   double area = 0.0;
   for (auto state = rest; state + 1 != branch.end(); ++state) {
@@ -53,7 +54,7 @@ TEST(SpringContact, workIsTheAreaOfTheBranchWhereNothingSnaps) {
 }
 
 TEST(SpringContact, pressureMovesTheRestInwards) {
-  const auto branch = springBranch({{0.0, 0.5}, {0.2e-9, 0.5}}, law(), 5e18);
+  const auto branch = springBranch({{0.0, 0.5}, {0.2e-9, 0.5}}, law(), kNoField, 5e18);
   EXPECT_LT(restOf(branch, 1e9)->height, restOf(branch, 0.0)->height);
 }
 

@@ -93,6 +93,18 @@ TEST(RemainingContact, fieldFollowsTheSquareOfTheVoltage) {
   EXPECT_EQ(remaining.advance(0.0, 0.0).electrostatic_force, 0.0);
 }
 
+TEST(RemainingContact, contactPotentialActsAtEveryVoltage) {
+  Options options = insulated();
+  options.load.contact_potential = 2.0;
+  RemainingContact remaining(options, sphere());
+  const RemainingState at_ten = remaining.advance(10.0, 0.0);
+  for (const double voltage : {4.0, 0.0}) {
+    const double share = (voltage + 2.0) / 12.0;
+    EXPECT_NEAR(remaining.advance(voltage, 0.0).electrostatic_force,
+                share * share * at_ten.electrostatic_force, kRoundOff * at_ten.electrostatic_force);
+  }
+}
+
 TEST(RemainingContact, goesOnAsOneSearchAtTheLargerLoad) {
   RemainingContact remaining(insulated(), rough());
   remaining.advance(5.0, 0.0);
@@ -262,6 +274,20 @@ TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
     EXPECT_EQ(row.is_open, opens) << row.voltage;
     EXPECT_EQ(row.pull_off_force == 0.0, opens) << row.voltage;
   }
+}
+
+TEST(LoadSweep, whatAContactPotentialHoldsIsCountedOnce) {
+  const HeightMap scan = sphere();
+  Options options = insulated();
+  options.load.contact_potential = 2.0;
+  const LoadSweepResult result =
+      sweepLoads(options, scan, upTo(10.0, 2), deviceFor(scan, 1e-6), {}, {});
+  const LoadSweepRow& off = result.rows[0];
+  EXPECT_GT(off.electrostatic_force, 0.0);
+  EXPECT_EQ(off.holding_margin, off.margin);
+  const LoadSweepRow& on = result.rows[1];
+  const double field = on.electrostatic_force * (1.0 - 4.0 / 144.0);
+  EXPECT_NEAR(on.holding_margin, 1e-6 / (on.pull_off_force + field), 1e-9 * on.holding_margin);
 }
 
 TEST(LoadSweep, mechanicalLoadHoldsTheDeviceToo) {

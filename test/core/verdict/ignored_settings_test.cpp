@@ -39,6 +39,7 @@ Settings busy() {
   }
   settings.model.interface.insulator_thickness = 100e-9;
   settings.model.load.voltage = 5.0;
+  settings.model.load.contact_potential = 1.0;
   settings.model.load.mechanical_load = 2e-6;
   settings.model.capillary.relative_humidity = 0.4;
   settings.uncertainty.samples = 8;
@@ -178,6 +179,23 @@ TEST(IgnoredSettings, areThoseThatChangeNoBit) {
         return std::string(one.key) == of_water;
       })) << of_water;
     }
+  }
+}
+
+TEST(IgnoredSettings, theUncertaintyOfNoContactPotentialIsOne) {
+  const std::string key = "uncertainty/contact_potential";
+  for (const std::string& formulation : formulationNames()) {
+    Settings settings = busy();
+    settings.model.formulation = formulation;
+    settings.model.load.contact_potential = 0.0;
+    Settings changed = settings;
+    Change change(key);
+    changed.describe(change);
+    EXPECT_TRUE(bitsOf(changed) == bitsOf(settings)) << formulation;
+    const std::vector<IgnoredSetting> ignored = ignoredSettings(formulation, settings.model);
+    EXPECT_TRUE(std::any_of(ignored.begin(), ignored.end(), [&](const IgnoredSetting& one) {
+      return one.key == key;
+    })) << formulation;
   }
 }
 
