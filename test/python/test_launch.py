@@ -86,6 +86,26 @@ class LaunchTest(unittest.TestCase):
             )
             self.assertEqual(done.returncode, 0)
 
+    def test_settings_that_are_not_there_are_refused_with_what_to_do(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, words in (
+                ("nope.yaml", r"config:=nope\.yaml: there is no such file in .*; give its full path"),
+                (folder + "/nope.yaml", r"config:=/.*/nope\.yaml: there is no such file\n"),
+                (folder, "config:=/.*: is no file of settings that can be read"),
+            ):
+                for file in ("stiction.launch", "station.launch"):
+                    done = nodes(LAUNCH / file, "config:=" + name)
+                    self.assertEqual(done.returncode, 1, done.stdout)
+                    self.assertRegex(done.stderr, words)
+            for name in ("my part.yaml", "Jürgens 'Teil'.yaml", 'a "b".yaml', "back\\slash.yaml"):
+                path = pathlib.Path(folder, name)
+                path.write_text("interface: {work_of_adhesion: 0.0625}  # Kommentar: ä\n")
+                loaded = roslaunch.config.load_config_default(
+                    [(str(LAUNCH / "stiction.launch"), ["config:=%s" % path])], None, verbose=False
+                )
+                text = loaded.params["/stiction_node/config/text"].value
+                self.assertEqual(text, path.read_text())
+
     def test_names_of_ros_itself_pass(self):
         self.assertIn("/afm/stiction_node", nodes(LAUNCH / "stiction.launch", "__ns:=afm").stdout)
 
