@@ -89,7 +89,10 @@ class LaunchTest(unittest.TestCase):
     def test_settings_that_are_not_there_are_refused_with_what_to_do(self):
         with tempfile.TemporaryDirectory() as folder:
             for name, words in (
-                ("nope.yaml", r"config:=nope\.yaml: there is no such file in .*; give its full path"),
+                (
+                    "nope.yaml",
+                    r"config:=nope\.yaml: there is no such file in .*; give its full path",
+                ),
                 (folder + "/nope.yaml", r"config:=/.*/nope\.yaml: there is no such file\n"),
                 (folder, "config:=/.*: is no file of settings that can be read"),
             ):

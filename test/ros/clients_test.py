@@ -31,7 +31,9 @@ def headers():
     import mems_stiction.msg
 
     module = pathlib.Path(mems_stiction.msg.__file__)
-    return ["-I%s" % (folder / "include") for folder in module.parents if (folder / "include").is_dir()]
+    return [
+        "-I%s" % (folder / "include") for folder in module.parents if (folder / "include").is_dir()
+    ]
 
 
 class ClientsTest(unittest.TestCase):
