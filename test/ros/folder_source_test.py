@@ -250,7 +250,7 @@ class FolderTest(unittest.TestCase):
         self.assert_books()
 
     @unittest.skipIf(SANITIZER, "sanitizers take their time")
-    def test_5_the_prediction_comes_within_half_a_second_of_the_settle_time(self):
+    def test_5_how_long_a_file_takes_to_its_prediction_is_printed_and_costs_little(self):
         def seconds_of(topic):
             return sum(thread_seconds(process_of(topic)).values())
 
@@ -277,8 +277,6 @@ class FolderTest(unittest.TestCase):
             "from file to scan %s s, to prediction %s s, of which %g s settle"
             % (*[", ".join("%.2f" % one for one in all) for all in (sent, predicted)], SETTLE)
         )
-        if os.getloadavg()[0] < os.cpu_count():  # else it waits for its turn of the processor, too
-            self.assertLess(min(predicted), SETTLE + 0.5)
         computed = sum(seconds_of(topic) for topic in ("height", "prediction")) - before
         print("both programs computed %.2f s for each" % (computed / len(sent)))
         self.assertLess(computed / len(sent), 0.5)
