@@ -42,12 +42,17 @@ class LaunchTest(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0, path)
             self.assertIn("no such argument: confg", done.stdout + done.stderr, path)
 
+    def test_a_station_of_files_needs_their_folder(self):
+        done = nodes(LAUNCH / "afm_folder.launch")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("'folder'", done.stdout + done.stderr)
+
     def test_every_argument_that_is_declared_is_known(self):
         for path in sorted(LAUNCH.glob("*.launch")):
             text = path.read_text().split("<include")[0]
             declared = set(re.findall(r'<arg name="(\w+)"(?: default=| doc=)', text))
             passed_on = re.search(
-                r'/launch/(\w+.launch)" pass_all_args="true" />', path.read_text()
+                r'/launch/(\w+.launch)" pass_all_args="true"', path.read_text()
             )
             if passed_on:  # that file refuses what it does not know
                 text = (LAUNCH / passed_on.group(1)).read_text()
