@@ -8,6 +8,12 @@
 #include "ros/own_log.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// Nodes that start together are there so soon: the log says nothing of it [s].
+constexpr double kShortHindrance = 5.0;
+
+}  // namespace
 
 void SourceAccounting::published(const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -47,9 +53,13 @@ void SourceAccounting::waits(std::uint64_t count, std::uint64_t gone) {
 
 void SourceAccounting::hindered(const std::string& by) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (by == hindered_by_) return;
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (hindered_by_.empty()) hindered_since_ = now;
   hindered_by_ = by;
-  if (!by.empty()) logSoon(ros::console::levels::Warn, by);
+  if (by.empty()) told_hindrance_.clear();
+  if (by == told_hindrance_ || (now - hindered_since_).toSec() < kShortHindrance) return;
+  told_hindrance_ = by;
+  logSoon(ros::console::levels::Warn, by);
 }
 
 void SourceAccounting::show(const std::string& key, const std::string& value) {

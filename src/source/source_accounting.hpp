@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
 
 namespace mems_stiction {
 
@@ -41,7 +42,8 @@ class SourceAccounting {
   void repeated();
   /// - @p gone so many in all
   void waits(std::uint64_t count, std::uint64_t gone = 0);
-  /// What keeps scans from being published at all; empty = nothing.
+  /// What keeps scans from being published at all; empty = nothing. To be said again for as long as
+  /// it lasts: the log has what lasts longer than a start.
   void hindered(const std::string& by);
   /// A figure of the source's own, shown with the others.
   void show(const std::string& key, const std::string& value);
@@ -56,7 +58,8 @@ class SourceAccounting {
   mutable std::mutex mutex_;
   SourceCounts counts_;
   std::uint64_t reported_refused_ = 0;
-  std::string last_published_, last_refused_, hindered_by_;
+  std::string last_published_, last_refused_, hindered_by_, told_hindrance_;
+  ros::SteadyTime hindered_since_;
   std::vector<std::pair<std::string, std::string>> shown_;
 };
 
