@@ -15,9 +15,10 @@
 namespace mems_stiction {
 namespace {
 
-/// What programs call files that are not whole yet, or only theirs.
-constexpr std::array<const char*, 9> kTemporaryEndings = {
-    ".tmp", ".temp", ".part", ".partial", ".crdownload", ".filepart", ".swp", ".lock", "~"};
+/// What programs call files that are not whole yet, or only theirs; Windows leaves the last two.
+constexpr std::array<const char*, 11> kTemporaryEndings = {
+    ".tmp", ".temp", ".part", ".partial",  ".crdownload", ".filepart",
+    ".swp", ".lock", "~",     "thumbs.db", "desktop.ini"};
 
 constexpr std::array<std::pair<const char*, std::string ScanIdentity::*>, 4> kTextGroups = {
     {{"part_id", &ScanIdentity::part_id},

@@ -14,7 +14,7 @@ TEST(NameRules, WithoutPatternsAllButHiddenTemporaryAndSettingsAreScans) {
     EXPECT_TRUE(rules.isScan(name)) << name;
   }
   for (const char* name : {".a.di.swp", "a.di.tmp", "a.di.part", "a.di~", "~$a.di", "a.di.yaml",
-                           "x/.hidden", "A.TMP"}) {
+                           "x/.hidden", "A.TMP", "Thumbs.db", "lot/desktop.ini"}) {
     EXPECT_FALSE(rules.isScan(name)) << name;
   }
 }
