@@ -91,6 +91,7 @@ const std::map<std::string, Usual>& usualValues() {
       {"device/beam_gap", travel},
       {"device/beam_residual_stress", {1e3, 2e10, {{"MPa", 1e6}, {"GPa", 1e9}}}},
       {"paper/step", {1e-14, 1e-7, {{"nm", 1e-9}, {"pm", 1e-12}}}},
+      {"counter_surface/correlation_length", wavelength},
       {"counter_surface/gaussian/rms_height", roughness},
       {"counter_surface/gaussian/correlation_length_x", wavelength},
       {"counter_surface/gaussian/correlation_length_y", wavelength},

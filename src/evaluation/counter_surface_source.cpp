@@ -97,7 +97,8 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
   }
   const bool is_flat = options_.type == CounterSurfaceType::kFlat && !is_measured;
   if (is_flat && pose.tilt_x == 0.0 && pose.tilt_y == 0.0) return {};
-  if (!placed_.empty() && haveSameGrid(placed_, scan)) return placed_;
+  const bool fits_scan = options_.fitsScan() && !is_measured;
+  if (!fits_scan && !placed_.empty() && haveSameGrid(placed_, scan)) return placed_;
   if (is_flat) {
     placed_ = tiltedFlat(scan, pose.tilt_x, pose.tilt_y);
     return placed_;
@@ -137,7 +138,9 @@ const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
     return mounted_measured_;
   }
   load();
-  if (options_.isGenerated() && (surface_.empty() || !haveSameGrid(surface_, scan))) {
+  const bool is_drawn_anew =
+      options_.fitsScan() || surface_.empty() || !haveSameGrid(surface_, scan);
+  if (options_.isGenerated() && is_drawn_anew) {
     surface_ = generatedCounterSurface(scan, options_);
   }
   return surface_;

@@ -7,7 +7,8 @@
 /// A measured counter-surface is cleaned as the scan is (same steps; the tip is taken off while its
 /// asperities point up), then turned over if it faces up, then put in its pose. A generated one
 /// needs no cleaning. No work is done twice: a measured surface is cleaned once, a generated one is
-/// drawn once per scan grid, either is resampled once per pose.
+/// drawn once per scan grid (or, where it fits the scan, for each), either is resampled once per
+/// pose.
 
 #include <atomic>
 #include <cstdint>

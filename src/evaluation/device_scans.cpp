@@ -12,6 +12,13 @@
 namespace mems_stiction {
 namespace {
 
+/// What is between two surfaces that fit each other, as one surface under a plane.
+HeightMap reliefBetween(const SurfacePair& surfaces) {
+  const HeightMap& lower = surfaces.lower;
+  const cv::Mat relief = lower.asDouble().heights() - surfaces.upper.asDouble().heights();
+  return {relief, lower.pitchX(), lower.pitchY()};
+}
+
 double pixelOf(const NamedScan& scan) {
   return std::max(scan.surface.pitchX(), scan.surface.pitchY());
 }
@@ -29,6 +36,10 @@ Configuration ofCounterSurface(Configuration configuration) {
 
 void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
   if (surfaces_.scans.empty()) first_ = prepared.surfaces;
+  if (configuration_.counter_surface.fitsScan()) {
+    surfaces_.scans.push_back({name, reliefBetween(prepared.model_surfaces), prepared.short_waves});
+    return;
+  }
   surfaces_.scans.push_back({name, prepared.model_surfaces.lower, prepared.short_waves});
   const HeightMap& upper = prepared.model_surfaces.upper;
   if (upper.empty() || has_own_counter_surface_) return;
@@ -48,6 +59,12 @@ std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name,
   ScanPreparer preparer(ofCounterSurface(configuration_));
   preparer.setMeasuredCounterSurface(measured);
   const PreparedScan prepared = preparer.prepare(measured);
+  const CounterSurfaceOptions& made = configuration_.counter_surface;
+  if (made.fitsScan()) {
+    throw OptionsError({"counter_surface/correlation: " + numberText(made.correlation) +
+                        " is not allowed with a measured counter-surface, which fits as it was "
+                        "measured; must be 0"});
+  }
   if (!has_own_counter_surface_) surfaces_.counter_surface.clear();
   has_own_counter_surface_ = true;
   surfaces_.counter_surface.push_back({name, prepared.model_surfaces.upper});

@@ -27,12 +27,13 @@ class DeviceScans {
   explicit DeviceScans(const Configuration& configuration) : configuration_(configuration) {}
 
   /// Of the lower surface, with what lies over it: a counter-surface from a file or a generator
-  /// counts once on each grid.
+  /// counts once on each grid. Where the generated one fits the scan, what is between both counts:
+  /// its spectrum has the correlation band by band, and so do the surfaces that are made.
   void add(const std::string& name, const PreparedScan& prepared);
   /// Of the upper surface, as it was measured: cleaned as the scans are, turned over if
   /// counter_surface/facing is up. The first one takes the place of all that lay over the scans.
-  /// @throw OptionsError if counter_surface/facing does not say how it lies; SurfaceError if it
-  /// cannot be used.
+  /// @throw OptionsError if counter_surface/facing does not say how it lies, or a made one is to
+  /// fit the scans; SurfaceError if it cannot be used.
   /// @return what looks wrong in it
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured);
 

@@ -1,6 +1,7 @@
 #include "surface/counter_surface.hpp"
 
 #include "mems_stiction/errors/errors.hpp"
+#include "surface/correlated_surface.hpp"
 #include "surface/self_affine_surface.hpp"
 #include "surface/translated_gaussian_surface.hpp"
 
@@ -90,6 +91,13 @@ void CounterSurfaceOptions::describe(OptionVisitor& visitor) {
   pose.describe(visitor);
   visitor.integer("counter_surface/seed", seed, Range::within(0, std::numeric_limits<int>::max()),
                   "of types gaussian and self_affine; the same seed gives the same surface");
+  visitor.number(
+      "counter_surface/correlation", correlation, "", Range::within(0.0, 1.0),
+      "of types gaussian and self_affine: correlation of its heights with the scan's, as "
+      "mounted; 1 fits into it");
+  visitor.number("counter_surface/correlation_length", correlation_length, "m",
+                 Range::nonNegative(),
+                 "waves longer than this are correlated, shorter ones independent; 0 = all waves");
   describeGaussian(visitor, gaussian);
   describeSelfAffine(visitor, self_affine);
 }
@@ -114,7 +122,10 @@ HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing 
   return facing == CounterSurfaceFacing::kDown ? measured : turnedOver(measured);
 }
 
-HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options) {
+namespace {
+
+/// Drawn by itself.
+HeightMap drawnOn(const HeightMap& scan, const CounterSurfaceOptions& options) {
   if (options.type == CounterSurfaceType::kSelfAffine) {
     SelfAffineSurfaceOptions surface = options.self_affine;
     takeGrid(scan, options.seed, surface);
@@ -125,6 +136,14 @@ HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOpt
   takeGrid(scan, options.seed, surface.gaussian);
   refuse(surface.validate("counter_surface/gaussian"));
   return turnedOver(translatedGaussianSurface(surface));
+}
+
+}  // namespace
+
+HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options) {
+  HeightMap drawn = drawnOn(scan, options);
+  if (!options.fitsScan()) return drawn;
+  return correlatedWith(scan, drawn, {options.correlation, options.correlation_length});
 }
 
 bool isIdentity(const SurfacePose& pose) {

@@ -12,7 +12,8 @@
 /// | self_affine | random heights, alike on many scales              | wraps around               |
 ///
 /// Generated surfaces have the scan's size and pitch, and depend on it and the seed alone: the same
-/// scan size gives the same surface. They are described as a probe would see them, asperities up,
+/// scan size gives the same surface. With a correlation they fit the scan's heights, too
+/// (correlated_surface.hpp). They are described as a probe would see them, asperities up,
 /// and turned over for mounting. Where each lies over the scan is said by the pose (alignment.hpp);
 /// a plane takes only its tilts.
 

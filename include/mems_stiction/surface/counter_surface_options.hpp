@@ -9,8 +9,9 @@
 ///             q = 2 pi/wavelength
 ///
 /// Generated surfaces are periodic, have the exact rms height (or slope), and depend on grid and
-/// seed alone. The pose is rigid: the middle of the counter-surface lies over the middle of the
-/// scan. Degenerate cases: an rms height of 0 is a plane; what a measured surface does not cover is
+/// seed alone; with a correlation on the scan's heights, too, and their own part alone is periodic.
+/// The pose is rigid: the middle of the counter-surface lies over the middle of the scan.
+/// Degenerate cases: an rms height of 0 is a plane; what a measured surface does not cover is
 /// invalid; a measured surface without a facing is refused.
 ///
 ///     CounterSurfaceOptions options;
@@ -118,6 +119,9 @@ struct CounterSurfaceOptions {
       gaussian;  ///< its rows, cols and pitches are the scan's, its seed is `seed`
   SelfAffineSurfaceOptions self_affine;  ///< the same
   int seed = 1;                          ///< of generated surfaces, >= 0
+  double correlation = 0.0;  ///< rho of generated surfaces with the scan, of their long waves, in
+                             ///< [0, 1]; correlated_surface.hpp
+  double correlation_length = 0.0;  ///< shorter waves are independent [m], >= 0; 0 = none is
 
   bool isMeasured() const {
     return type == CounterSurfaceType::kTopic || type == CounterSurfaceType::kFile;
@@ -125,6 +129,8 @@ struct CounterSurfaceOptions {
   bool isGenerated() const {
     return type == CounterSurfaceType::kGaussian || type == CounterSurfaceType::kSelfAffine;
   }
+  /// Whether it is another one over every scan.
+  bool fitsScan() const { return isGenerated() && correlation > 0.0; }
 
   void describe(OptionVisitor& visitor);
 };
