@@ -21,6 +21,7 @@ __path__ = extend_path(__path__, __name__)
 
 if TYPE_CHECKING:
     from mems_stiction._calibration import Calibration, calibrate
+    from mems_stiction._correlation import Correlation, correlation
     from mems_stiction._design import DesignSweep, design_sweep
     from mems_stiction._device import DeviceForce, predict_device
     from mems_stiction._half_space import HalfSpace, half_space
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 # the core.
 _MODULES = {
     "_calibration": ("Calibration", "calibrate"),
+    "_correlation": ("Correlation", "correlation"),
     "_design": ("DesignSweep", "design_sweep"),
     "_device": ("DeviceForce", "predict_device"),
     "_half_space": ("HalfSpace", "half_space"),
@@ -89,6 +91,7 @@ __all__ = [
     "Calibration",
     "Cleaned",
     "ContactCycles",
+    "Correlation",
     "DesignSweep",
     "DeviceForce",
     "Error",
@@ -111,6 +114,7 @@ __all__ = [
     "channels",
     "clean",
     "compare_lots",
+    "correlation",
     "cycle_contact",
     "decimate",
     "design_sweep",

@@ -420,6 +420,8 @@ class Predictor:
 
 class PreparedScan:
     warnings: List[str]
+    lower: HeightMap
+    upper: Optional[HeightMap]
 
 class Records:
     bytes: Memory

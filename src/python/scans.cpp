@@ -173,7 +173,14 @@ void bindScans(py::module& module) {
         return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
       },
       "pixels"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
-  py::class_<PreparedScan>(module, "PreparedScan").def_property_readonly("warnings", &warningsOf);
+  py::class_<PreparedScan>(module, "PreparedScan")
+      .def_property_readonly("warnings", &warningsOf)
+      .def_property_readonly("lower",
+                             [](const PreparedScan& prepared) { return prepared.surfaces.lower; })
+      .def_property_readonly("upper", [](const PreparedScan& prepared) -> std::optional<HeightMap> {
+        if (prepared.surfaces.upper.empty()) return std::nullopt;
+        return prepared.surfaces.upper;
+      });
   module.def("prepare", &prepared, "scan"_a, "counter_surface"_a, "configuration"_a);
   module.def("scan_warnings", &scanWarnings, "scan"_a, py::call_guard<WithoutLock>());
   module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a,
