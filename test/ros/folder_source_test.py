@@ -75,6 +75,13 @@ def slowly(path, content, pieces=10, pause=0.1):
 
 STARTED = []  # processes
 
+# Starts a program to which the system tells nothing of changes (inotify), as on a network share.
+UNTOLD = ["unshare", "--user", "--map-root-user", "sh", "-c"] + [
+    'echo 0 > /proc/sys/user/max_inotify_instances && exec "$@"',
+    "sh",
+]
+CAN_BE_UNTOLD = subprocess.run(UNTOLD + ["true"], stderr=subprocess.DEVNULL).returncode == 0
+
 
 class Source:
     """A scan_source of a namespace of its own, with nobody but the test to listen."""
@@ -96,9 +103,10 @@ class Source:
         ).items():
             rospy.set_param("/%s/source/%s" % (name, key), value)
 
-    def start(self):
+    def start(self, by=()):
         self.process = subprocess.Popen(
-            [find_node("mems_stiction", "scan_source")[0], "__name:=source"], env=self._environment
+            [*by, find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=self._environment,
         )
         STARTED.append(self.process)
         return self
@@ -392,6 +400,46 @@ class FolderTest(unittest.TestCase):
         )
         counts.wait(waiting=0, published=1)
         source.end()
+
+    @unittest.skipUnless(CAN_BE_UNTOLD, "this user may have no namespace of his own")
+    def test_9b_on_a_share_looks_find_each_content_once(self):
+        folder, home = self.top / "share", self.top / "share home"
+        folder.mkdir()
+        source = Source("share", folder, home).start(by=UNTOLD)
+        infos, _ = Collector("/share/scan_info", ScanInfo), Collector("/share/height", Image)
+        counts = source_counts("share/source")
+        wait_until(lambda: counts["told_by"] == "looks", "how it is told")
+        contents = [grid_bytes(500 + number, 24, 32) for number in range(4)]
+
+        def expect(count):
+            infos.wait(count)
+            counts.wait(waiting=0, published=count)
+
+        for name in ("grows", "moved", "written over", "copy"):
+            (folder / (name + ".txt.yaml")).write_text(SIDECAR)
+        slowly(folder / "grows.txt", contents[0], pieces=40, pause=0.05)
+        expect(1)
+        (folder / "moved.txt.part").write_bytes(contents[1])
+        (folder / "moved.txt.part").rename(folder / "moved.txt")
+        (folder / "written over.txt").write_bytes(contents[2])
+        expect(3)
+        (folder / "written over.txt").write_bytes(contents[3])
+        (folder / "copy.txt").write_bytes(contents[1])
+        (folder / "moved.txt").unlink()
+        expect(4)
+        counts.wait(repeated=1)
+        wait_until(
+            lambda: all("published " + checksum(one) in source.state(home) for one in contents),
+            "their notes",
+        )
+        source.end(signal.SIGKILL)
+        source.start(by=UNTOLD)
+        counts.wait(waiting=0, found=0, repeated=1)  # the copy
+        counts.fresh()
+        source.end()
+        self.assertEqual(
+            sorted(message.checksum for message in infos.messages), sorted(map(checksum, contents))
+        )
 
     def test_a_bad_parameters_are_refused_with_their_names(self):
         for name, value, words in (
