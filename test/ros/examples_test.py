@@ -36,7 +36,7 @@ from instrument_drivers import (
 from mems_stiction.msg import DeviceVerdict, StictionPrediction
 from mems_stiction.page_words import VERDICTS
 from roslib.packages import find_node, get_pkg_dir
-from sensor_msgs.msg import PointCloud2
+from sensor_msgs.msg import JointState, PointCloud2
 from std_msgs.msg import Bool
 from stiction_client import (
     STATION,
@@ -49,6 +49,8 @@ from stiction_client import (
 )
 from stiction_client import PITCH as AFM_PITCH
 from tf2_msgs.msg import TFMessage
+
+LINE_AREA = LINES * POINTS * POINT_PITCH * LINE_PITCH  # [m^2]
 
 
 def afm_file(heights):
@@ -211,12 +213,15 @@ class ExamplesTest(unittest.TestCase):
         example.counts.wait(found=1, published=1, refused=0, waiting=0)
         self.assert_recorded(example, [verdict])
 
-    def test_3_a_line_scanner_on_a_stage_with_lost_and_doubled_lines(self):
-        example = Example(self, "line_scanner", LINES * POINTS * POINT_PITCH * LINE_PITCH)
+    def scan_lines(self, example, moves, move):
+        """Runs the scanner over the stage by the trigger, with a line lost and one doubled, until
+        the verdict is there.
+
+        moves: publisher of what tells where the stage is; move: its message by stamp and way.
+        """
         sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
-        frames = rospy.Publisher("/tf", TFMessage, queue_size=1000)
         trigger = rospy.Publisher("/trigger", Bool, queue_size=10)
-        for publisher in (sensor, frames, trigger):
+        for publisher in (sensor, moves, trigger):
             wait_until(publisher.get_num_connections, "the source to listen")
         trigger.publish(True)
         example.counts.wait(scan_is_open="true")
@@ -226,7 +231,7 @@ class ExamplesTest(unittest.TestCase):
         numbers.insert(11, 10)
         for number in numbers:
             stamp = rospy.Time.from_sec(2000.0 + 0.01 * number)
-            frames.publish(TFMessage([stage_at(stamp, number * LINE_PITCH)]))
+            moves.publish(move(stamp, number * LINE_PITCH))
             sensor.publish(line(lowest[number], stamp, size=32, missing=np.inf))
         example.counts.wait(lines_of_this_scan=len(numbers))
         trigger.publish(False)
@@ -237,6 +242,31 @@ class ExamplesTest(unittest.TestCase):
             found=1, published=1, waiting=0, lines_lost_by_position=1, lines_doubled=1
         )
         self.assert_recorded(example, [verdict])
+
+    def test_3_a_line_scanner_on_a_stage_that_tf_follows(self):
+        example = Example(self, "line_scanner", LINE_AREA)
+        self.scan_lines(
+            example,
+            rospy.Publisher("/tf", TFMessage, queue_size=1000),
+            lambda stamp, way: TFMessage([stage_at(stamp, way)]),
+        )
+
+    def test_4_a_line_scanner_on_a_stage_with_a_joint(self):
+        source = yaml.safe_load(
+            pathlib.Path(get_pkg_dir("mems_stiction"), "config", "source_lines.yaml").read_text()
+        )
+        source.update(motion="joint", joint="stage_y")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "lines.yaml"
+            path.write_text(yaml.safe_dump(source))
+            example = Example(self, "line_scanner", LINE_AREA, source_config=path)
+            self.scan_lines(
+                example,
+                rospy.Publisher("/joint_states", JointState, queue_size=1000),
+                lambda stamp, way: JointState(
+                    header=rospy.Header(stamp=stamp), name=["stage_y"], position=[way]
+                ),
+            )
 
 
 if __name__ == "__main__":
