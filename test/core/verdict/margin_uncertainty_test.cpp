@@ -23,6 +23,7 @@ UncertaintyOptions exact() {
   UncertaintyOptions uncertainty;
   uncertainty.work_of_adhesion = uncertainty.hardness = uncertainty.youngs_modulus = 0.0;
   uncertainty.pitch = uncertainty.cutoff_distance = uncertainty.hamaker_constant = 0.0;
+  uncertainty.contact_potential = 0.0;
   uncertainty.scan_sampling = false;
   return uncertainty;
 }
@@ -66,6 +67,28 @@ TEST(AdhesionSpread, exactConstantsGiveNoSpread) {
   const AdhesionSpread spread = adhesionSpread(equalContacts(50, options), options, exact());
   for (const double sample : spread.pull_off) EXPECT_NEAR(sample, 1.0, 1e-12);
   for (const double sample : spread.apparent_work) EXPECT_NEAR(sample, 1.0, 1e-12);
+}
+
+TEST(AdhesionSpread, contactPotentialsMoveTheForceAsOtherOnesWould) {
+  GaussianSurfaceOptions rough;
+  rough.rows = rough.cols = 128;
+  const HeightMap surface = gaussianSurface(rough);
+  Options options;
+  options.interface.insulator_thickness = 4 * kNm;
+  options.load.contact_potential = 1.0;
+  options.load.voltage = 1.0;
+  const Prediction prediction = AdhesionModel(options).predict(surface);
+  UncertaintyOptions uncertainty = exact();
+  uncertainty.contact_potential = 0.2;
+  uncertainty.samples = 4000;
+  const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
+  options.load.contact_potential = std::exp(lognormal(0.2));
+  const double moved =
+      std::log(AdhesionModel(options).predict(surface).pull_off_force / prediction.pull_off_force);
+  EXPECT_GT(moved, 0.01);
+  // by powers; 4000 samples: 1 %
+  EXPECT_NEAR(logDeviation(spread.pull_off), std::hypot(moved, prediction.model.error.pull_off),
+              0.2 * moved);
 }
 
 TEST(AdhesionSpread, workOfAdhesionActsInProportionWhenTheLoadRules) {
