@@ -125,6 +125,31 @@ MergedSpectrum pooled(const std::vector<ScanGroup>& groups, const SpectrumStretc
   return spectrum;
 }
 
+/// The most that may be found of the density of long waves: that of a spectrum which falls as
+/// steeply as any that the window shows. On frames that are not square a band has few waves, and
+/// may have far less power than what reaches it from others; each round would take its density
+/// further down, by decades.
+double mostLeakage() {
+  static const double most = [] {
+    const WaveTransfer& transfer = waveTransfer();
+    const auto density = [](double waves) {
+      return std::pow(std::max(waves, kFirstWaveOfLargest), -kLeakage);
+    };
+    std::vector<double> sources;
+    for (const double length : transfer.lengths)
+      sources.push_back(length < kLeastSource ? 0.0 : density(length));
+    const cv::Mat arrived = transfer.round_shares * cv::Mat(sources);
+    double largest = 1.0;
+    for (std::size_t i = 0; i < transfer.waves.size(); ++i) {
+      const double waves = transfer.waves[i].count();
+      if (waves < kFirstWaveOfLargest) continue;
+      largest = std::max(largest, arrived.at<double>(static_cast<int>(i)) / density(waves));
+    }
+    return largest;
+  }();
+  return most;
+}
+
 /// What of the density is found in the bands of a group's long waves.
 void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
   const WaveTransfer& transfer = waveTransfer();
@@ -134,7 +159,8 @@ void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
         spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)));
   };
   std::vector<double> sources;
-  const bool is_round = spectrum.stretch.ratio == 1.0 && scan.sideX() == scan.sideY();
+  const bool is_square = scan.sideX() == scan.sideY();
+  const bool is_round = spectrum.stretch.ratio == 1.0 && is_square;
   const auto add = [&](const FrameWave& wave) {
     sources.push_back(wave.count() < kLeastSource ? 0.0 : densityOf(wave));
   };
@@ -169,7 +195,8 @@ void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
       continue;
     // bands that lie wholly among the long waves
     if (std::abs(of_band.count * group.count - place->second.count) > 0.5) continue;
-    place->second.correction = of_band.expected / of_band.density;
+    const double share = of_band.expected / of_band.density;
+    place->second.correction = is_square ? share : std::min(share, mostLeakage());
   }
 }
 
