@@ -100,7 +100,7 @@ def device_picture(record, heights=None):
         len(shares),
         width_ratios=shares,
         left=0.85 / width,
-        right=1 - 0.25 / width,
+        right=1 - 0.5 / width,  # half of the label of an area at the end of its axis
         top=1 - 0.75 / height,
         bottom=(below + 0.25) / height,
         wspace=0.3,

@@ -53,6 +53,17 @@ RECORD = {
 
 
 class PictureTest(unittest.TestCase):
+    def test_no_label_of_the_area_is_cut_at_the_edge(self):
+        for area in (2.3e-9, 4e-9, 9.9e-9):  # up to 0.01 mm² at the end of the axis
+            figure = self.drawn(dict(RECORD, area=area))
+            figure.canvas.draw()
+            labels = [label for label in figure.axes[-1].get_xticklabels() if label.get_text()]
+            low, high = figure.axes[-1].get_xlim()
+            shown = [label for label in labels if low <= label.get_position()[0] <= high]
+            self.assertTrue(shown)
+            for label in shown:
+                self.assertLessEqual(label.get_window_extent().x1, figure.bbox.x1, area)
+
     def drawn(self, record, heights=None):
         figure = device_figure.device_picture(record, heights)
         self.addCleanup(plt.close, figure)
