@@ -43,7 +43,7 @@ def _predicted(batch, configuration, arguments, number, total, place):
     place.mkdir()
     configuration = dict(
         configuration, half_space=dict(configuration.get("half_space") or {}, enabled=False)
-    )  # heights and force alone
+    )
     (place / "settings.yaml").write_text(yaml.safe_dump(configuration), encoding="utf-8")
     done = subprocess.run(
         [
@@ -54,6 +54,7 @@ def _predicted(batch, configuration, arguments, number, total, place):
             str(place / "scans"),
             "--config",
             str(place / "settings.yaml"),
+            "--no-device-force",  # heights and force of the scan alone
             "--shard",
             "%d/%d" % (number, total),
         ]

@@ -131,13 +131,15 @@ def in_frame_of(heights, deformed, contact_map):
     return heights - (plane[0] + plane[1] * columns + plane[2] * rows)
 
 
-def save_picture(picture, path):
-    """Writes the three panels as PNG."""
-    figure = plt.figure(figsize=(15, 5.4), dpi=110)
-    caption = _caption(picture)
-    top = min(
-        0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055
-    )  # below the caption there is a line of titles
+def save_picture(picture, path, with_caption=True):
+    """Writes the three panels as PNG; without a caption where the page around it says all that."""
+    figure = plt.figure(figsize=(15, 5.4 if with_caption else 4.6), dpi=110)
+    caption = _caption(picture) if with_caption else ""
+    top = (
+        min(0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055)
+        if with_caption
+        else 0.93
+    )  # above the panels there is a line of titles
     grid = figure.add_gridspec(
         1,
         3,
@@ -148,10 +150,11 @@ def save_picture(picture, path):
         bottom=0.17,
         wspace=0.3,
     )
-    figure.suptitle(
-        literal(picture.name), x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold"
-    )
-    figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
+    if with_caption:
+        figure.suptitle(
+            literal(picture.name), x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold"
+        )
+        figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
     draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)

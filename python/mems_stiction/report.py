@@ -263,7 +263,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
         result = json.load(stream)
     stream = io.BytesIO()
     picture = picture_of(folder, result, scan_name(row))
-    save_picture(picture, stream)
+    save_picture(picture, stream, with_caption=False)  # the page says it
     heights = np.load(str(folder / "heights.npy"))
     return {
         "number": row["number"],
@@ -507,9 +507,11 @@ def part_row(part):
     }
 
 
-def page(title, rows, sections, settings_text, configuration_path, parts=(), date=None):
+def page(
+    title, rows, sections, settings_text, configuration_path, parts=(), date=None, settings_name=""
+):
     """The HTML. `settings_text` is the settings file beside the rows; parts: the rows of
-    stiction_batch --parts."""
+    stiction_batch --parts; settings_name: of the file beside the page that has the settings."""
     predicted = [row for row in rows if not row["reason"]]
     settings = yaml.safe_load(settings_text)
     given = (
@@ -551,6 +553,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
         sources=SOURCES,
         configuration_file=Verbatim(given),
         configuration_name=str(configuration_path or ""),
+        settings_name=settings_name,
         configuration=Verbatim(re.sub(r"(?m)^  ", "", configuration)),
     )
 

@@ -4,6 +4,7 @@ PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{{ title }}</title>
 <style>
   body { font-family: "DejaVu Sans", Arial, sans-serif; font-size: 14px; color: #222; max-width: 1300px; margin: 24px auto; padding: 0 24px; line-height: 1.45; }
@@ -15,7 +16,7 @@ PAGE = """<!DOCTYPE html>
   th, td { padding: 3px 9px; text-align: left; border-bottom: 1px solid #ddd; vertical-align: top; }
   th { background: #eef2f7; }
   td.n, th.n { text-align: right; white-space: nowrap; }
-  .wide { overflow-x: auto; } .overview { font-size: 13px; }
+  .wide, .picture { overflow-x: auto; } p, li, h1, h2, h3 { overflow-wrap: anywhere; } .overview { font-size: 13px; }
   .path { overflow-wrap: anywhere; } td.path { min-width: 180px; }
   .quiet { color: #666; } td.limits { min-width: 150px; color: #7a5200; } tr.limits td { color: #7a5200; padding-top: 0; } #scans tbody tr:not(:last-child) td { border-bottom: none; }
   .warning { background: #fff6dd; border-left: 4px solid #f2b705; padding: 5px 10px; }
@@ -23,18 +24,22 @@ PAGE = """<!DOCTYPE html>
   ul { padding-left: 20px; }
   pre { background: #f6f6f6; padding: 10px; font-size: 12px; white-space: pre-wrap; overflow-wrap: anywhere; }
   .figures { columns: 3; column-gap: 24px; }
-  .figures div { break-inside: avoid; display: flex; justify-content: space-between; border-bottom: 1px dotted #ccc; padding: 1px 0; }
+  .figures div { break-inside: avoid; display: flex; justify-content: space-between; border-bottom: 1px dotted #ccc; padding: 1px 0; gap: 12px; }
+  .figures span:last-child { text-align: right; } .cleaning th:first-child { min-width: 90px; } summary { cursor: pointer; }
   @page { size: A4; margin: 12mm 12mm 14mm 12mm; @bottom-right { content: counter(page) " / " counter(pages); font-size: 9px; color: #666; } }
+  /* pictures keep a size that can be read, and scroll in their own box */
+  @media screen and (max-width: 900px) { body { padding: 0 12px; } .figures { columns: 2; } .picture img { width: 860px; max-width: none !important; } }
+  @media screen and (max-width: 600px) { .figures { columns: 1; } }
   @media screen and (max-width: 1400px) { th.n, td.n { white-space: normal; } .overview { font-size: 12px; } td.path { min-width: 110px; } }
   @media print {
-    body { font-size: 10px; margin: 0; padding: 0; max-width: none; }
-    h1 { font-size: 20px; } h2 { font-size: 15px; margin-top: 14px; } h3 { font-size: 12px; }
-    .appendix { break-before: page; } tr, img, .cleaning, .head, #scans tbody { break-inside: avoid; } h2, h3 { break-after: avoid; } thead { display: table-header-group; }
-    img { margin: 4px 0; } p, table, .figures { margin: 4px 0; } .figures { font-size: 8.5px; column-gap: 16px; }
-    .details { width: 88%; margin: 4px auto; } .cleaning h3 { clear: both; } .cleaning img { float: left; width: 38%; margin-right: 3%; } .cleaning table { width: 59%; font-size: 8px; }
-    #scans td.path { min-width: 0; overflow-wrap: break-word; }
-    .cleaning::after { content: ""; display: block; clear: both; }
-    pre { font-size: 7.5px; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
+    body { font-size: 9.5px; line-height: 1.3; margin: 0; padding: 0; max-width: none; }
+    h1 { font-size: 20px; } h2 { font-size: 14px; margin: 8px 0 3px; } h3 { font-size: 11px; margin: 5px 0 2px; } .warning { padding: 2px 8px; }
+    .head, .cleaning { break-inside: avoid; } tr, img, #scans tbody { break-inside: avoid; } h2, h3 { break-after: avoid; } thead { display: table-header-group; }
+    img { margin: 2px auto; } p, table, .figures { margin: 3px 0; } .figures { columns: 4; font-size: 8px; column-gap: 12px; line-height: 1.3; }
+    .maps img { width: 74%; } .details img { width: auto; max-width: 54%; max-height: 54mm; } .surface img { width: 74%; } .trends img { width: 62%; }
+    .cleaning .beside { display: flex; gap: 3mm; align-items: flex-start; } .cleaning .picture { width: 63%; } .cleaning .picture img { width: auto; max-width: 100% !important; max-height: 44mm; margin: 2px 0; } .cleaning .wide { width: 36%; } .cleaning table { font-size: 7px; line-height: 1.2; }
+    #scans td.path { min-width: 0; overflow-wrap: break-word; } .cleaning td, .cleaning th { padding: 1px 4px; }
+    .settings { display: none; } .appendix { font-size: 7.5px; } .cleaning th:first-child { min-width: 0; } .appendix ul { margin: 2px 0; columns: 2; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
   }
 </style>
 </head>
@@ -56,8 +61,8 @@ PAGE = """<!DOCTYPE html>
 <p class="quiet">The scans of one part and serial number, pooled: the geometric mean and its 95 % interval. What is common to all scans (constants, model, pitch) does not shrink with their number.</p>{% endif %}
 {% if lots %}<div id="lots"><h2>Lots and wafers</h2>
 <ul>{% for statement in lots.statements %}<li>{{ statement }}</li>{% endfor %}</ul>
-<img alt="How far lots, wafers and parts differ, and which share is expected to stick" src="{{ lots.picture }}">
-{% for name, map in lots.maps %}<img alt="Maps of {{ name }}" src="{{ map }}">
+<div class="picture"><img alt="How far lots, wafers and parts differ, and which share is expected to stick" src="{{ lots.picture }}"></div>
+{% for name, map in lots.maps %}<div class="picture"><img alt="Maps of {{ name }}" src="{{ map }}"></div>
 {% endfor %}{% if lots.has_more %}<p class="quiet">Of the maps the first {{ lots.maps | length }}; compare_lots --maps draws all.</p>{% endif %}</div>{% endif %}
 
 <h2>Scans</h2>
@@ -73,7 +78,7 @@ PAGE = """<!DOCTYPE html>
 {% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.{% if has_device %} It has judged where the verdict says so.{% endif %}</p>{% endif %}
 
 {% if trends %}<h2>Trends</h2>
-<img alt="Trends over the scans" src="{{ trends }}">{% endif %}
+<div class="picture trends"><img alt="Trends over the scans" src="{{ trends }}"></div>{% endif %}
 
 {% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
 <div class="head"><h2>{{ scan.number }}: {{ scan.name }}</h2>
@@ -81,21 +86,21 @@ PAGE = """<!DOCTYPE html>
 {% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
 {% if scan.verdict %}<p><span class="{{ scan.sticks }}">{{ scan.releases[0] | upper }}{{ scan.releases[1:] }}.</span> {{ scan.verdict }}</p>{% endif %}
 {% if scan.flags %}<p class="warning">Outside the model's range: {{ scan.flags }}.</p>{% endif %}
-<img alt="Heights, contact map and cross-section" src="{{ scan.maps }}"></div>
+<div class="picture maps"><img alt="Heights, contact map and cross-section" src="{{ scan.maps }}"></div></div>
 <div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
-<img class="details" alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}">
+<div class="picture details"><img alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}"></div>
 <h3>The surface after cleaning, by ISO 25178-2</h3>
-<img alt="Histogram of the heights, material ratio curve, spectrum" src="{{ scan.surface }}">
+<div class="picture surface"><img alt="Histogram of the heights, material ratio curve, spectrum" src="{{ scan.surface }}"></div>
 <div class="figures">{% for label, value in scan.surface_figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
 {% if scan.cleaning %}<div class="cleaning"><h3>What each cleaning step did</h3>
-<img alt="The surface after each cleaning step, and what the step changed" style="max-width: {{ scan.cleaning.width }}px" src="{{ scan.cleaning.image }}">
-<table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
+<div class="beside"><div class="picture"><img alt="The surface after each cleaning step, and what the step changed" style="max-width: {{ scan.cleaning.width }}px" src="{{ scan.cleaning.image }}"></div>
+<div class="wide"><table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
 {% for row in scan.cleaning.rows %}<tr><td>{{ row.words }}</td><td class="n">{{ row.rms }}</td><td class="n">{{ row.change }}</td><td class="n">{{ row.changed }}</td><td class="n">{{ row.missing }}</td><td class="n">{{ row.pull_off }}</td></tr>
-{% endfor %}</table></div>{% endif %}
+{% endfor %}</table></div></div></div>{% endif %}
 {% if scan.why_no_cleaning %}<p class="quiet">What each cleaning step did is not shown: {{ scan.why_no_cleaning }}</p>{% endif %}
 {% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
 <p>{{ scan.half_space.words }}</p>
-{% if scan.half_space.image %}<img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}">{% endif %}
+{% if scan.half_space.image %}<div class="picture"><img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}"></div>{% endif %}
 <div class="figures">{% for label, value in scan.half_space.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>{% endif %}
 </div>
 {% endfor %}
@@ -105,13 +110,15 @@ PAGE = """<!DOCTYPE html>
 <h3>Inputs</h3>
 <ul>{% for input in inputs %}<li class="path">{{ input }}</li>{% endfor %}</ul>
 <h3>Versions</h3>
-<table>{% for name, value in versions %}<tr><th>{{ name }}</th><td>{{ value }}</td></tr>{% endfor %}</table>
+<p>{% for name, value in versions %}{{ name }} {{ value }}{% if not loop.last %}, {% endif %}{% endfor %}</p>
 <h3>Model and sources</h3>
 <ul>{% for source in sources %}<li>{{ source }}</li>{% endfor %}</ul>
-{% if configuration_file %}<h3>Configuration as given: <span class="path">{{ configuration_name }}</span></h3>
-<pre>{{ configuration_file }}</pre>{% endif %}
-<h3>All parameters in effect</h3>
-<pre>{{ configuration }}</pre>
+{% if settings_name %}<h3>Settings</h3>
+<p>All settings in effect, with their units, stand in <span class="path">{{ settings_name }}</span> beside this page.</p>{% endif %}
+<div class="settings">{% if configuration_file %}<details><summary>Configuration as given: <span class="path">{{ configuration_name }}</span></summary>
+<pre>{{ configuration_file }}</pre></details>{% endif %}
+<details><summary>All settings in effect</summary>
+<pre>{{ configuration }}</pre></details></div>
 </div>
 </body>
 </html>

@@ -6,6 +6,7 @@ import json
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -15,9 +16,14 @@ from mems_stiction.quantities import unbroken
 from mems_stiction.report_device import device_lines, measurements_of
 from roslib.packages import find_node
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "ros"))
+import browser  # noqa: E402  (the path comes first)
+
 AFM_SCAN = pathlib.Path(__file__).resolve().parents[2] / "scripts/examples/make_afm_scan"
 NO_BREAK = "\u00a0"
-SCANS = 4
+SCANS = 3
+STEPS = 3  # thumbnails of a scan's cleaning: as measured, spikes, level
+MILLIMETRE = 96 / 25.4  # in pixels of CSS
 
 
 def plain(text):
@@ -163,7 +169,7 @@ class PageTest(unittest.TestCase):
         )
         assert done.returncode == 0, done.stderr
         cls.text = (cls.folder / "r.html").read_text(encoding="utf-8")
-        printed = weasyprint.HTML(string=cls.text).render().pages
+        cls.printed = printed = weasyprint.HTML(string=cls.text).render().pages
         cls.pages = [
             " ".join(box.text for box in page._page_box.descendants() if hasattr(box, "text"))
             for page in printed
@@ -185,7 +191,44 @@ class PageTest(unittest.TestCase):
             "afm_%d.txt" % SCANS,
         ):
             self.assertIn(expected, pages[0])
-        self.assertLessEqual(len(pages), 2 * SCANS + 4)
+        self.assertLessEqual(len(pages), 4)  # with the cleaning of each
+
+    def test_all_settings_are_a_file_and_no_part_of_what_is_printed(self):
+        self.assertIn("spring_stiffness: 100", (self.folder / "r.settings.yaml").read_text())
+        self.assertIn("r.settings.yaml", self.pages[-1])
+        self.assertNotIn("spring_stiffness", " ".join(self.pages))
+        self.assertIn("spring_stiffness", self.text)  # on the screen it unfolds
+
+    @unittest.skipUnless(browser.program(), "no browser is installed")
+    def test_no_width_needs_scrolling_sideways_and_nothing_overlaps(self):
+        page = browser.Browser(420, 800)
+        self.addCleanup(page.close)
+        page.open((self.folder / "r.html").as_uri())
+        for width in (320, 420, 1280):
+            page.resize(width, 800)
+            self.assertEqual(page.value("document.documentElement.scrollWidth"), width)
+            overlaps = page.value(
+                "[...document.querySelectorAll('.figures div')].filter(({children: [a, b]}) => { "
+                "const [one, other] = [a, b].map((span) => span.getBoundingClientRect()); return "
+                "one.right > other.left + 1 || other.right > innerWidth; })"
+                ".map((row) => row.textContent)"
+            )
+            self.assertEqual(overlaps, [], width)
+            # pictures that are scrolled in their own box keep a size that can be read
+            least = page.value(
+                "Math.min(...[...document.querySelectorAll('.picture img')].map((image) => "
+                "image.clientWidth))"
+            )
+            self.assertGreater(least, 800, width)
+
+    def test_thumbnails_of_the_cleaning_are_large_enough_on_paper(self):
+        widths = []
+        for page in self.printed:
+            for box in page._page_box.descendants():
+                if box.element_tag == "img" and "cleaning step" in (box.element.get("alt") or ""):
+                    widths.append(box.width)
+        self.assertEqual(len(widths), SCANS)
+        self.assertGreater(min(widths) / MILLIMETRE / STEPS, 20)
 
     def test_a_heading_stands_with_its_picture(self):
         """No page ends with the heading of a scan."""
