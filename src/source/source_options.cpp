@@ -7,6 +7,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/parameters.hpp"
 #include "settings/option_yaml.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -18,6 +19,21 @@ void joinList(YAML::Node& tree, const std::string& key) {
   for (const YAML::Node& entry : tree[key])
     joined += (joined.empty() ? "" : ",") + entry.as<std::string>("");
   tree[key] = joined;
+}
+
+/// What the node's configuration states of scans goes for the source, too, behind its own keys: the
+/// text `config/text`, named `config/file`.
+void takeScanOfConfiguration(YAML::Node& tree) {
+  const YAML::Node config = tree["config"];
+  if (!config.IsDefined()) return;
+  const std::string file = config["file"].as<std::string>("config/text");
+  const YAML::Node stated = parseYaml(config["text"].as<std::string>(""), file);
+  tree.remove("config");
+  if (!stated.IsMap() || !stated["scan"].IsDefined() || !stated["scan"].IsMap()) return;
+  for (const auto& entry : stated["scan"]) {
+    const auto key = entry.first.as<std::string>("");
+    if (!tree["scan"][key].IsDefined()) tree["scan"][key] = entry.second;
+  }
 }
 
 /// What a motion cannot do without.
@@ -158,16 +174,11 @@ void SourceOptions::describe(OptionVisitor& visitor) {
   lines.describe(visitor);
 }
 
-SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
-  SourceOptions options;
-  XmlRpc::XmlRpcValue parameters;
-  YAML::Node tree(YAML::NodeType::Map);
-  if (private_handle.getParam(private_handle.getNamespace(), parameters) &&
-      parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
-    tree = yamlFromParameters(parameters);
-  }
+SourceOptions statedSourceOptions(YAML::Node tree) {
+  takeScanOfConfiguration(tree);
   joinList(tree, "patterns");
   joinList(tree, "audience");
+  SourceOptions options;
   std::vector<std::string> violations = readYaml(tree, [&](OptionVisitor& visitor) {
     options.describe(visitor);
     options.scan.describe(visitor);
@@ -176,6 +187,16 @@ SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
   if (violations.empty()) violations = complaintsOf(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return options;
+}
+
+SourceOptions readSourceParameters(const ros::NodeHandle& private_handle) {
+  XmlRpc::XmlRpcValue parameters;
+  YAML::Node tree(YAML::NodeType::Map);
+  if (private_handle.getParam(private_handle.getNamespace(), parameters) &&
+      parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    tree = yamlFromParameters(parameters);
+  }
+  return statedSourceOptions(tree);
 }
 
 }  // namespace mems_stiction

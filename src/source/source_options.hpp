@@ -13,6 +13,10 @@
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "source/cloud_grid.hpp"
 
+namespace YAML {
+class Node;
+}
+
 namespace mems_stiction {
 
 /// What lay in the folder before the first start.
@@ -94,7 +98,12 @@ struct SourceOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// Of the private namespace as a map. `config/text`, the text of the node's configuration
+/// (`config/file` its name), may be among it: its `scan/...` serve where the source states none.
 /// @throw OptionsError one line per unknown key, wrong type or value out of range
+SourceOptions statedSourceOptions(YAML::Node tree);
+
+/// As above, of the parameter server.
 SourceOptions readSourceParameters(const ros::NodeHandle& private_handle);
 
 }  // namespace mems_stiction

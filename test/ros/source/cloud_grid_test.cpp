@@ -9,6 +9,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/source/cloud_cases.hpp"
 #include "source/cloud_grid.hpp"
+#include "source/cloud_points.hpp"
 #include "source/cloud_source.hpp"
 
 namespace mems_stiction {
