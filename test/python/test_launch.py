@@ -51,9 +51,7 @@ class LaunchTest(unittest.TestCase):
         for path in sorted(LAUNCH.glob("*.launch")):
             text = path.read_text().split("<include")[0]
             declared = set(re.findall(r'<arg name="(\w+)"(?: default=| doc=)', text))
-            passed_on = re.search(
-                r'/launch/(\w+.launch)" pass_all_args="true"', path.read_text()
-            )
+            passed_on = re.search(r'/launch/(\w+.launch)" pass_all_args="true"', path.read_text())
             if passed_on:  # that file refuses what it does not know
                 text = (LAUNCH / passed_on.group(1)).read_text()
             (known,) = re.findall(r"name not in \(([^)]*)\)", text)
