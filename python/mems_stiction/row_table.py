@@ -64,7 +64,7 @@ def require_parquet(option, path):
         raise OSError("%s: %s cannot be written: %s" % (option, path, NEEDS))
 
 
-def write_rows(path, names, rows, units, origin=None):
+def write_rows(path, names, rows, units, origin=None, is_for_excel=False):
     """A table of dictionaries, whole or not at all; its kind goes by the ending of the path.
 
     names: of the columns; a row may lack some. units: {name: unit}, SI. origin: {word: text} of all
@@ -74,14 +74,28 @@ def write_rows(path, names, rows, units, origin=None):
         write_table(path, _table_of(names, rows, units), units, origin or {})
         return
     with whole(path) as part, open(str(part), "w", encoding="utf-8", newline="") as stream:
-        write_csv(stream, names, rows)
+        write_csv(stream, names, rows, is_for_excel)
 
 
-def write_csv(stream, names, rows):
-    """The rows as text; columns that a row lacks are empty there."""
-    writer = csv.writer(stream, lineterminator="\n")
+def write_csv(stream, names, rows, is_for_excel=False):
+    """The rows as text; columns that a row lacks are empty there.
+
+    is_for_excel: as spreadsheets of most of Europe read them: semicolons between cells, a comma in
+    numbers, and a mark of UTF-8 before all.
+    """
+    if is_for_excel:
+        stream.write("\ufeff")
+    writer = csv.writer(stream, delimiter=";" if is_for_excel else ",", lineterminator="\n")
     writer.writerow(names)
-    writer.writerows([_cell(row.get(name)) for name in names] for row in rows)
+    cell = _excel_cell if is_for_excel else _cell
+    writer.writerows([cell(row.get(name)) for name in names] for row in rows)
+
+
+def _excel_cell(value):
+    text = _cell(value)
+    if isinstance(value, float) and not isinstance(value, bool) or isinstance(value, Stamp):
+        return str(text).replace(".", ",")
+    return text
 
 
 def _cell(value):

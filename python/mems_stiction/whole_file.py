@@ -4,8 +4,11 @@ import contextlib
 import errno
 import os
 import pathlib
+import re
 import secrets
 import shutil
+import sys
+import tempfile
 
 
 class CannotWrite(OSError):
@@ -54,13 +57,45 @@ def refuse_pipe(path):
         raise OSError(errno.EINVAL, "is a pipe or a socket, must be a file", str(path))
 
 
+_OPEN = re.compile(r"/dev/(stdin|stdout|stderr|fd/\d+)|/proc/self/fd/\d+")  # of this process
+
+
+def is_open_file(path):
+    """Whether a path names what this process was given, as /dev/stdout does: a pipe, a terminal or
+    a file that others write to as well."""
+    return _OPEN.fullmatch(str(path)) is not None
+
+
+@contextlib.contextmanager
+def _behind(path):
+    """A file of its own, whose bytes go behind what was written to an open file before."""
+    with tempfile.TemporaryDirectory() as folder:
+        part = pathlib.Path(folder, "part" + pathlib.Path(path).suffix)
+        yield part
+        sys.stdout.flush()
+        number = {"stdin": 0, "stdout": 1, "stderr": 2}.get(path.name)
+        try:
+            with (
+                open(str(part), "rb") as source,
+                os.fdopen(os.dup(int(path.name) if number is None else number), "wb") as stream,
+            ):
+                shutil.copyfileobj(source, stream)
+        except OSError as error:
+            raise CannotWrite(path, error) from error
+
+
 @contextlib.contextmanager
 def whole(path):
     """A place to write to; what was written there takes the file's name when it is whole.
 
-    A link stays a link, and a device is written to as it is. Raises CannotWrite where that fails.
+    A link stays a link, and a device is written to as it is; what is written to /dev/stdout goes
+    behind what stands there. Raises CannotWrite where that fails.
     """
     asked = path
+    if is_open_file(path):
+        with _behind(pathlib.Path(path)) as part:
+            yield part
+        return
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)
     is_device = path.exists() and not path.is_file()
@@ -91,6 +126,8 @@ def whole(path):
 def check_writable(path):
     """Raises OSError if a file cannot be written there by whole(); CannotWrite where the place
     beside it, which nobody has named, is why."""
+    if is_open_file(path):
+        return
     asked = path
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)

@@ -29,6 +29,7 @@ from mems_stiction.msg import (
 )
 from mems_stiction.provenance import FIELDS
 from mems_stiction.ros2_messages import as_ros2, schema_name, schema_of
+from mems_stiction.row_columns import GROUPS
 from mems_stiction.row_table import Stamp, units_of
 from roslib.packages import find_node
 from rospkg import RosPack
@@ -276,6 +277,87 @@ class ParquetTest(InFolder):
         self.assertEqual(table.schema.metadata[b"mems_stiction.version"], b"0.1.0")
         self.done("export_predictions", "--device-force", "-o", self.folder / "device.parquet", bag)
         self.assertEqual(self.table("device.parquet")["pull_off_force"].to_pylist(), [3e-7])
+
+    def prediction_bag(self, count=2):
+        """Of a formulation that has no JKR force and no energy."""
+        bag = self.folder / "chosen.bag"
+        with rosbag.Bag(str(bag), "w") as recording:
+            for number in range(count):
+                prediction = StictionPrediction(
+                    pull_off_force=1.5e-7 * (number + 1),
+                    pull_off_force_jkr=math.nan,
+                    surface_energy=math.nan,
+                    margin=2.5,
+                    reason="above 1",
+                    version="0.1.0",
+                )
+                prediction.header.stamp = rospy.Time(1700000000 + number, 5 * 10**8)
+                recording.write("/prediction", prediction, rospy.Time(1700000100 + number))
+        return bag
+
+    def exported(self, *arguments, delimiter=","):
+        self.done("export_predictions", "-o", self.folder / "chosen.csv", *arguments)
+        with open(str(self.folder / "chosen.csv"), newline="", encoding="utf-8-sig") as stream:
+            return list(csv.DictReader(stream, delimiter=delimiter))
+
+    def test_columns_without_a_value_are_left_out_and_others_are_chosen_by_group(self):
+        bag = self.prediction_bag()
+        names = list(self.exported(bag)[0])
+        for name in ("pull_off_force", "margin", "rms_height"):
+            self.assertIn(name, names)
+        for name in ("pull_off_force_jkr", "surface_energy", "scan_name"):
+            self.assertNotIn(name, names)
+        every = list(self.exported("--columns", "all", bag)[0])
+        self.assertIn("surface_energy", every)
+        self.assertGreater(len(every), len(names))
+        rows = self.exported("--columns", "stamp,verdict,pull_off_force", bag)
+        self.assertEqual(list(rows[0])[0], "stamp")
+        self.assertEqual(list(rows[0])[-1], "pull_off_force")
+        self.assertIn("margin", rows[0])
+        self.assertNotIn("contact_area", rows[0])
+        # each column belongs to one group
+        by_groups = self.exported("--columns", ",".join(name for name, _, _ in GROUPS), bag)
+        self.assertEqual(sorted(by_groups[0]), sorted(names))
+        for wanted, told in (("vredict", "did you mean verdict?"), ("", "groups are origin")):
+            self.refused(
+                told, "export_predictions", "-o", self.folder / "a.csv", "--columns=" + wanted, bag
+            )
+
+    def test_a_table_for_a_spreadsheet_has_semicolons_and_decimal_commas(self):
+        bag = self.prediction_bag()
+        rows = self.exported("--excel", bag, delimiter=";")
+        self.assertEqual(
+            [(row["pull_off_force"], row["stamp"], row["margin"], row["reason"]) for row in rows],
+            [
+                ("1,5e-07", "1700000000,500000000", "2,5", "above 1"),
+                ("3e-07", "1700000001,500000000", "2,5", "above 1"),
+            ],
+        )
+        self.assertEqual((self.folder / "chosen.csv").read_bytes()[:3], b"\xef\xbb\xbf")
+        self.refused(
+            "is no CSV", "export_predictions", "--excel", "-o", self.folder / "a.parquet", bag
+        )
+
+    def test_rows_go_to_the_next_program(self):
+        bag = self.prediction_bag()
+        self.done("export_predictions", "-o", self.folder / "chosen.csv", bag)
+        expected = (self.folder / "chosen.csv").read_text()
+        for name in ("/dev/stdout", "-", "/dev/fd/1"):
+            done = self.done("export_predictions", "-o", name, bag)
+            self.assertEqual(done.stdout, expected, name)
+            self.assertIn("2 predictions", done.stderr)
+        # a file that others write to as well keeps what stands there
+        with open(str(self.folder / "both.csv"), "w") as stream:
+            stream.write("before\n")
+            stream.flush()
+            command = [
+                find_node("mems_stiction", "export_predictions")[0],
+                "-o",
+                "/dev/stdout",
+                bag,
+            ]
+            subprocess.run(command, stdout=stream, stderr=subprocess.PIPE, check=True)
+        self.assertEqual((self.folder / "both.csv").read_text(), "before\n" + expected)
 
     def test_units_of_messages_are_those_that_the_core_declares(self):
         declared = {
