@@ -20,7 +20,8 @@ namespace mems_stiction {
 struct PyramidRule {
   double kink =
       0.0;  ///< gap at which the law has a kink; no bucket that stands for cells lies across it [m]
-  double offset = 0.0;  ///< the law varies over gap + offset, not over the gap [m], >= 0
+  double offset = 0.0;     ///< the law varies over gap + offset, not over the gap [m], >= 0
+  double steepness = 1.0;  ///< its power of gap + offset over 3, >= 1: buckets are narrower by it
 };
 
 /// Calls take(four gaps - approach, in packets) for one four of cells after the other.
@@ -49,7 +50,8 @@ class GapPyramid {
                                   const OnCells& on_cells, const OnMoments& on_moments) const;
 
  private:
-  /// A bucket may stand for its cells when what the law sees is at least this many times its width.
+  /// A bucket may stand for its cells when what a law with the third power of the gap sees is at
+  /// least this many times its width.
   static constexpr double kGapsPerWidth = 12.0;
   /// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series
   /// beyond, and, while they are wide, as many as reach the kink.
@@ -75,7 +77,8 @@ MEMS_STICTION_INLINE void GapPyramid::visit(double approach, int contact_count,
   const double width = order_->bucketWidth();
   const double kink_in_widths = rule.kink / width;
   const double offset_in_widths = rule.offset / width;
-  const double fewest_near = std::max(kGapsPerWidth - offset_in_widths, 0.0);
+  const double gaps_per_width = kGapsPerWidth * rule.steepness;
+  const double fewest_near = std::max(gaps_per_width - offset_in_widths, 0.0);
   const int near_buckets =
       static_cast<int>(std::ceil(std::clamp(kink_in_widths, fewest_near, kMostNearBuckets)));
   // a group is near as a whole: its cells are not in order
@@ -93,7 +96,7 @@ MEMS_STICTION_INLINE void GapPyramid::visit(double approach, int contact_count,
       const double gap_in_widths = bucket - approach / width;
       const bool has_kink =
           gap_in_widths < kink_in_widths && kink_in_widths < gap_in_widths + wider;
-      if (has_kink || seen_in_widths < kGapsPerWidth * wider) break;
+      if (has_kink || seen_in_widths < gaps_per_width * wider) break;
       ++level;
     }
     const GapMoments& gaps = momentsOf(level)[static_cast<std::size_t>(bucket >> level)];

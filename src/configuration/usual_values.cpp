@@ -49,6 +49,9 @@ const std::map<std::string, Usual>& usualValues() {
   static const Usual atomic{3e-11, 5e-9, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"pm", 1e-12}}};
   static const Usual layer{3e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
   static const Usual layer_or_part{3e-10, 1e-2, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
+  static const Usual film{1e-10, 1e-6, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"um", 1e-6}}};
+  static const Usual hamaker{1e-23, 1e-17, {{"zJ", 1e-21}, {"aJ", 1e-18}}};
+  static const Usual retardation{1e-9, 1e-6, {{"nm", 1e-9}, {"um", 1e-6}}};
   static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}};
   static const Usual travel{1e-9, 1e-3, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const std::vector<Unit> areas{{"um^2", 1e-12}, {"um^2", 1e-12, 1e6}, {"mm^2", 1e-6}};
@@ -67,12 +70,18 @@ const std::map<std::string, Usual>& usualValues() {
       {"upper/substrate/youngs_modulus", modulus},
       {"lower/thickness", layer_or_part},
       {"upper/thickness", layer_or_part},
+      {"lower/film_thickness", film},
+      {"upper/film_thickness", film},
+      {"lower/hamaker_constant", hamaker},
+      {"upper/hamaker_constant", hamaker},
       {"lower/hardness", hardness},
       {"upper/hardness", hardness},
       // no two solids hold each other by more than 20 J/m^2: twice the surface energy of diamond
       {"interface/work_of_adhesion", {1e-6, 10.0, {{"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}}, 0.0, 20.0}},
       {"device/apparent_work_of_adhesion", {1e-15, 10.0, {{"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}}}},
-      {"interface/hamaker_constant", {1e-23, 1e-17, {{"zJ", 1e-21}, {"aJ", 1e-18}}}},
+      {"interface/hamaker_constant", hamaker},
+      {"interface/retardation_length", retardation},
+      {"interface/water_film", film},
       {"paper/cutoff_distance", atomic},
       {"interface/equilibrium_distance", atomic},
       {"interface/insulator_thickness", layer},

@@ -16,6 +16,7 @@
 #include "half_space/row_work.hpp"
 #include "half_space/traction_law.hpp"
 #include "height_map/validity.hpp"
+#include "loads/force_range.hpp"
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
@@ -69,6 +70,10 @@ void check(const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
     for (std::string& contradiction : body->contradictions(name))
       violations.push_back(std::move(contradiction));
   }
+  for (std::string& contradiction :
+       filmContradictions(problem.interface, problem.lower_material, problem.upper_material)) {
+    violations.push_back(std::move(contradiction));
+  }
   if (violations.empty() && options.boundary == HalfSpaceBoundary::kFree) {
     checkBacking(problem.lower_material, "lower", problem.surfaces.lower, violations);
     checkBacking(problem.upper_material, "upper", problem.surfaces.lower, violations);
@@ -80,6 +85,9 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
   TractionLawOptions law;
   law.work_of_adhesion = problem.interface.work_of_adhesion;
   law.hamaker_constant = problem.interface.hamaker_constant;
+  law.lower = coatedBody(problem.lower_material);
+  law.upper = coatedBody(problem.upper_material);
+  law.retardation_length = problem.interface.retardation_length;
   law.range = options.range;
   law.attracts = options.attraction;
   if (options.flow)

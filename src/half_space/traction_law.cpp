@@ -43,11 +43,16 @@ std::vector<std::string> TractionLawOptions::validate() const {
   return violations;
 }
 
+AdhesionLaw TractionLawOptions::adhesion() const {
+  // where the range is stated, it tells the constant
+  const LayeredAttraction attraction(hamaker_constant > 0.0 ? hamaker_constant : 1.0, lower, upper,
+                                     retardation_length);
+  return {work_of_adhesion,
+          range > 0.0 ? range : AdhesionLaw::rangeOf(work_of_adhesion, attraction), attraction};
+}
+
 TractionLaw::TractionLaw(const TractionLawOptions& options)
-    : law_(options.work_of_adhesion,
-           options.range > 0.0
-               ? options.range
-               : AdhesionLaw::rangeOf(options.work_of_adhesion, options.hamaker_constant)),
+    : law_(options.adhesion()),
       attracts_(options.attracts),
       closest_gap_(kClosestGap * range()),
       contact_gap_(range()),
@@ -100,6 +105,7 @@ TractionLaw::Point TractionLaw::at(double gap) const {
 void TractionLaw::atRow(int count, const double* gaps, double* traction, double* slope,
                         double* energy) const {
   const double smallest = nineThree(count, gaps, traction, slope, energy);
+  if (law_.hasTail() && attracts_) addTail(count, gaps, traction, slope, energy);
   if (field_.isOn() || water_.isOn()) addField(count, gaps, traction, slope, energy);
   if (smallest >= closest_gap_) return;
   for (int i = 0; i < count; ++i) {
@@ -147,6 +153,32 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
     e.storeFirst(rest, energy + i);
   }
   return smallest.smallest();
+}
+
+MEMS_STICTION_VECTORIZED void TractionLaw::addTail(int count, const double* gaps, double* traction,
+                                                   double* slope, double* energy) const {
+  const LayeredAttraction tail = law_.tail();
+  const Packet closest(closest_gap_);
+  const Packet infinity(std::numeric_limits<double>::infinity());
+  const auto size = static_cast<std::size_t>(count);
+  for (std::size_t i = 0; i < size; i += Packet::kCount) {
+    const std::size_t left = std::min(size - i, Packet::kCount);
+    const auto load = [&](const double* from) __attribute__((always_inline)) {
+      return left == Packet::kCount ? Packet::load(from + i)
+                                    : Packet::loadFirst(from + i, left, range());
+    };
+    const auto add = [&](const Packet& more, double* to) __attribute__((always_inline)) {
+      const Packet sum = load(to) + more;
+      left == Packet::kCount ? sum.store(to + i) : sum.storeFirst(left, to + i);
+    };
+    const Packet gap = load(gaps);
+    const PacketMask is_finite = gap < infinity;
+    const auto here =
+        tail.at(select(is_finite, select(gap > closest, gap, closest), Packet(range())));
+    add(select(is_finite, here.traction, 0.0), traction);
+    add(select(is_finite, here.slope, 0.0), slope);
+    add(select(is_finite, 0.0 - here.energy, 0.0), energy);
+  }
 }
 
 void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope,

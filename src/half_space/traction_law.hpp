@@ -5,8 +5,9 @@
 /// cost per area?
 ///
 ///     t(g) = 9-3 law at x = z0/g             attraction and repulsion (mechanics/traction_law.hpp)
+///          + its tail                        of bodies under films, or retarded (the same)
 ///          + eps0 U^2/(2 (g + t/eps_r)^2)    field over an insulator (the same)
-///          + p where z0 < g < z0 + d_K       condensed water (the same)
+///          + p where z0 < g < z0 + d_K + 2 t_w    condensed water and its films (the same)
 ///     t >= -Ha                                                  beyond, the softer body flows
 ///
 /// Attraction is positive; the energy is minus the work that separation to infinity takes.
@@ -37,8 +38,11 @@ namespace mems_stiction {
 struct TractionLawOptions {
   double work_of_adhesion = 0.05;    ///< Gamma of the flat interface [J/m^2], > 0
   double hamaker_constant = 65e-21;  ///< H [J], > 0 where range is 0
-  double range = 0.0;                ///< z0 [m]; 0 derives it from Gamma and H
-  bool attracts = true;              ///< false: no attraction, the surfaces repel closer than z0
+  CoatedBody lower;                  ///< under a film that attracts by H
+  CoatedBody upper;
+  double retardation_length = 0.0;  ///< lambda [m], >= 0; 0 = not retarded
+  double range = 0.0;               ///< z0 [m]; 0 derives it from Gamma and H
+  bool attracts = true;             ///< false: no attraction, the surfaces repel closer than z0
   double hardness = std::numeric_limits<double>::infinity();  ///< Ha of the softer body [Pa], > 0;
                                                               ///< infinity: elastic
   double voltage = 0.0;                                       ///< whose field acts [V]
@@ -48,6 +52,8 @@ struct TractionLawOptions {
 
   /// One line per violated constraint, empty when all is well.
   std::vector<std::string> validate() const;
+  /// Attraction and repulsion of the atoms; fit for use.
+  AdhesionLaw adhesion() const;
 };
 
 /// t(g), its derivative and its energy.
@@ -73,7 +79,7 @@ class TractionLaw {
   void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
 
   /// Slope of the line from a gap with its traction to where the surfaces repel each other with
-  /// -other_traction, by the first part of the law; of one gap or several (Packet) [Pa/m].
+  /// -other_traction, by the 9-3 law alone; of one gap or several (Packet) [Pa/m].
   template <typename Real>
   MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction,
                                    const Real& other_traction) const {
@@ -90,15 +96,15 @@ class TractionLaw {
   }
 
   double range() const { return law_.range(); }    ///< z0 [m]
-  double stress() const { return law_.stress(); }  ///< 8 Gamma/(3 z0) [Pa]
+  double stress() const { return law_.stress(); }  ///< 8 Gamma/(3 z0), nearly, with a tail [Pa]
   bool attracts() const { return attracts_ || field_.isOn() || water_.isOn(); }  ///< at some gap
   bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
   double contactGap() const {
     return contact_gap_;
   }  ///< narrower gaps repel [m]; z0 but for field and water
-  /// The gap at which the surfaces repel each other with a pressure, >= 0, without flow; no less
-  /// than the narrowest [m].
+  /// The gap at which the surfaces repel each other with a pressure, >= 0, by the 9-3 law alone; no
+  /// less than the narrowest [m].
   template <typename Real>
   MEMS_STICTION_INLINE Real gapUnder(const Real& pressure) const {
     // x = z0/g solves x^9 - x^3 = p; Halley's method from a tenth beside it
@@ -124,12 +130,14 @@ class TractionLaw {
   /// To 1e-9 of any pressure up to that at the narrowest gap.
   static constexpr int kGapIterations = 3;
 
-  /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest
-  /// if that is smaller.
+  /// The 9-3 law, no closer than the closest gap; returns the smallest gap, or the closest if that
+  /// is smaller.
   double nineThree(int count, const double* gaps, double* traction, double* slope,
                    double* energy) const;
   /// Where t falls to -pressure, between a narrow gap that repels more and z0 [m].
   double gapOfPressure(double pressure, double narrow) const;
+  void addTail(int count, const double* gaps, double* traction, double* slope,
+               double* energy) const;
   void addField(int count, const double* gaps, double* traction, double* slope,
                 double* energy) const;
 

@@ -20,10 +20,13 @@ void CapillaryOptions::describe(OptionVisitor& visitor) {
                  "temperature of vapour and surfaces");
   visitor.number("interface/molar_volume", molar_volume, "m^3/mol", Range::positive(),
                  "molar volume of the condensed liquid");
+  visitor.number("interface/water_film", water_film, "m", Range::nonNegative(),
+                 "thickness of the water that is adsorbed on each face at this humidity: it fills "
+                 "gaps beside the Kelvin gap; 0 = none");
 }
 
 WaterLaw CapillaryOptions::law() const {
-  return {relative_humidity, surface_tension, contact_angle, temperature, molar_volume};
+  return {relative_humidity, surface_tension, contact_angle, temperature, molar_volume, water_film};
 }
 
 double capillaryForce(const GapOrder& order, double approach, int contact_count,

@@ -1,14 +1,39 @@
 #include "loads/force_range.hpp"
 
-#include "mechanics/traction_law.hpp"
+#include <utility>
 
 namespace mems_stiction {
 
-double forceRange(const InterfaceOptions& interface) {
-  if (interface.work_of_adhesion > 0.0 && interface.hamaker_constant > 0.0) {
-    return AdhesionLaw::rangeOf(interface.work_of_adhesion, interface.hamaker_constant);
+CoatedBody coatedBody(const Material& body) { return {body.film_thickness, body.hamaker_constant}; }
+
+AdhesionLaw adhesionLaw(const InterfaceOptions& interface, const Material& lower,
+                        const Material& upper) {
+  const double work = interface.work_of_adhesion;
+  if (work > 0.0 && interface.hamaker_constant > 0.0) {
+    const LayeredAttraction attraction(interface.hamaker_constant, coatedBody(lower),
+                                       coatedBody(upper), interface.retardation_length);
+    return {work, AdhesionLaw::rangeOf(work, attraction), attraction};
   }
-  return interface.equilibrium_distance;
+  // by which constant does not matter: the range tells it
+  return {work, interface.equilibrium_distance,
+          LayeredAttraction(1.0, CoatedBody(), CoatedBody(), interface.retardation_length)};
+}
+
+double forceRange(const InterfaceOptions& interface, const Material& lower, const Material& upper) {
+  return adhesionLaw(interface, lower, upper).range();
+}
+
+std::vector<std::string> filmContradictions(const InterfaceOptions& interface,
+                                            const Material& lower, const Material& upper) {
+  std::vector<std::string> lines;
+  if (interface.hamaker_constant > 0.0) return lines;
+  for (const auto& [name, body] : {std::pair("lower", &lower), std::pair("upper", &upper)}) {
+    if (body->film_thickness == 0.0 || body->hamaker_constant == 0.0) continue;
+    lines.push_back(name + ("/film_thickness: " + numberText(body->film_thickness)) +
+                    " m with interface/hamaker_constant 0 J is not allowed: the film attracts by "
+                    "that constant; must be 0 m, or the constant > 0 J");
+  }
+  return lines;
 }
 
 }  // namespace mems_stiction

@@ -1,15 +1,31 @@
 #pragma once
 
 /// @file
-/// Over which distance surfaces attract each other.
+/// By which law, and over which distance, surfaces attract each other.
 
+#include <string>
+#include <vector>
+
+#include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/mechanics/material.hpp"
 
 namespace mems_stiction {
 
-/// z0 [m], > 0, the distance at which flat surfaces neither attract nor repel each other: that at
-/// which the Hamaker constant gives the work of adhesion, Gamma = H/(16 pi z0^2), or
-/// interface/equilibrium_distance where one of both is 0.
-double forceRange(const InterfaceOptions& interface);
+/// The film of a body, and what is under it.
+CoatedBody coatedBody(const Material& body);
+
+/// Gamma, z0 and the tail. z0 is where the attraction gives the work of adhesion, Gamma = H/(16 pi
+/// z0^2) without films and retardation, or interface/equilibrium_distance where the Hamaker
+/// constant or the work is 0.
+AdhesionLaw adhesionLaw(const InterfaceOptions& interface, const Material& lower,
+                        const Material& upper);
+
+/// z0 [m], > 0, the distance at which flat surfaces neither attract nor repel each other.
+double forceRange(const InterfaceOptions& interface, const Material& lower, const Material& upper);
+
+/// Films and constants that do not go together, one line each; empty when all is well.
+std::vector<std::string> filmContradictions(const InterfaceOptions& interface,
+                                            const Material& lower, const Material& upper);
 
 }  // namespace mems_stiction

@@ -6,7 +6,10 @@ void InterfaceOptions::describe(OptionVisitor& visitor) {
   visitor.number("interface/work_of_adhesion", work_of_adhesion, "J/m^2", Range::nonNegative(),
                  "thermodynamic work of adhesion of the flat interface");
   visitor.number("interface/hamaker_constant", hamaker_constant, "J", Range::nonNegative(),
-                 "Hamaker constant of the pair across the medium in the gap");
+                 "Hamaker constant of the pair across the medium in the gap, of native films where "
+                 "bodies have them");
+  visitor.number("interface/retardation_length", retardation_length, "m", Range::nonNegative(),
+                 "gap at which retardation has halved the attraction; 0 = not retarded");
   visitor.number("interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
                  "equilibrium distance of Tabor's parameter");
   visitor.number(

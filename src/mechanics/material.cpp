@@ -21,6 +21,12 @@ void Material::describe(OptionVisitor& visitor, const std::string& prefix) {
                  Range::nonNegative(), "Young's modulus of what a film is bonded to; 0 = rigid");
   visitor.number(prefix + "/substrate/poisson_ratio", substrate.poisson_ratio, "",
                  Range{-1.0, 0.5, true, false}, "Poisson's ratio of what a film is bonded to");
+  visitor.number(prefix + "/film_thickness", film_thickness, "m", Range::nonNegative(),
+                 "thickness of this body's native film, which attracts by "
+                 "interface/hamaker_constant; 0 = none");
+  visitor.number(prefix + "/hamaker_constant", hamaker_constant, "J", Range::nonNegative(),
+                 "Hamaker constant of what is under the film, across the same medium; 0 = as the "
+                 "film");
 }
 
 std::vector<std::string> Material::contradictions(const std::string& prefix) const {

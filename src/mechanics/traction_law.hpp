@@ -9,14 +9,18 @@
 ///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)               its integral from g on; Gamma at z0
 ///     z0   = sqrt(H/(16 pi Gamma))                     so that t falls off as H/(6 pi g^3)
 ///     p(d) = eps0 U^2/(2 (d + h/eps_r)^2)              field over a gap d and an insulator h   (3)
-///     p    = gamma/r_K for d < d_K, 0 beyond
-///             water: r_K = gamma V_m/(R T ln(1/RH)), the Kelvin radius, and
-///             d_K = 2 r_K cos(theta), the Kelvin gap
+///     p    = gamma/r_K for d < d_K + 2 t_w, 0 beyond
+///             water: r_K = gamma V_m/(R T ln(1/RH)), the Kelvin radius,
+///             d_K = 2 r_K cos(theta), the Kelvin gap, and t_w, the film of water on each face
+///
+/// Under native films, or retarded, x^3 falls off otherwise: t is then -dw/dg of
+/// layered_attraction.hpp less B/g^9, where z0 and B follow from t = 0 and w = Gamma at z0. The law
+/// is kept as a 9-3 law and what differs from it (`tail`), so that bare bodies cost no more.
 ///
 /// p of water falls and d_K grows with humidity, p d_K = 2 gamma cos(theta) does not change: the
-/// energy that separation costs per area of filled gap. A sphere on a flat gives 4 pi gamma R
-/// cos(theta), at every humidity. Assumptions: equilibrium with the vapour, one contact angle on
-/// both surfaces, the gap varies slowly over d_K. Menisci take milliseconds to hours to form: a
+/// energy that separation costs per area of filled gap, without films. A sphere on a flat gives 4
+/// pi gamma R (cos(theta) + t_w/r_K). Assumptions: equilibrium with the vapour, one contact angle
+/// on both surfaces, the gap varies slowly over d_K. Menisci take milliseconds to hours to form: a
 /// fast contact feels less. Below some 10 % humidity d_K is a molecule or two and a continuum's
 /// pressure an extrapolation; near saturation d_K diverges, so the humidity stays below 1. Sources:
 /// Israelachvili, chapter 17; Fisher, Gamble and Middlehurst, Nature 290 (1981) 575, for how far
@@ -33,25 +37,38 @@
 ///         hamaker_constant));
 ///     const double pull = law.traction(law.range() / gap);
 
+#include "mechanics/layered_attraction.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 
-/// The 9-3 law. Its functions take one number or several (Packet), so that a formula stands once.
+/// The 9-3 law, and what films and retardation change of it. Functions take one number or several
+/// (Packet), so that a formula stands once. Those of x are the 9-3 law's alone: where hasTail(),
+/// whoever wants the whole adds what the tail has at the gap z0/x.
 class AdhesionLaw {
  public:
   /// - @p work_of_adhesion Gamma [J/m^2], >= 0; without it nothing attracts
   /// - @p range z0 [m], > 0
   AdhesionLaw(double work_of_adhesion, double range);
+  /// Of bodies that attract each other like this far away. With another range than rangeOf() all of
+  /// the attraction takes the factor with which Gamma is the whole work.
+  AdhesionLaw(double work_of_adhesion, double range, const LayeredAttraction& attraction);
 
   /// z0 at which the Hamaker constant gives the work of adhesion [m]. Both > 0.
   static double rangeOf(double work_of_adhesion, double hamaker_constant);
+  static double rangeOf(double work_of_adhesion, const LayeredAttraction& attraction);
 
   double range() const { return range_; }    ///< z0 [m]
-  double stress() const { return stress_; }  ///< 8 Gamma/(3 z0) [Pa]
-  /// Largest traction: what no interface exceeds, 1.026 Gamma/z0 [Pa].
-  double strength() const;
+  double stress() const { return stress_; }  ///< 8 Gamma/(3 z0), with a tail nearly so [Pa]
+  /// Largest traction of the whole law: what no interface exceeds, 1.026 Gamma/z0, with a tail
+  /// nearly so [Pa].
+  double strength() const { return strength_; }
+  /// The gap at which it acts, 3^(1/6) z0, with a tail nearly so [m].
+  double strongestGap() const { return strongest_gap_; }
+  /// What differs from the 9-3 law; 0 at z0, but for its energy.
+  const LayeredAttraction& tail() const { return tail_; }
+  bool hasTail() const { return has_tail_; }
 
   /// t [Pa]
   template <typename Real>
@@ -83,6 +100,10 @@ class AdhesionLaw {
  private:
   double range_;
   double stress_;
+  double strength_;
+  double strongest_gap_;
+  bool has_tail_ = false;
+  LayeredAttraction tail_;
 };
 
 /// The field of a voltage between the surfaces.
@@ -142,16 +163,17 @@ class WaterLaw {
   /// - @p contact_angle theta on both surfaces [rad], in [0, pi/2]
   /// - @p temperature T [K], > 0
   /// - @p molar_volume V_m of the liquid [m^3/mol], > 0
+  /// - @p film t_w on each face [m], >= 0
   WaterLaw(double relative_humidity, double surface_tension, double contact_angle,
-           double temperature, double molar_volume);
+           double temperature, double molar_volume, double film = 0.0);
 
   bool isOn() const { return gap_limit_ > 0.0; }
   double kelvinRadius() const { return kelvin_radius_; }  ///< r_K [m]; 0 without water
-  double gapLimit() const { return gap_limit_; }          ///< d_K [m]; 0 without water
+  double gapLimit() const { return gap_limit_; }          ///< d_K + 2 t_w [m]; 0 without water
   double pressure() const { return pressure_; }           ///< p [Pa]; 0 without water
 
   /// At a gap that is counted from the outermost atoms: water fills it from `contact` to `contact`
-  /// + d_K, both ends smeared over `front` [m].
+  /// + gapLimit(), both ends smeared over `front` [m].
   Smeared smeared(double gap, double contact, double front) const {
     const Step inner = smoothStep((contact - gap) / front);
     const Step filled = smoothStep((contact + gap_limit_ - gap) / front);

@@ -5,6 +5,7 @@
 
 #include "approach/cell_islands.hpp"
 #include "approach/far_gaps.hpp"
+#include "loads/force_range.hpp"
 #include "mechanics/transition.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/median.hpp"
@@ -74,7 +75,7 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
     field.compute(*frame);
   }
   const FarGaps far(cells.counts(), bucket, cells.highest(),
-                    ContactTraction(options.interface).range());
+                    forceRange(options.interface, options.lower, options.upper));
   ContactCurve curve;
   curve.comeToRest(field, options, &far);
   AreaAdhesion answer;

@@ -37,7 +37,7 @@ void describeOwn(SolverSettings& settings, OptionVisitor& visitor) {
 
 std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
-constexpr SolverSkills kAllSkills = {true, true, true, true};
+constexpr SolverSkills kAllSkills = {true, true, true, true, true};
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
@@ -53,7 +53,8 @@ constexpr Entry kSolvers[] = {
 
 /// What only condensed water needs.
 constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle",
-                                    "interface/temperature", "interface/molar_volume"};
+                                    "interface/temperature", "interface/molar_volume",
+                                    "interface/water_film"};
 
 /// What of a body's other side bears on nothing.
 /// - @p doubts_thin_bodies of the solver
@@ -72,6 +73,23 @@ void addOfOtherSide(const Material& body, const std::string& name, bool doubts_t
     add({"/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/backing is free");
   } else if (body.substrate.youngs_modulus == 0.0) {
     add({"/substrate/poisson_ratio"}, name + "/substrate/youngs_modulus is 0");
+  }
+}
+
+/// What of a body's film bears on nothing.
+/// - @p looks_under_films of the solver
+void addOfFilm(const Material& body, const std::string& name, bool looks_under_films,
+               std::vector<IgnoredSetting>& ignored) {
+  const std::string film = name + "/film_thickness";
+  const std::string constant = name + "/hamaker_constant";
+  if (!looks_under_films) {
+    const std::string why = "the separation curve and the half-space alone look under films";
+    ignored.push_back({film, why});
+    ignored.push_back({constant, why});
+  } else if (body.film_thickness == 0.0) {
+    ignored.push_back({constant, film + " is 0"});
+  } else if (body.hamaker_constant == 0.0) {
+    ignored.push_back({film, constant + " is 0"});
   }
 }
 
@@ -152,6 +170,12 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation,
     addOfOtherSide(settings.upper, "upper", entry.skills.doubts_thin_bodies, ignored);
     if (settings.load.contact_potential == 0.0) {
       ignored.push_back({"uncertainty/contact_potential", "load/contact_potential is 0"});
+    }
+    addOfFilm(settings.lower, "lower", entry.skills.looks_under_films, ignored);
+    addOfFilm(settings.upper, "upper", entry.skills.looks_under_films, ignored);
+    if (!entry.skills.looks_under_films) {
+      ignored.push_back({"interface/retardation_length",
+                         "the separation curve and the half-space alone retard the attraction"});
     }
     if (settings.capillary.relative_humidity > 0.0) continue;
     for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});

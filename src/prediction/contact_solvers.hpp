@@ -29,6 +29,7 @@ struct SolverSkills {
   bool follows_areas = false;  ///< that come in tiles (area_adhesion.hpp)
   bool calls_half_space =
       false;  ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
+  bool looks_under_films = false;  ///< what lies under native films, and retardation
 };
 
 /// Of a formulation; none of those if there is no such one.

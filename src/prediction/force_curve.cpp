@@ -6,8 +6,8 @@
 
 namespace mems_stiction {
 
-std::vector<CurvePoint> curveOf(const Prediction& prediction, const InterfaceOptions& interface) {
-  const double range = forceRange(interface);
+std::vector<CurvePoint> curveOf(const Prediction& prediction, const ContactSettings& settings) {
+  const double range = forceRange(settings.interface, settings.lower, settings.upper);
   const auto add = [range](const SeparationCurvePoint& point, CurveDirection direction,
                            std::vector<CurvePoint>& to) {
     to.push_back({range - point.displacement, point.force, direction});

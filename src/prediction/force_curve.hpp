@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/curve_point.hpp"
-#include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 
 namespace mems_stiction {
@@ -16,7 +16,7 @@ namespace mems_stiction {
 /// force are z0 apart, and the half-space counts from where they would meet. Where nothing flows
 /// and nothing conforms, the unloading branch is the loading branch, backwards. Empty if the
 /// formulation does not follow the force.
-/// - @p interface that the prediction was made with
-std::vector<CurvePoint> curveOf(const Prediction& prediction, const InterfaceOptions& interface);
+/// - @p settings that the prediction was made with
+std::vector<CurvePoint> curveOf(const Prediction& prediction, const ContactSettings& settings);
 
 }  // namespace mems_stiction

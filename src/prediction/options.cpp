@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "loads/force_range.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "prediction/contact_solvers.hpp"
 
@@ -47,6 +48,8 @@ std::vector<std::string> Options::validate() const {
     for (std::string& contradiction : body->contradictions(name))
       violations.push_back(std::move(contradiction));
   }
+  for (std::string& contradiction : filmContradictions(interface, lower, upper))
+    violations.push_back(std::move(contradiction));
   const int stated =
       (load.mechanical_load > 0.0) + (load.pressure > 0.0) + (load.device_force > 0.0);
   if (stated > 1) {

@@ -111,7 +111,7 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
                     on_frame, scan.cellArea(), evidence);
     }
   }
-  predicted->curve = curveOf(predicted->prediction, configuration.model.interface);
+  predicted->curve = curveOf(predicted->prediction, configuration.model);
   return predicted;
 }
 

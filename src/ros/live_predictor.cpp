@@ -95,7 +95,7 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   predicted.provenance = provenanceOf(identity, used);
   predicted.pool_settings_hash =
       settingsHash(settings);  // without the pose that came with this scan
-  predicted.curve = curveOf(predicted.prediction, predictor_.options().interface);
+  predicted.curve = curveOf(predicted.prediction, predictor_.options());
   return predicted;
 }
 

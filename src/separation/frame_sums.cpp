@@ -17,16 +17,23 @@ constexpr double kMoreCells = 8.0;
 /// By how much the Hamaker constant is changed to see what that does.
 constexpr double kMoreHamaker = 1.02;
 
-InterfaceOptions withMoreHamaker(InterfaceOptions interface) {
-  interface.hamaker_constant *= kMoreHamaker;
-  return interface;
+/// The law if all Hamaker constants were larger, those under films too.
+ContactTraction withMoreHamaker(const ContactSettings& settings) {
+  InterfaceOptions interface = settings.interface;
+  Material lower = settings.lower;
+  Material upper = settings.upper;
+  for (double* const constant :
+       {&interface.hamaker_constant, &lower.hamaker_constant, &upper.hamaker_constant}) {
+    *constant *= kMoreHamaker;
+  }
+  return ContactTraction(interface, lower, upper);
 }
 
 double exponentOf(double with_more_hamaker, double value) {
   return value > 0.0 ? std::log(with_more_hamaker / value) / std::log(kMoreHamaker) : 0.0;
 }
 
-PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range()}; }
+PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range(), law.steepness()}; }
 
 }  // namespace
 
@@ -41,7 +48,7 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings, co
   far_ = far;
   settings_ = &settings;
   patch_forces_.emplace(settings, field.cellArea(), flows);
-  wider_law_.emplace(withMoreHamaker(settings.interface));
+  wider_law_.emplace(withMoreHamaker(settings));
   voltage_.emplace(settings.load.fieldVoltage(), settings.interface.insulator_thickness,
                    settings.interface.insulator_relative_permittivity);
   water_ = settings.capillary.law();
@@ -189,7 +196,7 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
   Attraction sum;
   const auto add_moments = [&](const GapMoments& gaps) {
     const double gap = gaps.mean - approach;
-    sum.adhesion += gaps.count * (law.traction(gap) + 0.5 * law.curvature(gap) * gaps.variance);
+    sum.adhesion += gaps.count * law.meanTraction(gap, gaps.variance);
     if (!voltage.isOn()) return;
     const double square = voltage.squaredDistance(gap);
     sum.electrostatic += gaps.count / square * (1.0 + 3.0 * gaps.variance / square);
@@ -240,9 +247,7 @@ double FrameSums::energyAt(const ContactTraction& law, double approach) {
   const int contact_count = overlappingAt(approach);
   const double sum = sumApart(
       approach, contact_count, law, [&](double gap) { return law.energy(gap); },
-      [&](const GapMoments& gaps, double gap) {
-        return law.energy(gap) - 0.5 * law.slope(gap) * gaps.variance;
-      });
+      [&](const GapMoments& gaps, double gap) { return law.meanEnergy(gap, gaps.variance); });
   return field_->cellArea() * (sum + contact_count * law.workOfAdhesion());
 }
 

@@ -145,7 +145,7 @@ class FrameSums {
   const ContactSettings* settings_ = nullptr;
   std::optional<PatchForces> patch_forces_;
   std::optional<ContactTraction>
-      wider_law_;  ///< with a Hamaker constant that is larger by kMoreHamaker
+      wider_law_;  ///< with Hamaker constants that are larger by kMoreHamaker
   std::optional<FieldLaw> voltage_;
   WaterLaw water_;
   double approach_before_limit_ = 0.0;

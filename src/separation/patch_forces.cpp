@@ -89,7 +89,7 @@ MEMS_STICTION_INLINE Packet flatnessOf(const Packet& cells, const Packet& depth,
 }  // namespace
 
 PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool flows)
-    : law_(settings.interface), cell_area_(cell_area) {
+    : law_(settings.interface, settings.lower, settings.upper), cell_area_(cell_area) {
   const ContactPair pair(settings.lower, settings.upper);
   contact_modulus_ = pair.contact_modulus;
   const bool can_flow = flows && settings.deformation == Deformation::kThreeRegimes;

@@ -329,7 +329,7 @@ void predictScan(const std::string& path, const Arguments& arguments,
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (!curve_files.formulation.empty()) {
-    writeCurve(curve_files.formulation, curveOf(prediction, options.interface), *extras.provenance);
+    writeCurve(curve_files.formulation, curveOf(prediction, options), *extras.provenance);
   }
   if (!curve_files.half_space.empty()) {
     writeCurve(curve_files.half_space, curveOf(*extras.half_space), *extras.provenance);

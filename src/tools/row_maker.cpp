@@ -172,7 +172,7 @@ void RowMaker::dump(std::size_t number, RowFields fields,
     maps = halfSpaceMaps(*half_space);
   }
   writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_,
-                  curveOf(prediction_, configuration_.model.interface), maps);
+                  curveOf(prediction_, configuration_.model), maps);
 }
 
 }  // namespace mems_stiction

@@ -47,7 +47,8 @@ ShortWaves shortWaves(const UnresolvedWaves& waves, const Options& options) {
   ShortWaves found;
   found.waves = waves;
   if (!(options.interface.work_of_adhesion > 0.0)) return found;  // nothing holds
-  const double reach = std::max(forceRange(options.interface), options.capillary.law().gapLimit());
+  const double reach = std::max(forceRange(options.interface, options.lower, options.upper),
+                                options.capillary.law().gapLimit());
   const double flattened = flattenedHeight(waves.shortest_shown, options);
   found.limit = std::max(reach, flattened);
   if (!found.areUnresolved()) return found;

@@ -48,6 +48,7 @@ inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& opti
   problem.lower_material = options.lower;
   problem.upper_material = options.upper;
   problem.interface = options.interface;
+  problem.capillary = options.capillary;
   problem.load = options.load;
   HalfSpaceOptions half_space;
   half_space.flow = flows;

@@ -23,6 +23,7 @@ struct CapillaryOptions {
   double contact_angle = 0.0;       ///< theta [rad], in [0, pi/2]
   double temperature = 298.15;      ///< T [K], > 0
   double molar_volume = 18.07e-6;   ///< V_m of the liquid [m^3/mol], > 0
+  double water_film = 0.0;          ///< t_w that is adsorbed on each face [m], >= 0
 
   WaterLaw law() const;
 

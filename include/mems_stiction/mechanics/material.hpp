@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// The two bodies: elastic constants, hardness, and what is behind their surfaces.
+/// The two bodies: elastic constants, hardness, what is behind their surfaces, and of what the
+/// outermost nanometres are.
 
 #include <string>
 #include <vector>
@@ -28,7 +29,10 @@ struct Material {
   double hardness = 12e9;         ///< indentation hardness [Pa], > 0
   double thickness = 0.0;         ///< [m], >= 0; 0 = thick against every wave of its surface
   Backing backing = Backing::kFree;
-  Substrate substrate;  ///< of a bonded film
+  Substrate substrate;            ///< of a bonded film
+  double film_thickness = 0.0;    ///< of a native film, which attracts by
+                                  ///< interface/hamaker_constant [m], >= 0; 0 = none
+  double hamaker_constant = 0.0;  ///< of what is under the film [J], >= 0; 0 = as the film
 
   void describe(OptionVisitor& visitor, const std::string& prefix);
   /// Settings that do not go together, one line each; empty when all is well. Ranges are not looked

@@ -204,6 +204,9 @@ TEST(Configuration, UnphysicalValuesAreRefused) {
   EXPECT_TRUE(
       mentions(refusal("scan/pitch_x: 1e-9"), "scan/pitch_x: 1e-09 m with scan/pitch_y 0 m"));
   EXPECT_TRUE(mentions(refusal("load/voltage: 5"), "interface/insulator_thickness: 0 m"));
+  EXPECT_TRUE(mentions(refusal("{upper: {film_thickness: 2.0e-9, hamaker_constant: 2.6e-19}, "
+                               "interface/hamaker_constant: 0}"),
+                       "upper/film_thickness: 2e-09 m with interface/hamaker_constant 0 J"));
   EXPECT_TRUE(
       mentions(refusal("{load: {voltage: 5, max_voltage: 2}, interface/insulator_thickness: 1e-9}"),
                "load/voltage: 5 V is not allowed, must be in [-2, 2]"));

@@ -95,6 +95,28 @@ TEST(Plausibility, ASettingThatTheSolverDoesNotUseIsNamed) {
   EXPECT_EQ(settingsWarnings(configuration).size(), 4u);
 }
 
+TEST(Plausibility, FilmsThatBearOnNothingAreNamed) {
+  Configuration configuration;
+  configuration.model.lower.hamaker_constant = 261e-21;
+  EXPECT_EQ(onlyWarning(configuration),
+            "lower/hamaker_constant 2.61e-19 has no effect: lower/film_thickness is 0");
+  configuration.model.lower.film_thickness = 2e-9;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.model.lower.hamaker_constant = 0.0;
+  EXPECT_EQ(onlyWarning(configuration),
+            "lower/film_thickness 2e-09 has no effect: lower/hamaker_constant is 0");
+  configuration = Configuration();
+  configuration.model.capillary.water_film = 0.8e-9;
+  EXPECT_EQ(onlyWarning(configuration),
+            "interface/water_film 8e-10 has no effect: interface/relative_humidity is 0");
+  configuration = Configuration();
+  configuration.model.formulation = "paper";
+  configuration.model.interface.retardation_length = 20e-9;
+  EXPECT_EQ(onlyWarning(configuration),
+            "interface/retardation_length 2e-08 has no effect: the separation curve and the "
+            "half-space alone retard the attraction");
+}
+
 TEST(Plausibility, WhatNoMaterialOrDeviceHasIsRefusedUnlessItIsMeant) {
   const auto refusal = [](const Configuration& configuration) {
     const std::vector<std::string> lines = configuration.validate();
@@ -112,6 +134,23 @@ TEST(Plausibility, WhatNoMaterialOrDeviceHasIsRefusedUnlessItIsMeant) {
     configuration.limits.accept_implausible = true;
     EXPECT_NO_THROW(configuration.check());
     EXPECT_EQ(settingsWarnings(configuration).size(), 1U) << "still said";
+  }
+  Configuration coated;
+  coated.model.lower.film_thickness = 2.0;
+  coated.model.lower.hamaker_constant = 261.0;
+  coated.model.interface.retardation_length = 20.0;
+  coated.model.capillary.relative_humidity = 0.3;
+  coated.model.capillary.water_film = 0.8;
+  std::string lines;
+  for (const std::string& line : coated.validate()) lines += line + "\n";
+  for (const char* meant :
+       {"lower/film_thickness 2 m is implausible (1e-11 to 1e-05 m are taken): probably 2 nm",
+        "lower/hamaker_constant 261 J is implausible (1e-24 to 1e-16 J are taken): probably 261 zJ",
+        "interface/retardation_length 20 m is implausible (1e-10 to 1e-05 m are taken): probably "
+        "20 nm",
+        "interface/water_film 0.8 m is implausible (1e-11 to 1e-05 m are taken): probably 0.8 "
+        "nm"}) {
+    EXPECT_NE(lines.find(meant), std::string::npos) << lines;
   }
   Configuration rubber;
   rubber.model.upper.youngs_modulus = 1.5e6;

@@ -64,6 +64,74 @@ TEST(TractionLaw, DerivativesAreThoseOfItsParts) {
   expectDerivatives(options);
 }
 
+/// Polysilicon under 2 nm of native oxide, retarded.
+TractionLawOptions coated() {
+  TractionLawOptions options;
+  options.lower = options.upper = {2e-9, 261e-21};
+  options.retardation_length = 20e-9;
+  return options;
+}
+
+TEST(TractionLaw, DerivativesUnderFilmsAreThoseOfItsParts) {
+  TractionLawOptions options = coated();
+  expectDerivatives(options);
+  options.upper = {0.3e-9, 10e-21};
+  options.hardness = 3e9;
+  options.water.relative_humidity = 0.3;
+  options.water.water_film = 0.8e-9;
+  expectDerivatives(options);
+}
+
+TEST(TractionLaw, UnderFilmsHasTheWorkAtZ0AndTheirAttractionFarAway) {
+  const TractionLaw law(coated());
+  EXPECT_NEAR(law.at(law.range()).energy, -0.05, 1e-14);
+  EXPECT_NEAR(law.at(law.range()).traction / law.stress(), 0.0, 1e-12);
+  EXPECT_NEAR(law.contactGap() / law.range(), 1.0, 1e-12);
+  const LayeredAttraction attraction(65e-21, {2e-9, 261e-21}, {2e-9, 261e-21}, 20e-9);
+  EXPECT_NEAR(law.at(40e-9).traction / attraction.at(40e-9).traction, 1.0, 1e-11);
+  EXPECT_NEAR(-law.at(40e-9).energy / attraction.at(40e-9).energy, 1.0, 1e-11);
+}
+
+TEST(TractionLaw, RowsUnderFilmsAreTheirCells) {
+  TractionLawOptions options = coated();
+  options.hardness = 5e9;
+  const TractionLaw law(options);
+  double gaps[11], traction[11], slope[11], energy[11];
+  for (int i = 0; i < 11; ++i) gaps[i] = (0.2 + 0.23 * i) * law.range();
+  gaps[4] = std::numeric_limits<double>::infinity();
+  law.atRow(11, gaps, traction, slope, energy);
+  for (int i = 0; i < 11; ++i) {
+    EXPECT_EQ(traction[i], law.at(gaps[i]).traction);
+    EXPECT_EQ(slope[i], law.at(gaps[i]).slope);
+    EXPECT_EQ(energy[i], law.at(gaps[i]).energy);
+  }
+  EXPECT_EQ(traction[4], 0.0);
+  EXPECT_EQ(energy[4], 0.0);
+  EXPECT_NEAR(traction[0], -5e9, 1.0);
+}
+
+TEST(TractionLaw, UnderFilmsActsBelowItsRangeOnlyWithoutAttraction) {
+  TractionLawOptions options = coated();
+  options.attracts = false;
+  const TractionLaw law(options);
+  EXPECT_EQ(law.at(1.01 * law.range()).traction, 0.0);
+  EXPECT_NEAR(law.at(1.01 * law.range()).energy, 0.0, 1e-17);
+  EXPECT_LT(law.at(0.9 * law.range()).traction, 0.0);
+}
+
+TEST(TractionLaw, FilmsOfWaterWidenTheGapThatIsFilled) {
+  TractionLawOptions options;
+  options.water.relative_humidity = 0.3;
+  const TractionLaw without(options);
+  options.water.water_film = 0.8e-9;
+  const TractionLaw with(options);
+  const WaterLaw water = options.water.law();
+  const double gap = without.range() + water.gapLimit() - 0.8e-9;  // beyond the Kelvin gap
+  EXPECT_NEAR(with.at(gap).traction - without.at(gap).traction, water.pressure(), 1e-3);
+  EXPECT_NEAR(without.at(0.8 * with.range()).energy - with.at(0.8 * with.range()).energy,
+              water.pressure() * 1.6e-9, 1e-12);
+}
+
 TEST(TractionLaw, WaterAddsItsEnergyPerArea) {
   TractionLawOptions dry;
   TractionLawOptions wet = dry;

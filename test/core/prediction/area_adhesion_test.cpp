@@ -131,6 +131,20 @@ std::vector<Case> cases() {
        changed(stiff(), [](Options& o) { o.capillary.relative_humidity = 0.5; }),
        5e-3},  // the frame counts cells that water fills in wider buckets, and rest is found to
                // 1/512 of the load
+      {"films", gaussian(10e-9),
+       changed(stiff(),
+               [](Options& o) {
+                 o.lower.film_thickness = o.upper.film_thickness = 2e-9;
+                 o.lower.hamaker_constant = o.upper.hamaker_constant = 261e-21;
+                 o.interface.retardation_length = 20e-9;
+               })},
+      {"water_films", gaussian(3e-9),
+       changed(stiff(),
+               [](Options& o) {
+                 o.capillary.relative_humidity = 0.3;
+                 o.capillary.water_film = 0.8e-9;
+               }),
+       5e-3},
       {"soft", gaussian(10e-9), soft()},
       {"soft_self_affine", selfAffine(10e-9), soft(), 2e-4},
       {"without_adhesion", gaussian(3e-9),

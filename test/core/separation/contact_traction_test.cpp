@@ -50,6 +50,55 @@ TEST(ContactTraction, energyAndCurvatureAreItsIntegralAndSecondDerivative) {
   }
 }
 
+/// Polysilicon under 2 nm of native oxide, retarded.
+ContactTraction coatedLaw() {
+  InterfaceOptions interface = kSilica;
+  interface.retardation_length = 20e-9;
+  Material body;
+  body.film_thickness = 2e-9;
+  body.hamaker_constant = 261e-21;
+  return ContactTraction(interface, body, body);
+}
+
+TEST(ContactTraction, underFilmsHasTheWorkOfAdhesionAndItsDerivatives) {
+  const ContactTraction law = coatedLaw();
+  EXPECT_NEAR(law.energy(0.0) / 0.05, 1.0, 1e-12);
+  EXPECT_NEAR(law.traction(0.0) / law.stress(), 0.0, 1e-12);
+  for (double d = 0.05 * law.range(); d < 1e-7; d *= 2.3) {
+    const double h = 1e-4 * (d + law.range());
+    EXPECT_NEAR((law.energy(d - h) - law.energy(d + h)) / (2.0 * h) / law.traction(d), 1.0, 1e-4)
+        << d;
+    EXPECT_NEAR((law.slope(d + h) - law.slope(d - h)) / (2.0 * h) / law.curvature(d), 1.0, 1e-4)
+        << d;
+    const double slope = (law.traction(d + h) - law.traction(d - h)) / (2.0 * h);
+    EXPECT_NEAR((slope - law.slope(d)) * law.range() / law.stress(), 0.0, 1e-4) << d;
+  }
+}
+
+TEST(ContactTraction, underFilmsMeansOverGapsAreThoseOfTheirMoments) {
+  // two gaps: the terms of the fourth order are below 1e-7 of the sum
+  for (const ContactTraction& law : {ContactTraction(kSilica), coatedLaw()}) {
+    for (const double gap : {1e-9, 30e-9}) {
+      const double h = 0.01 * gap;
+      EXPECT_NEAR(
+          0.5 * (law.traction(gap - h) + law.traction(gap + h)) / law.meanTraction(gap, h * h), 1.0,
+          1e-6);
+      EXPECT_NEAR(0.5 * (law.energy(gap - h) + law.energy(gap + h)) / law.meanEnergy(gap, h * h),
+                  1.0, 1e-6);
+    }
+  }
+}
+
+TEST(ContactTraction, underFilmsIsThatOfPlatesFarApart) {
+  const LayeredAttraction plates(65e-21, {2e-9, 261e-21}, {2e-9, 261e-21}, 20e-9);
+  const ContactTraction law = coatedLaw();
+  for (const double gap : {10e-9, 45e-9}) {  // (z0/d)^6 is below 1e-10
+    const double distance = gap + law.range();
+    EXPECT_NEAR(law.traction(gap) / plates.at(distance).traction, 1.0, 1e-9);
+    EXPECT_NEAR(law.energy(gap) / plates.at(distance).energy, 1.0, 1e-9);
+  }
+}
+
 TEST(ContactTraction, isLargestAtAFifthOfItsRange) {
   const ContactTraction law(kSilica);
   double largest = 0.0;
@@ -113,6 +162,29 @@ TEST(ContactTraction, layerAndBodiesCarryTheSame) {
       EXPECT_NEAR(found / bisectedPressure(law, elastic, depth * law.range()), 1.0, 1e-5)
           << stiffness << " " << depth;
       EXPECT_LE(found, elastic);
+    }
+  }
+}
+
+TEST(ContactTraction, underFilmsLayerAndBodiesCarryTheSame) {
+  InterfaceOptions interface = kSilica;
+  interface.retardation_length = 0.3e-9;  // much shorter than any: the attraction falls steeply
+  Material weak;
+  weak.film_thickness = 0.1e-9;
+  weak.hamaker_constant = 1e-21;
+  for (const ContactTraction& law : {coatedLaw(), ContactTraction(interface, weak, weak)}) {
+    for (const double stiffness : {0.01, 0.3, 3.0, 30.0}) {  // of the bodies against the layer's
+      for (const double depth : {1e-4, 0.03, 0.5, 3.0, 50.0}) {  // of z0
+        const double elastic = stiffness * law.stress() * depth;
+        const double found = law.pressureInSeries(elastic, depth * law.range());
+        const double closing = depth * law.range() * (1.0 - found / elastic);
+        // the balance is found to 1e-6 of the depth
+        const double missed = 2e-6 * depth * law.range() * law.slope(-closing);
+        EXPECT_NEAR(-law.traction(-closing), found, missed) << stiffness << " " << depth;
+      }
+    }
+    for (const double pressure : {1e7, 1e9, 1e11}) {
+      EXPECT_NEAR(-law.traction(-law.closingUnder(pressure)) / pressure, 1.0, 1e-6) << pressure;
     }
   }
 }

@@ -36,12 +36,16 @@ Settings busy() {
   settings.model.upper.hardness = 2.1e9;
   for (Material* body : {&settings.model.lower, &settings.model.upper}) {
     body->thickness = 20e-9;
+    body->film_thickness = 2e-9;
+    body->hamaker_constant = 261e-21;
   }
+  settings.model.interface.retardation_length = 20e-9;
   settings.model.interface.insulator_thickness = 100e-9;
   settings.model.load.voltage = 5.0;
   settings.model.load.contact_potential = 1.0;
   settings.model.load.mechanical_load = 2e-6;
   settings.model.capillary.relative_humidity = 0.4;
+  settings.model.capillary.water_film = 0.5e-9;
   settings.uncertainty.samples = 8;
   return settings;
 }
@@ -169,7 +173,8 @@ TEST(IgnoredSettings, areThoseThatChangeNoBit) {
     dry.model.capillary.relative_humidity = 0.0;
     const std::vector<IgnoredSetting> ignored = ignoredSettings(formulation, dry.model);
     for (const char* of_water : {"interface/surface_tension", "interface/contact_angle",
-                                 "interface/temperature", "interface/molar_volume"}) {
+                                 "interface/temperature", "interface/molar_volume",
+                                 "interface/water_film"}) {
       Settings changed = dry;
       changed.model.formulation = dry.model.formulation = formulation;
       Change change(of_water);
@@ -202,6 +207,7 @@ TEST(IgnoredSettings, theUncertaintyOfNoContactPotentialIsOne) {
 TEST(IgnoredSettings, countAgainWhereNothingTakesTheirPlace) {
   Settings settings = busy();
   settings.model.interface.hamaker_constant = 0.0;
+  settings.model.lower.film_thickness = settings.model.upper.film_thickness = 0.0;
   const std::vector<IgnoredSetting> ignored = ignoredSettings(kDefaultFormulation, settings.model);
   Settings changed = settings;
   changed.model.interface.equilibrium_distance *= 1.1;

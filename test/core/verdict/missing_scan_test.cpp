@@ -23,7 +23,7 @@ UnresolvedWaves wavesOf(double rms_height, double pitch = 10e-9, double hurst = 
 
 TEST(MissingScan, isOneThatShowsWavesWhichAdhesionDoesNotBridge) {
   const Options options;
-  const double range = forceRange(options.interface);
+  const double range = forceRange(options.interface, options.lower, options.upper);
   EXPECT_DOUBLE_EQ(shortWaves(wavesOf(0.1e-9), options).limit,
                    range);  // at 20 nm flattening costs too much
   EXPECT_FALSE(shortWaves(wavesOf(0.99 * range), options).areUnresolved());
