@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <vector>
 
 namespace mems_stiction {
 namespace documents {
@@ -16,11 +17,11 @@ class RowVisitor : public OptionVisitor {
  public:
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
               const std::string& meaning) override {
-    row(key, unit.empty() ? "-" : unit, yamlNumber(value), range.text(), meaning);
+    row(key, unit == "-" ? "" : unit, yamlNumber(value), range.text(), meaning);
   }
   void integer(const std::string& key, int& value, const Range& range,
                const std::string& meaning) override {
-    row(key, "-", std::to_string(value), "integer " + range.text(), meaning);
+    row(key, "", std::to_string(value), "integer " + range.text(), meaning);
   }
   void flag(const std::string& key, bool& value, const std::string& meaning) override {
     row(key, "", value ? "true" : "false", "true, false", meaning);
@@ -40,26 +41,52 @@ class RowVisitor : public OptionVisitor {
                    const std::string& allowed, const std::string& meaning) = 0;
 };
 
+/// A table for each section. Sections that follow each other with the same rows share one.
 class TableWriter : public RowVisitor {
  public:
-  const std::string& text() const { return text_; }
+  std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      const Section& section = sections_[i];
+      const Section* twin = i + 1 < sections_.size() ? &sections_[i + 1] : nullptr;
+      if (twin != nullptr && twin->rows != renamed(section, twin->name)) twin = nullptr;
+      if (!section.name.empty()) {
+        text += "\n### " + section.name + (twin != nullptr ? ", " + twin->name : "") + "\n";
+      }
+      if (twin != nullptr) {
+        text += "\n`" + twin->name + "/...` has the keys of `" + section.name + "/...`.\n";
+        ++i;
+      }
+      text += "\n| key | default | allowed | meaning |\n|---|---|---|---|\n" + section.rows;
+    }
+    return text;
+  }
 
  private:
+  struct Section {
+    std::string name;
+    std::string rows;
+  };
+
+  static std::string renamed(const Section& section, const std::string& name) {
+    std::string rows = section.rows;
+    const std::string from = "`" + section.name + "/";
+    for (std::size_t at = rows.find(from); at != std::string::npos; at = rows.find(from, at + 1)) {
+      rows.replace(at, from.size(), "`" + name + "/");
+    }
+    return rows;
+  }
+
   void row(const std::string& key, const std::string& unit, const std::string& value,
            const std::string& allowed, const std::string& meaning) override {
     const std::size_t slash = key.find('/');
-    const std::string section = slash == std::string::npos ? "" : key.substr(0, slash);
-    if (text_.empty() || section != section_) {
-      if (!section.empty()) text_ += "\n### " + section + "\n";
-      text_ += "\n| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
-    }
-    section_ = section;
-    text_ +=
-        "| `" + key + "` | " + value + " | " + unit + " | " + allowed + " | " + meaning + " |\n";
+    const std::string name = slash == std::string::npos ? "" : key.substr(0, slash);
+    if (sections_.empty() || name != sections_.back().name) sections_.push_back({name, ""});
+    sections_.back().rows += "| `" + key + "` | " + value + (unit.empty() ? "" : " " + unit) +
+                             " | " + allowed + " | " + meaning + " |\n";
   }
 
-  std::string section_;
-  std::string text_;
+  std::vector<Section> sections_;
 };
 
 class DefaultFinder : public RowVisitor {

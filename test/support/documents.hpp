@@ -14,7 +14,7 @@
 namespace mems_stiction {
 namespace documents {
 
-/// The settings as Markdown: a heading and a table per section, one row per key with unit, default,
+/// The settings as Markdown: a heading and a table per section, one row per key with default, unit,
 /// range and meaning.
 std::string parameterTables(const DescribeFunction& describe);
 
