@@ -1,5 +1,5 @@
-"""Which columns a table of predictions gets: named groups of them, single ones, or all that some row
-has a value for."""
+"""Which columns a table of predictions gets: named groups of them, single ones, or all that some
+row has a value for."""
 
 import difflib
 import math
