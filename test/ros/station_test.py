@@ -134,6 +134,15 @@ class StationTest(unittest.TestCase):
             lambda: self.settings.get_configuration()["voltage"] == 3.0,
             "reconfigure to show the service's change",
         )
+        # A contact potential is not theirs to change.
+        self.settings.update_configuration({"contact_potential": 2.0})
+        answer = self.set_load(0.0, LOAD)
+        self.assertTrue(answer.success)
+        self.assertGreater(answer.prediction.electrostatic_force, 0.0)
+        self.assertEqual(self.settings.get_configuration()["contact_potential"], 2.0)
+        self.settings.update_configuration({"contact_potential": 0.0})
+        self.assertEqual(self.set_load(0.0, LOAD).prediction.electrostatic_force, 0.0)
+        self.assertTrue(self.set_load(3.0, LOAD).success)
         # A refused value takes the whole request back, the client sees what is set, and a warning
         # says why.
         log = Collector("/rosout", Log).connect()
