@@ -15,7 +15,7 @@ struct InterfaceOptions {
   double work_of_adhesion = 0.05;    ///< Gamma, thermodynamic, of the flat interface [J/m^2], >= 0
   double hamaker_constant = 65e-21;  ///< H across the gap's medium, of films where bodies have them
                                      ///< [J], >= 0 (SiO2 across air: Bergstrom 1997)
-  double retardation_length = 0.0;  ///< lambda, gap that halves the attraction [m], >= 0; 0 = none
+  double retardation_length = 0.0;   ///< lambda, gap that halves the attraction [m], >= 0; 0 = none
   double equilibrium_distance = 0.2e-9;  ///< z0 of Tabor's parameter [m], > 0
   double insulator_thickness = 0.0;      ///< t [m], >= 0; must be > 0 when anything makes a field
   double insulator_relative_permittivity = 3.9;  ///< eps_r [-], >= 1 (thermal SiO2)
