@@ -79,12 +79,13 @@ std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const 
 }
 
 std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model) {
+  const std::string who = surfaces.scans.size() == 1 ? kTheScan : kNoScan;
   const UnresolvedWaves below = leastUnresolved(surfaces.scans);
-  if (surfaces.counter_surface.empty()) return whatIsMissing(shortWaves(below, model), kNoScan);
+  if (surfaces.counter_surface.empty()) return whatIsMissing(shortWaves(below, model), who);
   const UnresolvedWaves above = leastUnresolved(surfaces.counter_surface);
   UnresolvedWaves both = above.rms_height > below.rms_height ? above : below;
   both.rms_height = std::hypot(below.rms_height, above.rms_height);
-  return whatIsMissing(shortWaves(both, model), kNoScan);
+  return whatIsMissing(shortWaves(both, model), who);
 }
 
 std::vector<std::string> contradictions(const DeviceSurfaces& surfaces) {

@@ -18,7 +18,8 @@ std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const 
                                           double side);
 
 /// The fine scan without which the force is not known, since none of the finest ones shows what
-/// holds (verdict/missing_scan.hpp); empty if one does.
+/// holds (verdict/missing_scan.hpp); empty if one does. Of a single scan in the words of its own
+/// warning.
 std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model);
 
 /// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.

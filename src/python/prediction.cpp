@@ -90,8 +90,7 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = predicted->extras.device_force.emplace();
       evidence = evidenceOfScan(prepared, configuration, Cancellation(cancel), &force);
-      predicted->extras.warnings.insert(predicted->extras.warnings.end(), force.warnings.begin(),
-                                        force.warnings.end());
+      addForceWarnings(force.warnings, predicted->extras.warnings);
     }
     SolvedHalfSpace solution;
     const HalfSpaceCall call =

@@ -286,7 +286,7 @@ void predictScan(const std::string& path, const Arguments& arguments,
         return evidenceOfScan(prepared, configuration, tell, &force);
       });
       warnAll(force.warnings);
-      extras.warnings.insert(extras.warnings.end(), force.warnings.begin(), force.warnings.end());
+      addForceWarnings(force.warnings, extras.warnings);
       if (evidence.device) {
         scale = DeviceScale{*evidence.device, prediction.pull_off_force,
                             prediction.apparent_work_of_adhesion};

@@ -1246,7 +1246,7 @@ class BatchTest(unittest.TestCase):
         )
         [part] = self.rows("light_parts.csv")
         self.assertEqual(part["sticks"], "unknown")
-        self.assertIn("no scan shows what holds", part["reason"])
+        self.assertIn("the scan does not show what holds", part["reason"])
 
         page = self.folder / "report.html"
         done = run(

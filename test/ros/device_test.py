@@ -380,7 +380,7 @@ class DeviceTest(unittest.TestCase):
         self.assertEqual(device.sticks, StictionPrediction.STICKS_UNKNOWN)
         said = self.verdicts_until_the_final_one(prediction.header.stamp)
         self.assertEqual({message.word for message in said}, {"unknown"})
-        self.assertIn("no scan shows what holds", said[-1].reason)
+        self.assertIn("the scan does not show what holds", said[-1].reason)
         prediction, device = self.send(surface(9), ("plate", "8"))
         self.assertNotIn("unresolved", prediction.flags)
         self.assertEqual(device.scan_count, 2)
