@@ -8,11 +8,10 @@
 
 #include "evaluation/block_maxima.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/scan_flags.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/verdict/resolution.hpp"
-#include "numeric/constants.hpp"
 #include "settings/time_limit.hpp"
-#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -44,13 +43,7 @@ void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
   const int factor = prepared.refinement;
   const HeightMap& fine = prepared.model_surfaces.lower;
   prediction.median_contact_pixels /= factor * factor;
-  for (auto* const contacts : {&prediction.asperities, &prediction.pull_off_contacts}) {
-    for (Asperity& contact :
-         *contacts) {  // from the middle of the first fine pixel to that of the scan's
-      contact.x -= 0.5 * (factor - 1) * fine.pitchX();
-      contact.y -= 0.5 * (factor - 1) * fine.pitchY();
-    }
-  }
+  bringContactsToScan(prepared, prediction);
   if (!prediction.contact_map.empty())
     prediction.contact_map = blockMaxima(prediction.contact_map, factor);
   if (!prediction.deformed_lower.empty()) {
@@ -60,36 +53,6 @@ void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
     prediction.deformed_lower = after.lower.heights();
     prediction.deformed_upper = after.upper.heights();
   }
-}
-
-/// Contacts that reach pixels outside the region count as those at the frame's border: their
-/// summits may lie there. Pixels outside are no missing ones: invalid_fraction is that of the
-/// region.
-/// - @p prepared with a region
-void countRegionAlone(const PreparedScan& prepared, Prediction& prediction) {
-  const HeightMap& scan = prepared.surfaces.lower;
-  const double pixels = static_cast<double>(prepared.outside.total());
-  const double left_out = cv::countNonZero(prepared.outside);
-  prediction.invalid_fraction =
-      std::max(0.0, (prediction.invalid_fraction * pixels - left_out) / (pixels - left_out));
-
-  // From the middle of each pixel to that of the nearest one outside, in pixels: exact along rows
-  // and columns.
-  cv::Mat distance;
-  cv::distanceTransform(prepared.outside == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const double pitch = std::max(scan.pitchX(), scan.pitchY());
-  const auto mark = [&](Asperity& asperity) {
-    const int col =
-        std::clamp(static_cast<int>(std::lround(asperity.x / scan.pitchX())), 0, scan.cols() - 1);
-    const int row =
-        std::clamp(static_cast<int>(std::lround(asperity.y / scan.pitchY())), 0, scan.rows() - 1);
-    const double radius = std::sqrt(asperity.area / kPi);
-    // A contact ends half a pixel before the middle of the first one outside.
-    if ((static_cast<double>(distance.at<float>(row, col)) - 1.0) * pitch <= radius)
-      asperity.is_at_border = true;
-  };
-  std::for_each(prediction.asperities.begin(), prediction.asperities.end(), mark);
-  std::for_each(prediction.pull_off_contacts.begin(), prediction.pull_off_contacts.end(), mark);
 }
 
 SurfacePair decimated(const SurfacePair& surfaces, int factor) {
@@ -140,8 +103,7 @@ Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& pr
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
   countBelowTip(prepared.tip_limit, prediction);
-  prediction.short_waves = shortWaves(prepared.short_waves, options_);
-  if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
+  flagByScan(prepared, options_, prediction);
   prediction.processing_time += prepared.preparation_time;
   return std::move(prediction);
 }

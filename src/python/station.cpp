@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/scan_flags.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/evaluation/prepared_scan.hpp"
@@ -28,10 +29,10 @@ Sweep sweep(const PreparedScan& prepared, const Configuration& configuration,
     RunControl control;
     control.cancel = &cancel;
     const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
-    return std::make_shared<LoadSweepResult>(
-        sweepLoads(onFrame(configuration.model, configuration.device, prepared.surfaces),
-                   prepared.model_surfaces, {voltages, mechanical_loads}, configuration.device,
-                   configuration.uncertainty, control, scale));
+    return std::make_shared<LoadSweepResult>(sweepLoads(
+        onFrame(configuration.model, configuration.device, prepared.surfaces),
+        prepared.model_surfaces, {voltages, mechanical_loads}, configuration.device,
+        configuration.uncertainty, control, scale, measuredScan(prepared, configuration.model)));
   });
 }
 
@@ -40,10 +41,10 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
     RunControl control;
     control.cancel = &cancel;
     const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
-    return std::make_shared<ContactCyclesResult>(
-        cycleContacts(onFrame(configuration.model, configuration.device, prepared.surfaces),
-                      prepared.model_surfaces, count, configuration.device,
-                      configuration.uncertainty, control, scale));
+    return std::make_shared<ContactCyclesResult>(cycleContacts(
+        onFrame(configuration.model, configuration.device, prepared.surfaces),
+        prepared.model_surfaces, count, configuration.device, configuration.uncertainty, control,
+        scale, measuredScan(prepared, configuration.model)));
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/scan_flags.hpp"
 #include "ros/message_parts.hpp"
 #include "ros/station_conversion.hpp"
 #include "ros/topic_names.hpp"
@@ -81,9 +82,9 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   } catch (const Cancelled&) {
     return false;
   }
-  const LoadSweepResult swept =
-      sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
-                 settings.uncertainty, controlOf(sweep_), scale);
+  const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request,
+                                           settings.device, settings.uncertainty, controlOf(sweep_),
+                                           scale, measuredScan(station_case.scan, settings.model));
   result = sweepMessage(swept);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);
@@ -106,7 +107,8 @@ bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& res
   const ContactCyclesResult cycled =
       cycleContacts(onFrame(settings.model, settings.device, station_case.scan.surfaces),
                     station_case.scan.model_surfaces, static_cast<int>(std::min(goal.count, kMost)),
-                    settings.device, settings.uncertainty, controlOf(cycle_), scale);
+                    settings.device, settings.uncertainty, controlOf(cycle_), scale,
+                    measuredScan(station_case.scan, settings.model));
   result = cyclesMessage(cycled);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);

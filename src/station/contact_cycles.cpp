@@ -8,7 +8,6 @@
 #include "prediction/asked_output.hpp"
 #include "surface/wear.hpp"
 #include "verdict/finding.hpp"
-#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -38,14 +37,14 @@ cv::Mat heightsOn(const HeightMap& grid, const HeightMap& surface) {
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device,
                                   const UncertaintyOptions& uncertainty, const RunControl& control,
-                                  const std::optional<DeviceScale>& scale) {
+                                  const std::optional<DeviceScale>& scale,
+                                  const std::optional<MeasuredScan>& scan) {
   if (count < 1) {
     throw OptionsError(
         {"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
   }
   AdhesionModel model(withDeformedSurfaces(options));
-  const ShortWaves short_waves =
-      shortWaves(unresolvedWaves(surfaces.lower, surfaces.upper, 0.0), options);
+  const MeasuredScan measured = scan ? *scan : asMeasured(options, surfaces);
   ContactCyclesResult result;
   const HeightMap& grid = surfaces.lower;
   result.surfaces = {surfaces.lower.asDouble(),
@@ -56,12 +55,12 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     if (control.isCancelled()) return result;
     const SurfacePair worn = wear.on(surfaces);
     Prediction prediction = model.predict(worn);
-    prediction.short_waves = short_waves;
+    measured.flag(prediction);
     requireDeformedSurfaces(prediction);
     Evidence evidence;
     if (scale) evidence.device = scale->under(prediction);
     const Verdict verdict =
-        verdictOf(prediction, device, uncertainty, options, grid.cellArea(), evidence);
+        verdictOf(prediction, device, uncertainty, options, measured.cell_area, evidence);
 
     ContactCycle row;
     row.cycle = cycle;

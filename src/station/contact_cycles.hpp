@@ -18,6 +18,7 @@
 
 #include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "station/measured_scan.hpp"
 #include "station/run_control.hpp"
 #include "verdict/margin_uncertainty.hpp"
 
@@ -58,11 +59,13 @@ struct ContactCyclesResult {
 };
 
 /// - @p count of contacts, >= 1
+/// - @p scan behind the surfaces; nothing: they are on the pixels that were measured
 /// @throw OptionsError for a count or options out of range, before any work; SurfaceError as
 /// AdhesionModel.
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device,
                                   const UncertaintyOptions& uncertainty, const RunControl& control,
-                                  const std::optional<DeviceScale>& scale = std::nullopt);
+                                  const std::optional<DeviceScale>& scale = std::nullopt,
+                                  const std::optional<MeasuredScan>& scan = std::nullopt);
 
 }  // namespace mems_stiction

@@ -83,13 +83,14 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
 class Loop {
  public:
   Loop(const Options& options, const SurfacePair& surfaces, const DeviceOptions& device,
-       const UncertaintyOptions& uncertainty, const std::optional<DeviceScale>& scale)
+       const UncertaintyOptions& uncertainty, const std::optional<DeviceScale>& scale,
+       const MeasuredScan& scan)
       : options_(options),
         device_(device),
         uncertainty_(uncertainty),
         scale_(scale),
-        contact_(options, surfaces),
-        cell_area_(surfaces.lower.cellArea()),
+        contact_(options, surfaces, scan),
+        cell_area_(scan.cell_area),
         pull_in_(closingVoltage(device, options.interface)) {}
 
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
@@ -236,18 +237,20 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
                            const LoadSweepRequest& request, const DeviceOptions& device,
                            const UncertaintyOptions& uncertainty, const RunControl& control,
-                           const std::optional<DeviceScale>& scale) {
+                           const std::optional<DeviceScale>& scale,
+                           const std::optional<MeasuredScan>& scan) {
   std::vector<std::string> violations = request.validate(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
 
   const std::vector<double>& voltages = request.voltages;
   const auto step_count = static_cast<int>(2 * voltages.size() - 1);
   const int total = step_count * static_cast<int>(request.mechanical_loads.size());
+  const MeasuredScan measured = scan ? *scan : asMeasured(options, surfaces);
   LoadSweepResult result;
   result.pull_in_voltage = closingVoltage(device, options.interface);
   if (std::isnan(result.pull_in_voltage)) result.pull_in_reason = whatPullInLacks(device);
   for (const double mechanical_load : request.mechanical_loads) {
-    Loop loop(options, surfaces, device, uncertainty, scale);
+    Loop loop(options, surfaces, device, uncertainty, scale, measured);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
       const auto up_count = static_cast<int>(voltages.size());

@@ -49,6 +49,7 @@
 
 #include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "station/measured_scan.hpp"
 #include "station/run_control.hpp"
 #include "verdict/margin_uncertainty.hpp"
 
@@ -142,11 +143,13 @@ struct LoadSweepResult {
 
 /// - @p scale the device's own figures beside those of this frame; without it the verdicts have the
 /// frame's
+/// - @p scan behind the surfaces; nothing: they are on the pixels that were measured
 /// @throw OptionsError for a request or options out of range, before any work; SurfaceError as
 /// AdhesionModel.
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
                            const LoadSweepRequest& request, const DeviceOptions& device,
                            const UncertaintyOptions& uncertainty, const RunControl& control,
-                           const std::optional<DeviceScale>& scale = std::nullopt);
+                           const std::optional<DeviceScale>& scale = std::nullopt,
+                           const std::optional<MeasuredScan>& scan = std::nullopt);
 
 }  // namespace mems_stiction

@@ -9,7 +9,6 @@
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
 #include "prediction/asked_output.hpp"
-#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -34,11 +33,15 @@ double remainingContactArea(const Prediction& contact, double normal_load, const
 
 }  // namespace
 
-RemainingContact::RemainingContact(const Options& options, const SurfacePair& surfaces)
+RemainingContact::RemainingContact(const Options& options, const SurfacePair& surfaces,
+                                   MeasuredScan scan)
     : options_(withDeformedSurfaces(options)),
       model_(options_),
       surfaces_(surfaces),
-      short_waves_(shortWaves(unresolvedWaves(surfaces.lower, surfaces.upper, 0.0), options)) {}
+      scan_(std::move(scan)) {}
+
+RemainingContact::RemainingContact(const Options& options, const SurfacePair& surfaces)
+    : RemainingContact(options, surfaces, asMeasured(options, surfaces)) {}
 
 RemainingState RemainingContact::advance(double voltage, double mechanical_load) {
   Options options = options_;
@@ -62,7 +65,7 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
     }
     if (!has_contact_ || prediction.approach >= contact_.approach) {
       contact_ = std::move(prediction);
-      contact_.short_waves = short_waves_;
+      scan_.flag(contact_);
       pressed_ = SurfacePair(
           HeightMap(contact_.deformed_lower, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()),
           HeightMap(contact_.deformed_upper, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()));

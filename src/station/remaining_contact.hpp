@@ -24,6 +24,7 @@
 /// larger. Should a search end at a smaller approach, the remaining contact stays.
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "station/measured_scan.hpp"
 
 namespace mems_stiction {
 
@@ -46,6 +47,9 @@ struct RemainingState {
 class RemainingContact {
  public:
   /// The surfaces are shared, not copied.
+  /// - @p scan behind the surfaces
+  RemainingContact(const Options& options, const SurfacePair& surfaces, MeasuredScan scan);
+  /// Surfaces on the pixels that they were measured with.
   RemainingContact(const Options& options, const SurfacePair& surfaces);
 
   /// Goes on to the next load. @throw OptionsError if the load is out of range; then nothing
@@ -59,7 +63,7 @@ class RemainingContact {
   Options options_;
   AdhesionModel model_;
   SurfacePair surfaces_;
-  ShortWaves short_waves_;  ///< that the surfaces as given do not show
+  MeasuredScan scan_;
   bool has_contact_ = false;
   double largest_voltage_ = 0.0;  ///< in size [V]
   double largest_load_ = 0.0;     ///< [N]

@@ -19,6 +19,7 @@
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
+#include "evaluation/scan_flags.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "half_space_run.hpp"
 #include "import/scan_writer.hpp"
@@ -298,7 +299,8 @@ void predictScan(const std::string& path, const Arguments& arguments,
         request->mechanical_loads = {options.load.mechanical_load};
       extras.sweep = whileSaying(path + ": sweeping the load", [&] {
         return sweepLoads(options, prepared.model_surfaces, *request, configuration.device,
-                          configuration.uncertainty, RunControl(), scale);
+                          configuration.uncertainty, RunControl(), scale,
+                          measuredScan(prepared, options));
       });
     }
     if (arguments.cleanings) {

@@ -174,6 +174,14 @@ class MarginTest(unittest.TestCase):
         self.assertIn(row["doubt"].split(":")[0], verdict.reason)
 
 
+    def test_a_scan_that_is_refined_is_as_coarse_as_it_was_measured(self):
+        coarse = np.random.RandomState(1).normal(scale=5e-9, size=(64, 64))
+        refined = {"preprocessing/refine/factor": 4, "device/contact_area": (64 * PITCH) ** 2}
+        row = swept({STIFFNESS: [100.0]}, coarse, **refined).rows[0]
+        self.assertEqual(row["sticks"], "unknown")
+        self.assertIn("does not show what holds", row["doubt"])
+
+
 class CoverageTest(unittest.TestCase):
     """Devices that are made after the design: pads cut from other surfaces of the same process,
     each with a work of adhesion and a modulus of its own, as far off as uncertainty/... says of

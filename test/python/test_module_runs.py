@@ -267,6 +267,26 @@ class StationTest(unittest.TestCase):
         self.assertIn("contact 3", repr(cycles))
         self.assertIn("Pressed with", repr(sweep))
 
+    def test_a_refined_scan_is_as_coarse_in_sweeps_and_cycles_as_in_its_prediction(self):
+        coarse = np.random.RandomState(1).normal(scale=5e-9, size=(48, 48))
+        for own_force in (True, False):
+            settings = dict(
+                preprocessing={"refine": {"factor": 4}},
+                device=dict(DEVICE, spring_stiffness=1e4, contact_area=(48 * PITCH) ** 2),
+                device_force=dict(FEW, enabled=own_force),
+            )
+            found = mems_stiction.predict(coarse, PITCH, **settings)
+            self.assertEqual(found.verdict.sticks, "unknown")
+            self.assertIn("does not show what holds", found.verdict.reason)
+            said = [line for line in found.warnings if "what holds" in line]
+            self.assertEqual(len(said), 1, found.warnings)
+            sweep = mems_stiction.sweep_loads(
+                coarse, PITCH, voltages=[0], mechanical_loads=[0, 1e-7], **settings
+            )
+            cycles = mems_stiction.cycle_contact(coarse, PITCH, count=2, **settings)
+            words = sweep.points.sticks.tolist() + cycles.cycles.sticks.tolist()
+            self.assertEqual(words, [3] * 4, own_force)
+
     def test_a_sweep_of_predict_scan_has_the_same_figures_to_the_bit(self):
         heights = rough(48, 48, 3e-9, 1, 12)  # its pixels show what holds: the margins are known
         for device in (

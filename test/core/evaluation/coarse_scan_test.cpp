@@ -12,8 +12,11 @@
 #include "evaluation/device_prediction.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/plausibility.hpp"
+#include "evaluation/scan_flags.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "numeric/constants.hpp"
+#include "station/contact_cycles.hpp"
+#include "station/load_sweep.hpp"
 #include "surface/tiled_surface.hpp"
 #include "verdict/regime_flags.hpp"
 
@@ -101,6 +104,40 @@ TEST(CoarseScan, isNoFinerByInterpolation) {
   refining.preprocessing.refine.factor = 2;
   const HeightMap coarse = scanOfSurface(spectrumOf(0.8, 2e-6, 10e-9, 4e-9), 80e-9, 128, 4);
   EXPECT_EQ(judged(coarse, refining).sticks, Sticks::kUnknown);
+}
+
+/// The word of a sweep, or of cycles, of one scan.
+Sticks sweptWord(const PreparedScan& prepared, const Configuration& configuration,
+                 const std::optional<MeasuredScan>& scan) {
+  return sweepLoads(configuration.model, prepared.model_surfaces, {{0.0}, {0.0}},
+                    configuration.device, configuration.uncertainty, {}, std::nullopt, scan)
+      .rows.front()
+      .sticks;
+}
+
+Sticks cycledWord(const PreparedScan& prepared, const Configuration& configuration,
+                  const std::optional<MeasuredScan>& scan) {
+  return cycleContacts(configuration.model, prepared.model_surfaces, 1, configuration.device,
+                       configuration.uncertainty, {}, std::nullopt, scan)
+      .cycles.front()
+      .sticks;
+}
+
+TEST(CoarseScan, isNoFinerByInterpolationInSweepsAndCycles) {
+  Configuration refining = stated();
+  refining.device_force.enabled = false;
+  refining.preprocessing.refine.factor = 4;
+  const HeightMap coarse = scanOfSurface(spectrumOf(0.5, 2e-6, 10e-9, 1e-9), 80e-9, 128, 4);
+  refining.device.contact_area = coarse.rows() * coarse.cols() * coarse.cellArea();
+  refining.device.spring_stiffness = 1e4;
+  EXPECT_EQ(judged(coarse, refining).sticks, Sticks::kUnknown);
+  const PreparedScan prepared = ScanPreparer(refining).prepare(coarse);
+  const MeasuredScan scan = measuredScan(prepared, refining.model);
+  EXPECT_EQ(sweptWord(prepared, refining, scan), Sticks::kUnknown);
+  EXPECT_EQ(cycledWord(prepared, refining, scan), Sticks::kUnknown);
+  // the refined pixels by themselves seem to show it all
+  EXPECT_EQ(sweptWord(prepared, refining, std::nullopt), Sticks::kNo);
+  EXPECT_EQ(cycledWord(prepared, refining, std::nullopt), Sticks::kNo);
 }
 
 TEST(CoarseScan, ofABluntTipIsUnknownByTheTip) {
