@@ -13,6 +13,7 @@
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/time_limit.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -59,6 +60,16 @@ DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
   for (Realisation& made : force.realisations) made.pull_off_force *= force_factor;
   force.separation_at_rest = DeviceForce::kUnknown;
   return force;
+}
+
+/// The interval of a verdict that rests on more than the force alone: a half-space.
+void takeInterval(const AdhesionSpread& spread, DeviceForce& force) {
+  force.pull_off_force_lower = force.pull_off_force * quantile(spread.pull_off, kLowerShare);
+  force.pull_off_force_upper = force.pull_off_force * quantile(spread.pull_off, kUpperShare);
+  force.apparent_work_of_adhesion_lower =
+      force.apparent_work_of_adhesion * quantile(spread.apparent_work, kLowerShare);
+  force.apparent_work_of_adhesion_upper =
+      force.apparent_work_of_adhesion * quantile(spread.apparent_work, kUpperShare);
 }
 
 }  // namespace
@@ -293,6 +304,7 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
         std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
         half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
     force.separation_at_rest = separation;
+    takeInterval(adhesionSpread(task.prediction, model, settings.uncertainty, evidence), force);
   }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;

@@ -1,7 +1,7 @@
-"""Margin and force are two faces of one distribution, in every program that states them: restoring
-force over force, quantile by quantile; of beams the beam's own work over that of adhesion. One scan
-has one answer in all of them. It takes long since each of ten programs and functions finds the
-force of the device anew."""
+"""Margin and force are two faces of one distribution, in every program that states them, whatever
+the settings: restoring force over force, quantile by quantile; of beams the beam's own work over
+that of adhesion. One scan has one word in all of them. It takes long since each of eleven programs
+and functions finds the force of the device anew. Messages: test/ros/one_distribution_test.cpp."""
 
 import json
 import math
@@ -42,6 +42,32 @@ LONG = dict(
 )
 DEVICES = {"spring": SPRING, "force": SHORT, "peeling": LONG}
 RATIOS = [name + end for name in ("margin", "peel_number") for end in ("", "_lower", "_upper")]
+WORDS = ("no", "marginal", "yes", "unknown")
+
+
+def settings_of(kind):
+    """Drawn, but for the device's kind."""
+    draw = np.random.RandomState(sorted(DEVICES).index(kind))
+    device = dict(DEVICES[kind])
+    if "spring_stiffness" in device:
+        device["spring_stiffness"] *= float(np.exp(draw.uniform(-1.0, 1.0)))
+    return {
+        "device": device,
+        "device_force": {"realisations": 4, "max_cells": 1e4, "seed": int(draw.randint(1000))},
+        "interface": {"work_of_adhesion": 0.05 * float(np.exp(draw.uniform(-0.5, 0.5)))},
+        "uncertainty": {
+            "work_of_adhesion": float(draw.uniform(0.0, 0.6)),
+            "youngs_modulus": float(draw.uniform(0.0, 0.1)),
+            "samples": int(draw.randint(20, 400)),
+            "seed": int(draw.randint(1000)),
+        },
+    }
+
+
+def word_of(figures):
+    """sticks, by its name or by its number."""
+    sticks = figures["sticks"]
+    return sticks if isinstance(sticks, str) else WORDS[int(sticks)]
 
 
 class FacesTest(unittest.TestCase):
@@ -66,9 +92,8 @@ class FacesTest(unittest.TestCase):
         )
         return done.stdout
 
-    def faces(self, device):
+    def faces(self, settings):
         """{who says it: its figures} of one scan."""
-        settings = {"device": device, "device_force": {"realisations": 4, "max_cells": 1e4}}
         (self.folder / "device.yaml").write_text(json.dumps(settings))
         found = {
             "predict_scan": json.loads(self.run_program("predict_scan", "--json", "scan.npy")),
@@ -80,6 +105,9 @@ class FacesTest(unittest.TestCase):
         )
         for name, path in (("batch", "rows.jsonl"), ("part", "parts.jsonl")):
             found[name] = json.loads((self.folder / path).read_text().splitlines()[0])
+        self.run_program("stiction_report", "--steps", "0", "-o", "report.html", "scan.npy")
+        report = json.loads((self.folder / "report.json").read_text())
+        found["report"], found["part of the report"] = report["scans"][0], report["parts"][0]
         for path in ("rows.jsonl", "of_part.jsonl", "parts.jsonl"):
             for left in self.folder.glob(path + "*"):
                 os.unlink(str(left))
@@ -91,22 +119,30 @@ class FacesTest(unittest.TestCase):
             ).to_dict()
             sweep = mems_stiction.sweep_loads(SCAN, PITCH, voltages=[0.0], **settings).points
             cycles = mems_stiction.cycle_contact(SCAN, PITCH, count=1, **settings).cycles
-        for name, points in (("sweep", sweep), ("cycles", cycles)):
-            found[name] = {column: points[0][column] for column in points.dtype.names}
+            designs = None
+            if "spring_stiffness" in settings["device"]:
+                stiffness = [settings["device"]["spring_stiffness"]]
+                designs = mems_stiction.design_sweep(
+                    SCAN, PITCH, axes={"device/spring_stiffness": stiffness}, workers=1, **settings
+                ).rows
+        for name, points in (("sweep", sweep), ("cycles", cycles), ("design", designs)):
+            if points is not None:
+                found[name] = {column: points[0][column] for column in points.dtype.names}
         return found
 
     def test_every_program_states_one_margin_by_one_distribution(self):
-        for kind, device in DEVICES.items():
-            found = self.faces(device)
+        for kind in DEVICES:
+            found = self.faces(settings_of(kind))
             first = found["predict_scan"]
             governed = first["governed_by"]
             self.assertEqual(governed, "" if kind == "spring" else kind)
             decides = "peel_number" if governed == "peeling" else "margin"
             for name, figures in found.items():
                 said = figures.get("verdict", figures)
+                self.assertEqual(word_of(said), word_of(first), "%s: %s" % (kind, name))
                 for ratio in (
                     RATIOS
-                    if name != "part"
+                    if "part" not in name and name != "design"
                     else [decides + end for end in ("", "_lower", "_upper")]
                 ):
                     value, expected = said[ratio], first[ratio]

@@ -177,6 +177,9 @@ class DeviceTest(unittest.TestCase):
     def assert_judged(self, device):
         self.assertEqual(device.margin, device.restoring_force / device.pull_off_force)
         self.assertTrue(device.margin_lower < device.margin < device.margin_upper)
+        for end, other in (("_lower", "_upper"), ("_upper", "_lower")):
+            product = getattr(device, "margin" + end) * getattr(device, "pull_off_force" + other)
+            self.assertAlmostEqual(product / device.restoring_force, 1.0, places=12)
         self.assertNotEqual(device.verdict_reason, "")
 
     def assert_refused(self, device):

@@ -99,9 +99,9 @@ class FlaggedTest(unittest.TestCase):
             self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
         device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
         self.assertTrue(device.verdict_reason.startswith(BY_HALF_SPACE), device.verdict_reason)
-        self.assertAlmostEqual(
-            device.margin * device.pull_off_force / device.restoring_force, 1.0, places=12
-        )
+        for end, other in (("", ""), ("_lower", "_upper"), ("_upper", "_lower")):
+            product = getattr(device, "margin" + end) * getattr(device, "pull_off_force" + other)
+            self.assertAlmostEqual(product / device.restoring_force, 1.0, places=12, msg=end)
         by_area = solution.pull_off_force * device.area / prediction.nominal_area
         self.assertAlmostEqual(device.linear_pull_off_force / by_area, 1.0, places=9)
         part = self.of(
