@@ -18,7 +18,7 @@ except ImportError:
     sys.exit(3)
 LENGTHS = {"AA": 1e-10, "Ang": 1e-10, "m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
 HEIGHTS = {unit: length for unit, length in LENGTHS.items() if unit != "A"}  # of values that is the ampere
-PACKED = ("scale_factor", "add_offset")  # attributes of CF: the numbers are not the heights
+PACKED = ("scale_factor", "add_offset")  # attributes of CF: of them and the numbers the heights are made
 
 def text(value):
     value = value.item() if hasattr(value, "item") else value
@@ -78,15 +78,18 @@ def surface_topography(file):
     yield "heights", values.T, sides[0], sides[1], unit, ""
 
 def coordinates(file):
-    """Maps of NetCDF-4 over evenly spaced x and y with units of length, by the conventions of CF: what save_maps() of ours writes."""
+    """Maps of NetCDF-4 over evenly spaced x and y, in either order, with units of length, by the conventions of CF: what save_maps()
+    of ours writes, and packed integers."""
     for name in sorted(name for name in file if isinstance(file.get(name), h5py.Dataset) and file[name].ndim == 2):
         data = file[name]
         scales = [dict(dimension.items()) for dimension in data.dims]
-        axes = [scale[axis] for scale, axis in zip(scales, ("y", "x")) if axis in scale]
+        order = ("x", "y") if len(scales) == 2 and "x" in scales[0] and "y" in scales[1] else ("y", "x")
+        axes = [scale[axis] for scale, axis in zip(scales, order) if axis in scale]
         factors = [LENGTHS.get(text(axis.attrs.get("units", "")), 0.0) for axis in axes]
-        if len(axes) != 2 or min(factors) == 0.0 or min(data.shape) < 2 or data.dtype.kind != "f":
+        is_packed = any(name in data.attrs for name in PACKED)
+        if len(axes) != 2 or min(factors) == 0.0 or min(data.shape) < 2 or data.dtype.kind not in ("fiu" if is_packed else "f"):
             continue
-        if any(axis.shape != (count,) for axis, count in zip(axes, data.shape)) or any(packed in data.attrs for packed in PACKED):
+        if any(axis.shape != (count,) for axis, count in zip(axes, data.shape)):
             continue
         sides = []
         for axis, factor, count in zip(axes, factors, data.shape):
@@ -97,8 +100,11 @@ def coordinates(file):
         for fill in ("_FillValue", "missing_value"):
             if fill in data.attrs:
                 values = numpy.where(values == numpy.ravel(data.attrs[fill])[0], numpy.nan, values)
+        values = values * number(data.attrs.get("scale_factor", 1.0)) + number(data.attrs.get("add_offset", 0.0))
         if unit in HEIGHTS:
             values, unit = values * HEIGHTS[unit], "m"
+        if order == ("x", "y"):
+            values, sides = values.T, sides[::-1]
         yield name, values, sides[1], sides[0], unit, ""
 
 def outside(file):

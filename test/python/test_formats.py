@@ -483,6 +483,27 @@ class MapFileTest(InFolder):
             )
             np.testing.assert_allclose(scan.pitch, (1e-6, 2e-6), rtol=1e-12)
 
+    def test_packed_numbers_and_maps_with_x_first_are_read_as_they_are_meant(self):
+        import h5py
+
+        counts = np.array([[1, 2, 3, 4], [5, -999, 7, 8]], dtype=np.int16)
+        heights = np.where(counts == -999, np.nan, 1e-9 * (0.5 * counts + 10.0))
+        for order in (("y", "x"), ("x", "y")):
+            with h5py.File(str(self.folder / "map.nc"), "w") as file:
+                for name, values in (("y", [0.0, 2.0]), ("x", [0.0, 1.0, 2.0, 3.0])):
+                    file[name] = np.array(values)
+                    file[name].attrs["units"] = "um"
+                    file[name].make_scale(name)
+                file["z"] = counts if order[0] == "y" else counts.T
+                file["z"].attrs.update(
+                    units="nm", _FillValue=np.int16(-999), scale_factor=0.5, add_offset=10.0
+                )
+                for place, name in enumerate(order):
+                    file["z"].dims[place].attach_scale(file[name])
+            scan = mems_stiction.read(self.folder / "map.nc")
+            np.testing.assert_allclose(scan.heights, heights, rtol=1e-12)
+            np.testing.assert_allclose(scan.pitch, (1e-6, 2e-6), rtol=1e-12)
+
     @needs("xarray")
     def test_a_data_array_brings_coordinates_and_units(self):
         import xarray
