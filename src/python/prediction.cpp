@@ -339,6 +339,7 @@ void bindPrediction(py::module& module) {
            "scan"_a, "counter_surface"_a, "configuration"_a, "notes"_a, "identity"_a)
       .def_property_readonly("scan_warnings", &OneScan::warnings)
       .def("predict", &OneScan::predict, "configuration"_a);
+  module.def("regime_flag_sentences", &regimeFlagSentences, "flags"_a, "doubt"_a);
 }
 
 }  // namespace python

@@ -7,6 +7,7 @@
 
 #include <functional>
 
+#include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
 

@@ -18,7 +18,6 @@
 #include "evaluation/frame_load.hpp"
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
-#include "evaluation/record.hpp"
 #include "evaluation/scan_flags.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "half_space_run.hpp"
@@ -30,6 +29,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
+#include "scan_answer.hpp"
 #include "scan_sweep.hpp"
 #include "settings/option_values.hpp"
 #include "verdict/margin_uncertainty.hpp"
@@ -49,6 +49,7 @@ struct Arguments {
   std::string curve;              ///< of the half-space, or of the formulation without it
   std::string formulation_curve;  ///< with the half-space and without
   HalfSpaceMapFiles half_space_maps;
+  bool all = false;
   bool json = false;
   bool ignore_mask = false;
   bool accept_implausible = false;
@@ -65,7 +66,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.description(
       "Predicts whether the scanned surface sticks to its counter-surface: pull-off force, contact "
       "area, regimes.\n"
-      "Prints one record per scan in SI units, with the field names of "
+      "Prints the answer for people: status, force, verdict, flags in words, warnings. --all and "
+      "--json print every figure in SI units, with the field names of "
       "mems_stiction/StictionPrediction.");
   app.add_option("SCAN", arguments.scans,
                  "TIFF, PNG or EXR image of heights, .npy, text (.txt, .asc, .csv, .xyz), .gwy, or "
@@ -89,7 +91,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
   addPlausibilityOptions(app, arguments);
-  app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
+  app.add_flag("-a,--all", arguments.all, "the whole record of each scan, as a YAML document");
+  app.add_flag("-j,--json", arguments.json, "the whole record as one JSON object per line");
   app.add_option("--curve", arguments.curve,
                  "write force over height, both ways, as CSV: that of the formulation, its height "
                  "z0 - displacement, "
@@ -100,9 +103,9 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "write the formulation's with --half-space too, to be drawn over the "
                  "half-space's; for one scan")
       ->type_name("OUT.csv");
-  app.add_flag(
-      "--record-curve", arguments.record_curve,
-      "the record holds the formulation's curve: displacement, force, is_separation of each point");
+  app.add_flag("--record-curve", arguments.record_curve,
+               "the record (--all, which this implies, or --json) holds the formulation's curve: "
+               "displacement, force, is_separation of each point");
   app.add_flag("--convergence", arguments.convergence,
                "predict at full, half and quarter resolution too, and print how pull-off force and "
                "contact area move");
@@ -230,6 +233,11 @@ void requireCurve(const Prediction& prediction, const std::string& formulation) 
                      " does not follow the force, so that there is no curve of it");
 }
 
+AnswerForm formOf(const Arguments& arguments) {
+  if (arguments.json) return AnswerForm::kJson;
+  return arguments.all || arguments.record_curve ? AnswerForm::kYaml : AnswerForm::kShort;
+}
+
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments,
                  const ScanFileOptions& file_options, const Configuration& configuration,
@@ -246,10 +254,10 @@ void predictScan(const std::string& path, const Arguments& arguments,
   const CurveFiles curve_files = curveFilesOf(arguments);
   const ScanFile scan = whileSaying(
       path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
-  const auto warnAll = [&](const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) warn(path, line);
-  };
-  warnAll(scan.notes);
+  const AnswerForm form = formOf(arguments);
+  ScanWarnings warnings(path, answerShowsWarnings(form));
+  warnings.keep(settingsWarnings(configuration));
+  warnings.add(scan.notes);
 
   Prediction prediction;
   RecordExtras extras;
@@ -264,10 +272,10 @@ void predictScan(const std::string& path, const Arguments& arguments,
   try {
     const PreparedScan prepared = whileSaying(
         path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
-    warnAll(warningsOf(prepared));
+    warnings.add(warningsOf(prepared));
     options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     prediction = whileSaying(path + ": predicting", [&] { return predictor.predict(prepared); });
-    warnAll(frameWarnings(prediction, options, configuration.device));
+    warnings.add(frameWarnings(prediction, options, configuration.device));
     for (std::string& line : predictionWarnings(prepared, configuration, prediction, options)) {
       extras.warnings.push_back(std::move(line));
     }
@@ -286,7 +294,7 @@ void predictScan(const std::string& path, const Arguments& arguments,
       evidence = whileSayingShare(path, [&](const auto& tell) {
         return evidenceOfScan(prepared, configuration, tell, &force);
       });
-      warnAll(force.warnings);
+      warnings.add(force.warnings);
       addForceWarnings(force.warnings, extras.warnings);
       if (evidence.device) {
         scale = DeviceScale{*evidence.device, prediction.pull_off_force,
@@ -337,11 +345,8 @@ void predictScan(const std::string& path, const Arguments& arguments,
     writeCurve(curve_files.half_space, curveOf(*extras.half_space), *extras.provenance);
   }
   if (extras.half_space) writeMaps(arguments.half_space_maps, *extras.half_space);
-  if (arguments.json) {
-    std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;
-  } else {
-    std::cout << yamlRecord(path, scan.surface, prediction, extras) << std::flush;
-  }
+  printAnswer(form, path, scan.surface, prediction, extras);
+  warnings.answered();
 }
 
 int run(const Arguments& arguments) {
@@ -362,8 +367,14 @@ int run(const Arguments& arguments) {
     half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);
     requireOutputs(arguments);
-    for (const std::string& warning : settingsWarnings(configuration))
-      warn("predict_scan", warning);
+    const bool answer_shows_them = answerShowsWarnings(formOf(arguments));
+    for (const std::string& warning : settingsWarnings(configuration)) {
+      if (answer_shows_them) {
+        ++warningCount();
+      } else {
+        warn("predict_scan", warning);
+      }
+    }
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;

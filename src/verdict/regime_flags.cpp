@@ -1,7 +1,5 @@
 #include "verdict/regime_flags.hpp"
 
-#include <utility>
-
 namespace mems_stiction {
 namespace {
 
@@ -43,6 +41,27 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
   return shares;
 }
 
+struct FlagWords {
+  RegimeFlag flag;
+  const char* name;
+  const char* meaning;
+};
+
+constexpr FlagWords kFlagWords[] = {
+    {kBondedFlag, "bonded", "the surfaces bond"},
+    {kNoEquilibriumFlag, "no_equilibrium", "the search ended before the equilibrium"},
+    {kTaborFlag, "tabor", "JKR is not the theory for these asperities"},
+    {kPlasticityFlag, "plasticity", "most of the adhesion is of contacts that flow"},
+    {kResolutionFlag, "resolution", "most of the adhesion is of contacts of few pixels"},
+    {kFewContactsFlag, "few_contacts",
+     "few contacts: another place of the surface may differ much"},
+    {kNearBondingFlag, "near_bonding", "the pull-off force may be out by more than 1.3"},
+    {kBorderFlag, "border",
+     "most of the adhesion is of contacts at the frame's border: their summits may lie outside"},
+    {kOnePixelFlag, "one_pixel", "most of the adhesion is of contacts of one pixel"},
+    {kUnresolvedFlag, "unresolved",
+     "the scan does not show what holds: its pixels or its tip are too coarse"}};
+
 }  // namespace
 
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
@@ -73,19 +92,19 @@ std::uint32_t flagsForHalfSpace(std::uint32_t flags) {
 }
 
 std::vector<std::string> regimeFlagList(std::uint32_t flags) {
-  const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
-                                                      {kNoEquilibriumFlag, "no_equilibrium"},
-                                                      {kTaborFlag, "tabor"},
-                                                      {kPlasticityFlag, "plasticity"},
-                                                      {kResolutionFlag, "resolution"},
-                                                      {kFewContactsFlag, "few_contacts"},
-                                                      {kNearBondingFlag, "near_bonding"},
-                                                      {kBorderFlag, "border"},
-                                                      {kOnePixelFlag, "one_pixel"},
-                                                      {kUnresolvedFlag, "unresolved"}};
   std::vector<std::string> list;
-  for (const auto& entry : names) {
-    if ((flags & entry.first) != 0) list.emplace_back(entry.second);
+  for (const FlagWords& words : kFlagWords) {
+    if ((flags & words.flag) != 0) list.emplace_back(words.name);
+  }
+  return list;
+}
+
+std::vector<std::string> regimeFlagSentences(std::uint32_t flags, const std::string& doubt) {
+  std::vector<std::string> list;
+  for (const FlagWords& words : kFlagWords) {
+    if ((flags & words.flag) == 0) continue;
+    list.emplace_back(words.meaning);
+    if (words.flag == kNearBondingFlag && !doubt.empty()) list.back() += " (" + doubt + ")";
   }
   return list;
 }

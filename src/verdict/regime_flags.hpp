@@ -56,5 +56,7 @@ std::string modelDoubt(const Prediction& prediction);
 std::string regimeFlagNames(std::uint32_t flags);
 /// The same one by one.
 std::vector<std::string> regimeFlagList(std::uint32_t flags);
+/// What they mean, in words for people; near_bonding with its @p doubt (modelDoubt()) behind it.
+std::vector<std::string> regimeFlagSentences(std::uint32_t flags, const std::string& doubt = "");
 
 }  // namespace mems_stiction

@@ -16,6 +16,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from mems_stiction.prediction_text import FLAGS, flag_words  # noqa: E402
 from module_cases import DEVICE, FEW, FORMULATIONS, PITCH, REPOSITORY, rough  # noqa: E402  (the path comes first)
 from tiers import evidence  # noqa: E402
 
@@ -142,6 +143,16 @@ class TextTest(unittest.TestCase):
         for name in mems_stiction.__all__:
             self.assertTrue(getattr(mems_stiction, name).__doc__, name)
             self.assertIn(name, dir(mems_stiction))
+
+
+class FlagTest(unittest.TestCase):
+    def test_flags_have_the_words_of_the_core(self):
+        for flag, (name, words) in FLAGS.items():
+            self.assertEqual(_core.regime_flag_sentences(flag, ""), [words])
+            self.assertEqual(
+                "; ".join(_core.regime_flag_sentences(flag, "it tears")),
+                flag_words([name], "it tears"),
+            )
 
 
 class TypeTest(unittest.TestCase):

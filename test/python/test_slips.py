@@ -38,9 +38,9 @@ def rough(size=24):
 
 class Terminal:
     """A program whose standard error is a terminal of the test's own, for as long as the block
-    runs."""
+    runs. has_output: the standard output is the same terminal."""
 
-    def __init__(self, folder, name, *arguments):
+    def __init__(self, folder, name, *arguments, has_output=False, **environment):
         try:
             self._ours, theirs = pty.openpty()
         except OSError as error:
@@ -51,8 +51,9 @@ class Terminal:
             self.process = subprocess.Popen(
                 [find_node("mems_stiction", name)[0]] + list(arguments),
                 cwd=str(folder),
-                stdout=subprocess.DEVNULL,
+                stdout=theirs if has_output else subprocess.DEVNULL,
                 stderr=theirs,
+                env=dict(os.environ, **dict({"TERM": "xterm"}, **environment)),
                 stdin=subprocess.DEVNULL,
                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             )
@@ -635,7 +636,9 @@ class SlipTest(unittest.TestCase):
         )
         record = self.run_it("predict_scan", "-c", "device.yaml", "scan.npy").stdout
         self.assertIn(
-            'reason: "the device is not stated in full: device/contact_area must be > 0"', record
+            "Does it stick? Not known: the device is not stated in full: device/contact_area must be "
+            "> 0.\n",
+            record,
         )
 
     def test_a_bag_names_the_part_of_its_scans(self):
@@ -784,6 +787,27 @@ class SlipTest(unittest.TestCase):
             shown = terminal.until_it_ends(0)
         left = shown.split(WIPED)[-1]  # a machine that stood still may have shown what it was at
         self.assertTrue(left == b"" or left.endswith(b"\n"), shown)
+
+    def test_on_a_terminal_the_answer_has_colours_and_says_each_warning_once(self):
+        (self.folder / "device.yaml").write_text(
+            "device: {spring_stiffness: 1.0, travel: 1.0e-6}\nload: {mechanical_load: 1.0}\n"
+        )
+        call = ("predict_scan", "-c", "device.yaml", "scan.npy")
+        warning = b"the mechanical load of 1 N"
+        shown = {}
+        for name, environment in (
+            ("colours", {"NO_COLOR": ""}),
+            ("none", {"NO_COLOR": "1"}),
+            ("dumb", {"TERM": "dumb"}),
+        ):
+            with Terminal(self.folder, *call, has_output=True, **environment) as terminal:
+                shown[name] = terminal.until_it_ends(0).split(WIPED)[-1]
+            self.assertEqual(shown[name].count(warning), 1, shown[name])
+        self.assertIn(b"\x1b[1;35mDoes it stick? Not known\x1b[0m: ", shown["colours"])
+        plain = re.sub(rb"\x1b\[[0-9;]*m", b"", shown["colours"])
+        self.assertEqual((shown["none"], shown["dumb"]), (plain, plain))
+        with Terminal(self.folder, *call) as terminal:  # the output is a file's
+            self.assertEqual(terminal.until_it_ends(0).count(warning), 1)
 
     def test_on_a_terminal_a_pdf_says_that_it_is_being_written(self):
         with Terminal(

@@ -97,11 +97,11 @@ TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
     EXPECT_EQ(half_space["curve"][i]["direction"], word(curve[i].direction)) << i;
   }
 
-  const YAML::Node yaml = YAML::Load(run(arguments()).output)["half_space"];
+  const YAML::Node yaml = YAML::Load(run("--all " + arguments()).output)["half_space"];
   EXPECT_EQ(yaml["pull_off_force"].as<double>(), expected.pull_off_force);
   EXPECT_EQ(yaml["curve"].size(), curve.size());
   EXPECT_EQ(yaml["curve"][0]["direction"].as<std::string>(), "APPROACH");
-  EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["half_space"].IsDefined());
+  EXPECT_FALSE(YAML::Load(run("--all --pitch 20e-9 " + sphere()).output)["half_space"].IsDefined());
 }
 
 TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
@@ -131,7 +131,7 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
   EXPECT_NEAR(record["margin"].get<double>(), 1e-9 / expected.pull_off_force,
               1e-12 * record["margin"].get<double>());
   EXPECT_EQ(record["apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
-  const YAML::Node yaml = YAML::Load(run("--half-space " + call("step: 0.5")).output);
+  const YAML::Node yaml = YAML::Load(run("--all --half-space " + call("step: 0.5")).output);
   EXPECT_EQ(yaml["verdict_by"].as<std::string>(), "half_space");
   EXPECT_EQ(yaml["reason"].as<std::string>(), record["reason"].get<std::string>());
 

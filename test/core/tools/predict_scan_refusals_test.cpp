@@ -68,7 +68,7 @@ TEST_F(PredictScan, WhatIsImplausibleIsRefusedUnlessItIsMeant) {
   ASSERT_EQ(refused.errors.size(), 1u);
   EXPECT_NE(refused.errors[0].find("implausible: pitch_x 20 m is above 1 mm"), std::string::npos)
       << refused.errors[0];
-  const Outcome meant = run("--accept-implausible --pitch 20 " + sphere());
+  const Outcome meant = run("--all --accept-implausible --pitch 20 " + sphere());
   EXPECT_EQ(meant.status, 0);
   ASSERT_FALSE(meant.errors.empty());
   EXPECT_NE(meant.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << meant.errors[0];

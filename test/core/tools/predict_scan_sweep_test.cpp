@@ -27,7 +27,7 @@ class PredictScanSweep : public PredictScan {
   }
 
   Outcome sweep(const std::string& arguments) const {
-    return run("--pitch 20e-9 --config " + folder_.file("beam.yaml") + " " + arguments + " " +
+    return run("--all --pitch 20e-9 --config " + folder_.file("beam.yaml") + " " + arguments + " " +
                sphere());
   }
 };

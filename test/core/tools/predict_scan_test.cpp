@@ -22,7 +22,7 @@ namespace {
 
 TEST_F(PredictScan, PrintsTheRecordOfTheCoresPrediction) {
   const std::string scan = sphere();
-  const Outcome outcome = run("--pitch 20e-9 --load 1e-6 " + scan);
+  const Outcome outcome = run("--all --pitch 20e-9 --load 1e-6 " + scan);
   ASSERT_EQ(outcome.status, 0);
   EXPECT_TRUE(outcome.errors.empty()) << outcome.errors.front();
   const YAML::Node record = YAML::Load(outcome.output);
@@ -91,7 +91,7 @@ TEST_F(PredictScan, ConfigurationFileAndOptionsMeet) {
                     "voltage: 1}\nscan: {pitch_x: "
                     "20e-9, pitch_y: 20e-9}\n");
   const YAML::Node record = YAML::Load(
-      run("--config " + configuration + " --voltage -5 --step 0.1e-9 " + sphere()).output);
+      run("--all --config " + configuration + " --voltage -5 --step 0.1e-9 " + sphere()).output);
   EXPECT_EQ(record["voltage"].as<double>(), -5.0) << "the option goes before the file";
   EXPECT_EQ(record["mechanical_load"].as<double>(), 1e-6);
   EXPECT_GT(record["electrostatic_force"].as<double>(), 0.0);
@@ -117,7 +117,7 @@ TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
   EXPECT_EQ(record["convergence"][2]["cols"], 25);
   EXPECT_EQ(record["is_resolution_limited"].type(), nlohmann::json::value_t::boolean);
 
-  const Outcome yaml = run(call);
+  const Outcome yaml = run("--all " + call);
   EXPECT_NE(yaml.output.find("# half "), std::string::npos) << yaml.output;
   const YAML::Node document = YAML::Load(yaml.output);
   EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
@@ -160,7 +160,7 @@ TEST_F(PredictScan, ForceAndMarginAreRoundedForPeopleInACommentAndKeptInTheField
                     "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: "
                     "4.0804e-12}\ndevice_force: {enabled: false}\n");
   const std::string call = "-c " + device + " --pitch 20e-9 " + sphere();
-  const std::string text = run(call).output;
+  const std::string text = run("--all " + call).output;
   const std::size_t place = text.find("\n# Pull-off force ");
   ASSERT_NE(place, std::string::npos);
   const std::string line = text.substr(place + 1, text.find('\n', place + 1) - place - 1);
@@ -201,7 +201,7 @@ TEST_F(PredictScan, AStatedDeviceIsJudged) {
   const std::string device =
       folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
   const std::string call = " --pitch 20e-9 " + sphere();
-  const YAML::Node record = YAML::Load(run("-c " + device + call).output);
+  const YAML::Node record = YAML::Load(run("--all -c " + device + call).output);
   const double scale = 4.0804e-12 / record["nominal_area"].as<double>();
   EXPECT_DOUBLE_EQ(record["margin"].as<double>(),
                    1e-6 / (record["pull_off_force"].as<double>() * scale));
@@ -211,7 +211,7 @@ TEST_F(PredictScan, AStatedDeviceIsJudged) {
   EXPECT_FALSE(record["reason"].as<std::string>().empty());
   EXPECT_FALSE(record["device_force"].IsDefined());
   EXPECT_NE(record["regime_flag_names"].as<std::string>().find("few_contacts"), std::string::npos);
-  const YAML::Node without = YAML::Load(run(call).output);
+  const YAML::Node without = YAML::Load(run("--all " + call).output);
   EXPECT_FALSE(without["margin"].IsDefined());
   EXPECT_EQ(without["regime_flags"].as<unsigned>(), record["regime_flags"].as<unsigned>());
 }
@@ -219,7 +219,8 @@ TEST_F(PredictScan, AStatedDeviceIsJudged) {
 TEST_F(PredictScan, ADeviceIsJudgedByItsOwnForce) {
   const std::string device = folder_.write(
       "d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n"));
-  const YAML::Node record = YAML::Load(run("-c " + device + " --pitch 20e-9 " + sphere()).output);
+  const YAML::Node record =
+      YAML::Load(run("--all -c " + device + " --pitch 20e-9 " + sphere()).output);
   const YAML::Node force = record["device_force"];
   ASSERT_TRUE(force.IsMap());
   EXPECT_EQ(record["device_pull_off_force"].as<double>(), force["pull_off_force"].as<double>());
@@ -230,7 +231,7 @@ TEST_F(PredictScan, ADeviceIsJudgedByItsOwnForce) {
 }
 
 TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
-  const Outcome outcome = run("--cleanings --pitch 20e-9 " + sphere());
+  const Outcome outcome = run("--all --cleanings --pitch 20e-9 " + sphere());
   ASSERT_EQ(outcome.status, 0);
   const YAML::Node record = YAML::Load(outcome.output);
   ASSERT_EQ(record["cleanings"].size(), 9u);
@@ -247,8 +248,8 @@ TEST_F(PredictScan, CleaningsWidenTheMargin) {
       folder_.write("d.yaml",
                     kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n")) +
       " --pitch 20e-9 " + sphere();
-  const YAML::Node plain = YAML::Load(run(call).output);
-  const YAML::Node record = YAML::Load(run("--cleanings " + call).output);
+  const YAML::Node plain = YAML::Load(run("--all " + call).output);
+  const YAML::Node record = YAML::Load(run("--all --cleanings " + call).output);
   ASSERT_GT(record["cleaning_spread"]["pull_off_factor"].as<double>(), 1.0);
   EXPECT_EQ(record["margin"].as<double>(), plain["margin"].as<double>());
   const auto span = [](const YAML::Node& of) {
@@ -264,20 +265,46 @@ TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReache
       "c.yaml",
       "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
   const YAML::Node record =
-      YAML::Load(run("-c " + configuration + " --pitch 20e-9 " + sphere()).output);
+      YAML::Load(run("--all -c " + configuration + " --pitch 20e-9 " + sphere()).output);
   ASSERT_EQ(record["preprocessing"].size(), 2u);
   EXPECT_EQ(record["preprocessing"][0]["step"].as<std::string>(), "tip");
   EXPECT_EQ(record["preprocessing"][1]["parameters"].as<std::string>(), "shape=plane robust=false");
   EXPECT_TRUE(record["tip_unreached_fraction"].IsDefined());
   EXPECT_GT(record["roughness"]["sal"].as<double>(), 0.0);
-  EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
+  EXPECT_FALSE(
+      YAML::Load(run("--all --pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
+}
+
+TEST_F(PredictScan, WithoutOptionsItSaysWhatPeopleAskFor) {
+  const std::string device =
+      folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
+  const std::string call = "-c " + device + " --load 1 --pitch 20e-9 " + sphere();
+  const Outcome outcome = run(call);
+  ASSERT_EQ(outcome.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(run("--json " + call).output);
+  const std::string& text = outcome.output;
+  EXPECT_EQ(text.find(sphere() + "\n"), 0U) << text;
+  for (const std::string& line :
+       {std::string("\n  status: bonded, 1 contact\n"), std::string("\n  pull-off force: "),
+        "\n  Does it stick? Marginal: " + record["reason"].get<std::string>() + ". ",
+        std::string("\n  outside the model's range: few contacts: another place of the surface "
+                    "may differ much\n"),
+        "\n  warning: " + record["warnings"][0].get<std::string>() + "\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "in\n" << text;
+  }
+  EXPECT_EQ(text.find('\033'), std::string::npos) << "no colours where nobody looks";
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 12);
+  EXPECT_EQ(outcome.errors.size(), record["warnings"].size()) << "a script finds them here, too";
+  EXPECT_NE(run("--pitch 20e-9 " + sphere()).output.find("Does it stick? That needs a device"),
+            std::string::npos);
+  EXPECT_NE(run("--convergence " + call).output.find("\n  resolution "), std::string::npos);
 }
 
 TEST_F(PredictScan, HelpNamesEveryOption) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
   for (const char* option :
-       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed",
+       {"--config", "--pitch", "--voltage", "--load", "--step", "--all", "--json", "--deformed",
         "--convergence", "--half-space", "--curve", "--formulation-curve", "--record-curve",
         "--cleanings", "--half-space-pressure", "--half-space-gap", "--half-space-deformed",
         "SCAN"}) {
@@ -306,7 +333,7 @@ TEST_F(PredictScan, SphereOnFlatGivesThePullOffOfJkr) {
     std::ostringstream arguments;
     arguments << "--config " << configuration << " --pitch " << pitch << " --load " << load << " "
               << folder_.file("s.tiff");
-    const YAML::Node record = YAML::Load(run(arguments.str()).output);
+    const YAML::Node record = YAML::Load(run("--all " + arguments.str()).output);
     EXPECT_EQ(record["status"].as<std::string>(), "EQUILIBRIUM");
     EXPECT_NEAR(record["pull_off_force"].as<double>() / (1.5 * kPi * kWork * kRadius), 1.0, 0.03)
         << load;
