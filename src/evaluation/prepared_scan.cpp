@@ -1,6 +1,7 @@
 #include "mems_stiction/evaluation/prepared_scan.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -47,6 +48,18 @@ cv::Mat blockMeans(const cv::Mat& cells, int factor) {
   cv::Mat means;
   cv::resize(cells, means, cells.size() / factor, 0.0, 0.0, cv::INTER_AREA);
   return means;
+}
+
+/// @throw SurfaceError for a scan without a height, with what to do
+void requireValidPixel(const HeightMap& scan) {
+  for (int row = 0; row < scan.rows(); ++row) {
+    for (int col = 0; col < scan.cols(); ++col) {
+      if (std::isfinite(scan.height(row, col))) return;
+    }
+  }
+  throw SurfaceError(
+      "the height map has no valid pixel: each is NaN, infinite, masked or marked as missing; did "
+      "the instrument find the surface, and is the mark right (scan/invalid_value)?");
 }
 
 /// A refusal ends with what looks wrong in the scan, most likely its cause: lines that a stopped
@@ -153,6 +166,7 @@ std::uint64_t ScanPreparer::cleanings() const {
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   const auto start = std::chrono::steady_clock::now();
   limits_.checkSize(scan, refinement_.refine.factor);
+  requireValidPixel(scan);
   const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime);
   ++scans_cleaned_;
   CleanedScan cleaned = cleanedOrWhyNot(cleaner_, scan);

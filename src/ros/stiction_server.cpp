@@ -21,6 +21,7 @@ namespace mems_stiction {
 namespace {
 
 const ros::WallDuration kGatePeriod(0.01);
+constexpr int kLongWithoutPublisher = 10;  // [s]
 constexpr const char* kTooMuchWaits = "what waits holds more than max_waiting_memory";
 
 ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
@@ -229,10 +230,23 @@ void StictionServer::startTimers() {
                                              scans_.expire(ros::WallTime::now());
                                              counter_surfaces_.expire(ros::WallTime::now());
                                            });
+  publisher_timer_ =
+      handle_.createWallTimer(ros::WallDuration(1.0), [this](const auto&) { watchPublishers(); });
   if (counter_surface_frame_) {
     gate_timer_ = handle_.createWallTimer(
         kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
   }
+}
+
+void StictionServer::watchPublishers() {
+  seconds_without_publisher_ = height_.getNumPublishers() > 0 ? 0 : seconds_without_publisher_ + 1;
+  if (seconds_without_publisher_ != kLongWithoutPublisher) return;  // said once each time
+  const bool had_scans = accounting_.counts().received > 0;
+  logSoon(had_scans ? ros::console::levels::Info : ros::console::levels::Warn,
+          "nobody has published " + height_.getTopic() + " for " +
+              std::to_string(kLongWithoutPublisher) +
+              " s: start what gives scans (scan_source, the instrument's driver, rosbag play), or "
+              "remap height to its topic");
 }
 
 bool StictionServer::putParametersBack(const MasterCalls& calls) const {

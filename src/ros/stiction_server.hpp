@@ -67,6 +67,8 @@ class StictionServer {
   void advertiseServices();
   void subscribe();
   void startTimers();
+  /// A word where nobody publishes scans.
+  void watchPublishers();
 
   void onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
@@ -155,6 +157,8 @@ class StictionServer {
   std::shared_ptr<MasterWatch> master_;
   ros::WallTimer diagnostic_timer_;
   ros::WallTimer pairing_timer_;
+  ros::WallTimer publisher_timer_;
+  int seconds_without_publisher_ = 0;  ///< of height; on the topic thread
   ros::WallTimer gate_timer_;
 
   ros::AsyncSpinner topic_spinner_;

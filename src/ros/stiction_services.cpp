@@ -11,6 +11,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "ros/checked_messages.hpp"
+#include "ros/own_log.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/topic_names.hpp"
 
@@ -30,22 +31,27 @@ std::string changeText(const std::string& what, const std::string& before,
   return what + (before == after ? " stays at " + after : " from " + before + " to " + after);
 }
 
-/// What changed, in words. A load that falls to 0 while the other one changes may have been left
-/// out of the request, which ROS cannot tell from a 0 that was given: it is said what sets one load
-/// alone.
+/// What changed, in words.
 std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
-  std::string text =
-      changeText("voltage", numberText(before.voltage) + " V", numberText(after.voltage) + " V") +
-      "; " + changeText("mechanical load", pressingText(before), pressingText(after));
+  return changeText("voltage", numberText(before.voltage) + " V",
+                    numberText(after.voltage) + " V") +
+         "; " + changeText("mechanical load", pressingText(before), pressingText(after));
+}
+
+/// A load that falls to 0 beside another one that is stated may have been left out of the request,
+/// which ROS cannot tell from a 0 that was given. Empty where none falls so.
+std::string whatMayBeLeftOut(const LoadOptions& before, const LoadOptions& after) {
   const bool pressed = before.mechanical_load > 0.0 || before.isPerArea();
   const bool presses = after.mechanical_load > 0.0 || after.isPerArea();
-  if (pressed && !presses && before.voltage != after.voltage)
-    text += " (~set_voltage leaves it as it is)";
-  if (before.voltage != 0.0 && after.voltage == 0.0 &&
-      pressingText(before) != pressingText(after)) {
-    text += " (~set_mechanical_load leaves the voltage as it is)";
+  if (pressed && !presses && after.voltage != 0.0) {
+    return "warning: the mechanical load was set to 0, as whatever a call of ~set_load leaves out "
+           "(~set_voltage leaves it as it is)";
   }
-  return text;
+  if (before.voltage != 0.0 && after.voltage == 0.0 && presses) {
+    return "warning: the voltage was set to 0, as whatever a call of ~set_load leaves out "
+           "(~set_mechanical_load leaves it as it is)";
+  }
+  return "";
 }
 
 /// Does the work of a service; what it throws is the answer.
@@ -99,12 +105,19 @@ void StictionServer::advertiseServices() {
 }
 
 bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
+  std::string left_out;
   changeLoad(
       [&](LoadOptions& load) {
+        const LoadOptions before = load;
         load.voltage = request.voltage;
         load.setMechanicalLoad(request.mechanical_load);
+        left_out = whatMayBeLeftOut(before, load);
       },
       response);
+  if (response.success && !left_out.empty()) {
+    response.message += "; " + left_out;
+    logSoon(ros::console::levels::Warn, "set_load: " + left_out);
+  }
   return true;
 }
 

@@ -279,6 +279,24 @@ class ProcessesTest(unittest.TestCase):
             node.communicate()
             rospy.delete_param("/named/node")
 
+    def test_3c_a_node_that_nobody_sends_scans_says_so_once(self):
+        node = subprocess.Popen(
+            [find_node("mems_stiction", "stiction_node")[0], "__name:=node"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env=dict(os.environ, ROS_NAMESPACE="/lonely", ROSCONSOLE_FORMAT="${message}"),
+            universal_newlines=True,
+        )
+        try:
+            self.assertRegex(
+                node.stderr.readline(),
+                "nobody has published /lonely/height for 10 s: start what gives scans .*, or remap",
+            )
+        finally:
+            node.terminate()
+            _, more = node.communicate()
+        self.assertNotIn("nobody", more)
+
     def test_4_a_stopped_node_says_so_when_it_goes_on(self):
         with OwnNode("stopped") as node:
             counts = Counts("stopped/node")
