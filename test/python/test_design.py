@@ -173,7 +173,6 @@ class MarginTest(unittest.TestCase):
         self.assertIsOf(row, verdict)
         self.assertIn(row["doubt"].split(":")[0], verdict.reason)
 
-
     def test_a_scan_that_is_refined_is_as_coarse_as_it_was_measured(self):
         coarse = np.random.RandomState(1).normal(scale=5e-9, size=(64, 64))
         refined = {"preprocessing/refine/factor": 4, "device/contact_area": (64 * PITCH) ** 2}

@@ -636,8 +636,8 @@ class SlipTest(unittest.TestCase):
         )
         record = self.run_it("predict_scan", "-c", "device.yaml", "scan.npy").stdout
         self.assertIn(
-            "Does it stick? Not known: the device is not stated in full: device/contact_area must be "
-            "> 0.\n",
+            "Does it stick? Not known: the device is not stated in full: device/contact_area must "
+            "be > 0.\n",
             record,
         )
 

@@ -88,10 +88,7 @@ class BadScansTest(unittest.TestCase):
             (lambda: broken(cut_off), "data has"),
             (lambda: broken(short_step), "step 8"),
             (lambda: broken(no_pixels), "at least one pixel"),
-            (
-                lambda: station.send(np.full_like(surface, np.nan)),
-                "no valid pixel: each is NaN",
-            ),
+            (lambda: station.send(np.full_like(surface, np.nan)), "no valid pixel: each is NaN"),
             (lambda: station.send(surface, pitch=-1e-9), "scan_info.pitch_x"),
             (lambda: station.send(surface, pitch=float("nan")), "scan_info.pitch_x"),
             (lambda: station.send(surface, pitch=0.0), "pitch"),

@@ -224,21 +224,15 @@ class ServicesTest(unittest.TestCase):
 
         self.send(rough_surface(3))
         answer = call("set_load", "voltage: 20")
+        self.assertIn("voltage from 0 V to 20 V; mechanical load from 1e-06 N to 0 N;", answer)
         self.assertIn(
-            "voltage from 0 V to 20 V; mechanical load from 1e-06 N to 0 N;",
-            answer,
-        )
-        self.assertIn(
-            "; warning: the mechanical load was set to 0, as whatever a call of ~set_load leaves out "
-            "(~set_voltage leaves it as it is)",
+            "; warning: the mechanical load was set to 0, as whatever a call of ~set_load leaves "
+            "out (~set_voltage leaves it as it is)",
             answer,
         )
         self.assert_load(20.0, 0.0)
         answer = call("set_load", "mechanical_load: 1.0e-6")
-        self.assertIn(
-            "voltage from 20 V to 0 V; mechanical load from 0 N to 1e-06 N;",
-            answer,
-        )
+        self.assertIn("voltage from 20 V to 0 V; mechanical load from 0 N to 1e-06 N;", answer)
         self.assertIn("(~set_mechanical_load leaves it as it is)", answer)
         answer = call("set_voltage", "voltage: 20")
         self.assertIn("voltage from 0 V to 20 V; mechanical load stays at 1e-06 N", answer)
