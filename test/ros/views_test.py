@@ -175,6 +175,31 @@ class ViewsTest(unittest.TestCase):
         self.assertTrue(has_colour(picture[:50], RED))
         self.assertEqual(os.listdir(folder.name), ["trend.png"])
 
+    def test_3b_panels_are_dark_until_their_first_picture(self):
+        plot = subprocess.Popen(
+            [
+                find_node("mems_stiction", "plot_trend")[0],
+                "--placeholders",
+                "other_preview",
+                "trend:=placeholder_trend",
+                "__name:=placeholder_trend",
+            ]
+        )
+        self.addCleanup(plot.wait)
+        self.addCleanup(plot.terminate)
+        pictures = Collector("other_preview", Image)
+        message = pictures.wait(1)[0]
+        self.assertLess(np.median(rgb(message)), 64)
+        self.assertGreater(rgb(message).max(), 128)  # its words
+        wait_for_listener("other_preview", "/placeholder_trend")
+        publisher = rospy.Publisher("other_preview", Image, queue_size=1, latch=True)
+        publisher.publish(message)
+        publishers = rospy.get_master().getSystemState
+        wait_until(
+            lambda: dict(publishers()[2][0])["/other_preview"] == [rospy.get_name()],
+            "the dark picture to be gone",
+        )
+
     def test_4_wrong_arguments_are_named(self):
         for arguments, reason in (
             (["--output", "trend.jpg"], "must end in .png"),
