@@ -1,9 +1,8 @@
 #include "evaluation/short_record.hpp"
 
-#include <algorithm>
-
 #include "errors/one_line.hpp"
 #include "errors/short_number.hpp"
+#include "numeric/words.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "station/sweep_table.hpp"
 #include "verdict/regime_flags.hpp"
@@ -40,10 +39,7 @@ std::string lineOf(const std::string& label, const std::string& text) {
 }
 
 std::string statusText(const Prediction& prediction) {
-  std::string text = word(prediction.status);
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
-    return letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
-  });
+  std::string text = lowered(replaced(word(prediction.status), "_", " "));
   if (prediction.has_asperities) {
     text += ", " + std::to_string(prediction.asperity_count) +
             (prediction.asperity_count == 1 ? " contact" : " contacts");
