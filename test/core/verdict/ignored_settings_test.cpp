@@ -172,9 +172,9 @@ TEST(IgnoredSettings, areThoseThatChangeNoBit) {
     Settings dry = busy();
     dry.model.capillary.relative_humidity = 0.0;
     const std::vector<IgnoredSetting> ignored = ignoredSettings(formulation, dry.model);
-    for (const char* of_water : {"interface/surface_tension", "interface/contact_angle",
-                                 "interface/temperature", "interface/molar_volume",
-                                 "interface/water_film"}) {
+    for (const char* of_water :
+         {"interface/surface_tension", "interface/contact_angle", "interface/temperature",
+          "interface/molar_volume", "interface/water_film"}) {
       Settings changed = dry;
       changed.model.formulation = dry.model.formulation = formulation;
       Change change(of_water);
