@@ -1,4 +1,4 @@
-"""The tutorial says what the programs say: every command of doc/tutorial.md, run anew."""
+"""The tutorial and README's first screen say what the programs say: every command, run anew."""
 
 import os
 import pathlib
@@ -35,8 +35,9 @@ class TutorialTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
     def test_every_command_says_what_the_page_shows(self):
-        done = run(REPOSITORY / "doc" / "tutorial.md")
-        self.assertEqual(done.returncode, 0, done.stdout)
+        for page in ("doc/tutorial.md", "README.md"):
+            done = run(REPOSITORY / page)
+            self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_the_comparison_sees_what_rots(self):
         good = (
