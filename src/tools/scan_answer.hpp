@@ -30,7 +30,7 @@ class ScanWarnings {
   ScanWarnings& operator=(const ScanWarnings&) = delete;
 
   /// @param of_settings counted before
-  void keep(const std::vector<std::string>& of_settings);
+  void add(const std::vector<std::string>& of_settings);
   void add(const std::vector<std::string>& lines);
   void answered() { withheld_.clear(); }
 
