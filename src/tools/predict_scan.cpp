@@ -256,7 +256,7 @@ void predictScan(const std::string& path, const Arguments& arguments,
       path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
   const AnswerForm form = formOf(arguments);
   ScanWarnings warnings(path, answerShowsWarnings(form));
-  warnings.add(settingsWarnings(configuration));
+  warnings.addCounted(settingsWarnings(configuration));
   warnings.add(scan.notes);
 
   Prediction prediction;

@@ -54,7 +54,7 @@ ScanWarnings::~ScanWarnings() {
   for (const std::string& line : withheld_) printWarning(path_, line);
 }
 
-void ScanWarnings::add(const std::vector<std::string>& of_settings) {
+void ScanWarnings::addCounted(const std::vector<std::string>& of_settings) {
   if (answer_shows_them_) withheld_.insert(withheld_.end(), of_settings.begin(), of_settings.end());
 }
 

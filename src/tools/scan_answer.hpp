@@ -30,7 +30,7 @@ class ScanWarnings {
   ScanWarnings& operator=(const ScanWarnings&) = delete;
 
   /// @param of_settings counted before
-  void add(const std::vector<std::string>& of_settings);
+  void addCounted(const std::vector<std::string>& of_settings);
   void add(const std::vector<std::string>& lines);
   void answered() { withheld_.clear(); }
 
