@@ -24,6 +24,7 @@ import tempfile
 
 TOLERANCE = 0.01
 TIMEOUT = 900  # of the whole page [s]
+PROGRESS = re.compile(r"\d+ of \d+ scans\b.*")  # of a batch, each half minute on busy machines
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 END = "-----end of command"
 
@@ -115,7 +116,7 @@ def run(actions, folder):
             step.said, step_lines = step_lines, []
             if line.split()[-1] != "0":
                 failed.append(step)
-        else:
+        elif not PROGRESS.match(line):
             step_lines.append(line.rstrip())
     return failed
 

@@ -420,7 +420,7 @@ class RowsTest(unittest.TestCase):
 
     def test_an_error_or_the_end_of_a_process_ends_the_sweep(self):
         with self.assertRaisesRegex(
-            mems_stiction.SurfaceError, "its measured pixels lie within 0 x 0"
+            mems_stiction.SurfaceError, "the height map has no valid pixel"
         ):
             swept({WORK: [0.02, 0.08]}, np.full((64, 64), np.nan), workers=2)
 
