@@ -192,8 +192,10 @@ BEAM = {
 }
 BEAM_AREA = 20e-6 * 100e-6
 
-# rms, length, pixels and settings are factors on the case's own.
-Variation = collections.namedtuple("Variation", "name rms length pixels settings is_self_affine")
+# rms, length, pixels and settings are factors on the case's own; stated are further settings.
+Variation = collections.namedtuple(
+    "Variation", "name rms length pixels settings is_self_affine stated", defaults=({},)
+)
 AS_ASSUMED = Variation("as assumed", 1.0, 1.0, 1, {}, False)
 VARIATIONS = (
     Variation("correlation length x 2", 1.0, 2.0, 1, {}, False),
@@ -206,6 +208,45 @@ VARIATIONS = (
     Variation("side of the frame x 2", 1.0, 1.0, 2, {}, False),
     Variation("self-affine, H = 0.8, down to 4 pixels", 1.0, 1.0, 1, {}, True),
 )
+
+# What measured parts have and a dry, thick, uncharged oxide has not. Films, constants and lambda as
+# in config/polysilicon_native_oxide.yaml. Water: some three ice-like layers on oxide by 30 %
+# (Asay and Kim, J. Phys. Chem. B 109 (2005) 16760, abstract), one layer more at 50 % is assumed.
+# Surfaces that fit each other share the correlation rho of all waves: equally rough ones have
+# sqrt(1 - rho) of the composite roughness. The potential lies across both native oxides.
+NATIVE = {
+    "lower": {"film_thickness": 2e-9, "hamaker_constant": 261e-21},
+    "upper": {"film_thickness": 2e-9, "hamaker_constant": 261e-21},
+    "interface": {"retardation_length": 20e-9},
+}
+
+
+def humid(relative_humidity, water_film):
+    return {"interface": {"relative_humidity": relative_humidity, "water_film": water_film}}
+
+
+CHARGED = {"interface": {"insulator_thickness": 4e-9}, "load": {"contact_potential": 0.1}}
+CORRELATION = 0.8
+FITTING = (1.0 - CORRELATION) ** 0.5
+EFFECTS = (
+    Variation("native oxide, retarded", 1.0, 1.0, 1, {}, False, NATIVE),
+    Variation("30 % humidity", 1.0, 1.0, 1, {}, False, humid(0.3, 0.8e-9)),
+    Variation("50 % humidity", 1.0, 1.0, 1, {}, False, humid(0.5, 1.1e-9)),
+    Variation("correlation 0.8", FITTING, 1.0, 1, {}, False),
+    Variation("0.1 V", 1.0, 1.0, 1, {}, False, CHARGED),
+    Variation("native oxide, correlation 0.8", FITTING, 1.0, 1, {}, False, NATIVE),
+    Variation(
+        "native oxide, 0.1 V",
+        1.0,
+        1.0,
+        1,
+        {},
+        False,
+        {**CHARGED, **NATIVE, "interface": {**CHARGED["interface"], **NATIVE["interface"]}},
+    ),
+)
+OF_EFFECTS = ("beams", "plates", "flat tips")  # of polysilicon or silicon under its oxide
+NEAR = 2.0  # a factor that assumptions leave open anyway
 
 # Measurements whose available text lacks the roughness, or the force.
 FOUND = (
