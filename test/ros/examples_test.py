@@ -9,6 +9,7 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -49,6 +50,10 @@ from stiction_client import (
 )
 from stiction_client import PITCH as AFM_PITCH
 from tf2_msgs.msg import TFMessage
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
+
+from tiers import evidence  # noqa: E402  (the path comes first)
 
 LINE_AREA = LINES * POINTS * POINT_PITCH * LINE_PITCH  # [m^2]
 
@@ -251,6 +256,7 @@ class ExamplesTest(unittest.TestCase):
             lambda stamp, way: TFMessage([stage_at(stamp, way)]),
         )
 
+    @evidence
     def test_4_a_line_scanner_on_a_stage_with_a_joint(self):
         source = yaml.safe_load(
             pathlib.Path(get_pkg_dir("mems_stiction"), "config", "source_lines.yaml").read_text()
