@@ -139,15 +139,15 @@ def effects_section(results):
                 % (case.key, rms_text(case, place), " | ".join(number(factor) for factor in row))
             )
             fitting = [
-                variation.name
+                "*%s*" % variation.name
                 for variation, factor in zip(shown, row)
                 if 1.0 / cases.NEAR <= factor <= cases.NEAR
             ]
             near.append("%s: %s" % (where, ", ".join(fitting) if fitting else "none of them"))
     return text + [
         "",
-        "Within a factor of %g of what was measured are: %s. The others are excluded by that "
-        "measurement if all else is as assumed." % (cases.NEAR, "; ".join(near)),
+        "Within a factor of %g of what was measured are, for %s. The others are excluded by that "
+        "measurement if all else is as assumed." % (cases.NEAR, "; for ".join(near)),
         "",
     ]
 
