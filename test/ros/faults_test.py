@@ -108,8 +108,9 @@ class FaultsTest(unittest.TestCase):
             figures["predicted"] + figures["rejected"] + figures["dropped"], sent, figures
         )
         self.assertEqual(figures["missing_by_sequence"], 0, figures)
-        # Before any stamp went back, the first that crosses may pass for lost.
-        self.assertGreaterEqual(figures["predicted"], sent - 1, figures)
+        # Before any stamp went back, the first that crosses may pass for lost. So may the last of a
+        # round, since two topics have no common order: the next round's image can come before it.
+        self.assertGreaterEqual(figures["predicted"], sent - 3, figures)
         self.assertEqual(len(predictions.messages), figures["predicted"])
 
     def test_images_cross_before_any_stamp_goes_back_where_others_publish_too(self):
