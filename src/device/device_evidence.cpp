@@ -1,11 +1,25 @@
 #include "device/device_evidence.hpp"
 
+#include <utility>
+
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
 
 bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& options) {
   return options.enabled && device.contact_area > 0.0 && (device.hasSpring() || device.hasBeam());
+}
+
+void takeFactors(std::vector<double> of_force, std::vector<double> of_work, DeviceForce& force) {
+  force.force_factors = std::move(of_force);
+  force.work_factors = std::move(of_work);
+  force.pull_off_force_lower = force.pull_off_force * quantile(force.force_factors, kLowerShare);
+  force.pull_off_force_upper = force.pull_off_force * quantile(force.force_factors, kUpperShare);
+  force.apparent_work_of_adhesion_lower =
+      force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
+  force.apparent_work_of_adhesion_upper =
+      force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
 }
 
 DeviceEvidence deviceEvidence(const DeviceForce& force) {

@@ -10,6 +10,7 @@
 
 #include "device/area_load.hpp"
 #include "device/device_area.hpp"
+#include "device/device_evidence.hpp"
 #include "device/device_mosaic.hpp"
 #include "device/law_check.hpp"
 #include "device/made_surface.hpp"
@@ -182,16 +183,11 @@ void takeIntervals(const Prediction& like, const Options& model,
                    const UncertaintyOptions& constants, double student, const PlaceExcess& places,
                    DeviceForce& force) {
   AdhesionSpread spread = adhesionSpread(like, model, constants);
-  force.force_factors = factorsOf(std::move(spread.pull_off), constants.samples,
-                                  surfaceRange(student * force.force_deviation, places.force));
-  force.work_factors = factorsOf(std::move(spread.apparent_work), constants.samples,
-                                 surfaceRange(student * force.work_deviation, places.work));
-  force.pull_off_force_lower = force.pull_off_force * quantile(force.force_factors, kLowerShare);
-  force.pull_off_force_upper = force.pull_off_force * quantile(force.force_factors, kUpperShare);
-  force.apparent_work_of_adhesion_lower =
-      force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
-  force.apparent_work_of_adhesion_upper =
-      force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
+  takeFactors(factorsOf(std::move(spread.pull_off), constants.samples,
+                        surfaceRange(student * force.force_deviation, places.force)),
+              factorsOf(std::move(spread.apparent_work), constants.samples,
+                        surfaceRange(student * force.work_deviation, places.work)),
+              force);
 }
 
 /// What chi^2/freedom is not below, or above, in 2.5 % of cases (Wilson and Hilferty).

@@ -62,16 +62,6 @@ DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
   return force;
 }
 
-/// The interval of a verdict that rests on more than the force alone: a half-space.
-void takeInterval(const AdhesionSpread& spread, DeviceForce& force) {
-  force.pull_off_force_lower = force.pull_off_force * quantile(spread.pull_off, kLowerShare);
-  force.pull_off_force_upper = force.pull_off_force * quantile(spread.pull_off, kUpperShare);
-  force.apparent_work_of_adhesion_lower =
-      force.apparent_work_of_adhesion * quantile(spread.apparent_work, kLowerShare);
-  force.apparent_work_of_adhesion_upper =
-      force.apparent_work_of_adhesion * quantile(spread.apparent_work, kUpperShare);
-}
-
 }  // namespace
 
 DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most,
@@ -304,7 +294,8 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
         std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
         half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
     force.separation_at_rest = separation;
-    takeInterval(adhesionSpread(task.prediction, model, settings.uncertainty, evidence), force);
+    AdhesionSpread spread = adhesionSpread(task.prediction, model, settings.uncertainty, evidence);
+    takeFactors(std::move(spread.pull_off), std::move(spread.apparent_work), force);
   }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;
