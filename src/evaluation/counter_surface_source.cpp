@@ -138,11 +138,9 @@ const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
     return mounted_measured_;
   }
   load();
-  const bool is_drawn_anew =
-      options_.fitsScan() || surface_.empty() || !haveSameGrid(surface_, scan);
-  if (options_.isGenerated() && is_drawn_anew) {
-    surface_ = generatedCounterSurface(scan, options_);
-  }
+  if (!options_.isGenerated()) return surface_;
+  if (drawn_.empty() || !haveSameGrid(drawn_, scan)) drawn_ = drawnCounterSurface(scan, options_);
+  surface_ = fittedCounterSurface(scan, drawn_, options_);
   return surface_;
 }
 

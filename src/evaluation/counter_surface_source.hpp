@@ -7,8 +7,8 @@
 /// A measured counter-surface is cleaned as the scan is (same steps; the tip is taken off while its
 /// asperities point up), then turned over if it faces up, then put in its pose. A generated one
 /// needs no cleaning. No work is done twice: a measured surface is cleaned once, a generated one is
-/// drawn once per scan grid (or, where it fits the scan, for each), either is resampled once per
-/// pose.
+/// drawn once per scan grid and, with a correlation, fitted to each scan; either is resampled once
+/// per pose.
 
 #include <atomic>
 #include <cstdint>
@@ -72,8 +72,8 @@ class CounterSurfaceSource {
   ScanLimits limits_;
   HeightMap measured_;          ///< beside the scans, as it came
   HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
-  HeightMap surface_;  ///< mounted, before its pose; of type file, or the generated one of the
-                       ///< latest grid
+  HeightMap drawn_;             ///< by itself, on the latest grid; of generated types
+  HeightMap surface_;  ///< mounted, before its pose; of type file, or as drawn for the scan
   HeightMap placed_;   ///< in its pose, on the latest grid
   std::vector<std::string> warnings_;           ///< about the surface of the file
   std::vector<std::string> measured_warnings_;  ///< about the measured one

@@ -122,10 +122,7 @@ HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing 
   return facing == CounterSurfaceFacing::kDown ? measured : turnedOver(measured);
 }
 
-namespace {
-
-/// Drawn by itself.
-HeightMap drawnOn(const HeightMap& scan, const CounterSurfaceOptions& options) {
+HeightMap drawnCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options) {
   if (options.type == CounterSurfaceType::kSelfAffine) {
     SelfAffineSurfaceOptions surface = options.self_affine;
     takeGrid(scan, options.seed, surface);
@@ -138,12 +135,14 @@ HeightMap drawnOn(const HeightMap& scan, const CounterSurfaceOptions& options) {
   return turnedOver(translatedGaussianSurface(surface));
 }
 
-}  // namespace
-
-HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options) {
-  HeightMap drawn = drawnOn(scan, options);
+HeightMap fittedCounterSurface(const HeightMap& scan, const HeightMap& drawn,
+                               const CounterSurfaceOptions& options) {
   if (!options.fitsScan()) return drawn;
   return correlatedWith(scan, drawn, {options.correlation, options.correlation_length});
+}
+
+HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options) {
+  return fittedCounterSurface(scan, drawnCounterSurface(scan, options), options);
 }
 
 bool isIdentity(const SurfacePose& pose) {

@@ -36,8 +36,14 @@ std::string facingComplaint();
 /// @throw OptionsError if `facing` is unstated.
 HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing facing);
 
-/// A generated counter-surface as it is mounted, on the scan's grid, before its pose.
+/// A generated counter-surface as it is mounted, on the scan's grid, before its pose: drawn by
+/// itself, by the grid alone.
 /// @throw SurfaceError if the settings cannot be drawn on the scan's grid; the message names them.
+HeightMap drawnCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options);
+/// The same with what it shares with the scan; without a correlation as drawn.
+HeightMap fittedCounterSurface(const HeightMap& scan, const HeightMap& drawn,
+                               const CounterSurfaceOptions& options);
+/// Both.
 HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options);
 
 /// True if the pose leaves every surface where it is.
