@@ -55,15 +55,16 @@ void bringContactsToScan(const PreparedScan& prepared, Prediction& prediction) {
   }
 }
 
-void flagByScan(const PreparedScan& prepared, const Options& options, Prediction& prediction) {
-  prediction.short_waves = shortWaves(prepared.short_waves, options);
+void flagByScan(const PreparedScan& prepared, const ShortWaves& waves, Prediction& prediction) {
+  prediction.short_waves = waves;
   if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
 }
 
 MeasuredScan measuredScan(const PreparedScan& prepared, const Options& options) {
-  return {prepared.surfaces.lower.cellArea(), [prepared, options](Prediction& prediction) {
+  const ShortWaves waves = shortWaves(prepared.short_waves, options);
+  return {prepared.surfaces.lower.cellArea(), [prepared, waves](Prediction& prediction) {
             bringContactsToScan(prepared, prediction);
-            flagByScan(prepared, options, prediction);
+            flagByScan(prepared, waves, prediction);
           }};
 }
 

@@ -15,8 +15,9 @@ namespace mems_stiction {
 /// Contacts from the model's pixels to those of the scan.
 void bringContactsToScan(const PreparedScan& prepared, Prediction& prediction);
 
+/// - @p waves of prepared.short_waves, under the settings of the prediction
 /// - @p prediction its contacts on the pixels of the scan
-void flagByScan(const PreparedScan& prepared, const Options& options, Prediction& prediction);
+void flagByScan(const PreparedScan& prepared, const ShortWaves& waves, Prediction& prediction);
 
 /// Both, for contacts of prepared.model_surfaces, and the pixels that were measured.
 MeasuredScan measuredScan(const PreparedScan& prepared, const Options& options);

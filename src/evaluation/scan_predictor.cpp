@@ -103,7 +103,7 @@ Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& pr
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
   countBelowTip(prepared.tip_limit, prediction);
-  flagByScan(prepared, options_, prediction);
+  flagByScan(prepared, shortWaves(prepared.short_waves, options_), prediction);
   prediction.processing_time += prepared.preparation_time;
   return std::move(prediction);
 }

@@ -19,6 +19,10 @@ AdhesionLaw adhesionLaw(const InterfaceOptions& interface, const Material& lower
           LayeredAttraction(1.0, CoatedBody(), CoatedBody(), interface.retardation_length)};
 }
 
+FieldLaw fieldLaw(double voltage, const InterfaceOptions& interface) {
+  return {voltage, interface.insulator_thickness, interface.insulator_relative_permittivity};
+}
+
 double forceRange(const InterfaceOptions& interface, const Material& lower, const Material& upper) {
   return adhesionLaw(interface, lower, upper).range();
 }

@@ -21,6 +21,10 @@ CoatedBody coatedBody(const Material& body);
 AdhesionLaw adhesionLaw(const InterfaceOptions& interface, const Material& lower,
                         const Material& upper);
 
+/// The field of a potential across gap and insulator.
+/// - @p voltage U [V]
+FieldLaw fieldLaw(double voltage, const InterfaceOptions& interface);
+
 /// z0 [m], > 0, the distance at which flat surfaces neither attract nor repel each other.
 double forceRange(const InterfaceOptions& interface, const Material& lower, const Material& upper);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "loads/force_range.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/packet.hpp"
 #include "settings/time_limit.hpp"
@@ -49,8 +50,7 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings, co
   settings_ = &settings;
   patch_forces_.emplace(settings, field.cellArea(), flows);
   wider_law_.emplace(withMoreHamaker(settings));
-  voltage_.emplace(settings.load.fieldVoltage(), settings.interface.insulator_thickness,
-                   settings.interface.insulator_relative_permittivity);
+  voltage_.emplace(fieldLaw(settings.load.fieldVoltage(), settings.interface));
   water_ = settings.capillary.law();
   dales_.start(field);
   ordered_fraction_ = kFirstFraction;

@@ -196,6 +196,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
   Packet edge_losses = 0.0;
   Packet edge_slopes = 0.0;
   Packet widths = 0.0;
+  const double strongest_gap = law_.strongestGap();
   PatchBlock block;
   for (std::size_t place = 0; place < in_reach.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(in_reach, place);
@@ -204,7 +205,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
       const Packet first_gap = Packet::load(block.first_gap + i);
       const Packet overlap =
           greater(reach - Packet::load(block.gap_sum + i) / cells, Packet(kLeastDepth));
-      const Packet depth = overlap + law_.strongestGap();
+      const Packet depth = overlap + strongest_gap;
       const Packet radius = cells * cell_area_ / (4.0 * kPi * depth);
       const Packet distance = greater(first_gap - approach, Packet(0.0));
       const Packet weight = Packet::load(block.weight + i) * radius * law_.energy(distance);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "loads/force_range.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
 #include "chosen_constants.hpp"
@@ -79,8 +80,7 @@ void PlateTilt::addPatches(Balance& balance) {
 void PlateTilt::addAttraction(const ContactSettings& settings, Balance& balance) {
   const SeparationState& rest = curve_.rest();
   const ContactTraction& law = curve_.frame().law();
-  const FieldLaw field(settings.load.fieldVoltage(), settings.interface.insulator_thickness,
-                       settings.interface.insulator_relative_permittivity);
+  const FieldLaw field = fieldLaw(settings.load.fieldVoltage(), settings.interface);
   const WaterLaw water = settings.capillary.law();
   Balance adhesion;
   Balance loads;

@@ -6,6 +6,7 @@
 
 #include "contact/prepared_maps.hpp"
 #include "deformation/modified_topography.hpp"
+#include "loads/force_range.hpp"
 #include "mechanics/transition.hpp"
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
@@ -81,10 +82,8 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
   if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio))
     return std::nullopt;
-  const InterfaceOptions& interface = problem.settings.interface;
-  const FieldLaw lasting_field(problem.settings.load.contact_potential,
-                               interface.insulator_thickness,
-                               interface.insulator_relative_permittivity);
+  const FieldLaw lasting_field =
+      fieldLaw(problem.settings.load.contact_potential, problem.settings.interface);
   conforming_.start(problem.gap, law, lasting_field, curve_.frame().patchForces().contactModulus(),
                     solution.flattening_energy);
   if (!conforming_.holds()) return std::nullopt;

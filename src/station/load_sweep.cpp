@@ -47,8 +47,7 @@ void addListViolations(const std::string& name, const std::vector<double>& value
 double holdingField(const DeviceOptions& device, const InterfaceOptions& interface,
                     const RemainingState& state, const Prediction& contact) {
   if (device.electrode_area <= 0.0)
-    return (1.0 - state.lasting_field_share) * state.electrostatic_force * device.contact_area /
-           contact.nominal_area;
+    return state.voltageForce() * device.contact_area / contact.nominal_area;
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
   return device.electrode_area *
          surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
@@ -74,7 +73,7 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
     const FieldHold field = fieldHold(beam, *electrode, state.voltage, contact.mean_gap);
     shares += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
   } else {
-    shares += shareOfForce((1.0 - state.lasting_field_share) * state.electrostatic_force);
+    shares += shareOfForce(state.voltageForce());
   }
   return 1.0 / shares;
 }

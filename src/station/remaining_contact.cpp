@@ -53,12 +53,12 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
   state.voltage = voltage;
   state.mechanical_load = mechanical_load;
   state.lasting_field_share = options.load.lastingFieldShare();
+  const double field_voltage = options.load.fieldVoltage();
   const bool is_within = std::abs(voltage) <= largest_voltage_ && mechanical_load <= largest_load_;
   if (!has_contact_ || !is_within) {
     Prediction prediction = model_.predict(surfaces_);
     largest_voltage_ = std::max(largest_voltage_, std::abs(voltage));
     largest_load_ = std::max(largest_load_, mechanical_load);
-    const double field_voltage = options.load.fieldVoltage();
     if (field_voltage != 0.0) {
       field_factor_ =
           std::max(field_factor_, prediction.electrostatic_force / (field_voltage * field_voltage));
@@ -93,7 +93,6 @@ RemainingState RemainingContact::advance(double voltage, double mechanical_load)
   }
   state.contact_area = contact_.contact_area;
   state.contact_fraction = contact_.contact_fraction;
-  const double field_voltage = options.load.fieldVoltage();
   state.electrostatic_force = field_factor_ * field_voltage * field_voltage;
   const double attraction =
       contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;

@@ -41,6 +41,9 @@ struct RemainingState {
   double contact_area_jkr = 0.0;  ///< sum pi a_i^2 at this load [m^2]
   bool is_searched =
       false;  ///< the equilibrium was searched at this load; else the contact was held
+
+  /// What of the field's force goes with the voltage [N].
+  double voltageForce() const { return (1.0 - lasting_field_share) * electrostatic_force; }
 };
 
 /// A contact that was made, while loads change.
