@@ -3,13 +3,13 @@
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "configuration/named_files.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "settings/option_yaml.hpp"
 #include "settings/yaml_text.hpp"
 
@@ -20,10 +20,7 @@ Configuration configurationFromYaml(const YAML::Node& tree, const Configuration&
   std::vector<std::string> violations =
       readYaml(tree, [&configuration](OptionVisitor& visitor) { configuration.describe(visitor); });
   // Combinations of settings; ranges are found by both and named once.
-  for (const std::string& line : configuration.validate()) {
-    if (std::find(violations.begin(), violations.end(), line) == violations.end())
-      violations.push_back(line);
-  }
+  addMissing(configuration.validate(), violations);
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return configuration;
 }

@@ -12,6 +12,7 @@
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/median.hpp"
+#include "numeric/words.hpp"
 #include "prediction/area_adhesion.hpp"
 
 namespace mems_stiction {
@@ -162,10 +163,7 @@ DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area,
                                    const DevicePieces& pieces)
     : model_(model), loaded_area_(loaded_area), pieces_(pieces) {}
 
-void DeviceAreaSolver::warnOnce(const std::string& warning) {
-  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
-    warnings_.push_back(warning);
-}
+void DeviceAreaSolver::warnOnce(const std::string& warning) { addMissing({warning}, warnings_); }
 
 Realisation DeviceAreaSolver::realise(DeviceSurface& surface) {
   return realise({this}, surface).front();

@@ -98,10 +98,4 @@ std::vector<std::string> predictionWarnings(const PreparedScan& prepared,
   return lines;
 }
 
-void addForceWarnings(const std::vector<std::string>& of_force, std::vector<std::string>& lines) {
-  for (const std::string& line : of_force) {
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-  }
-}
-
 }  // namespace mems_stiction

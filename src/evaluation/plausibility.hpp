@@ -36,7 +36,4 @@ std::vector<std::string> predictionWarnings(const PreparedScan& prepared,
                                             const Configuration& configuration,
                                             const Prediction& prediction, const Options& options);
 
-/// Those of the device's force after them, each sentence once.
-void addForceWarnings(const std::vector<std::string>& of_force, std::vector<std::string>& lines);
-
 }  // namespace mems_stiction

@@ -62,6 +62,18 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void addMissing(const std::vector<std::string>& more, std::vector<std::string>& lines) {
+  for (const std::string& line : more) {
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+}
+
 std::vector<std::string> wordsOf(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());

@@ -24,6 +24,12 @@ bool endsWith(std::string_view text, std::string_view end);
 /// With `with` for every `what`.
 std::string replaced(std::string text, const std::string& what, const std::string& with);
 
+/// One after the other, with commas between them.
+std::string listed(const std::vector<std::string>& words);
+
+/// Appends the lines that are not there yet.
+void addMissing(const std::vector<std::string>& more, std::vector<std::string>& lines);
+
 /// What stands between blanks and line ends.
 std::vector<std::string> wordsOf(const std::string& text);
 

@@ -28,6 +28,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "numeric/words.hpp"
 #include "prediction/force_curve.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
@@ -90,7 +91,7 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = predicted->extras.device_force.emplace();
       evidence = evidenceOfScan(prepared, configuration, Cancellation(cancel), &force);
-      addForceWarnings(force.warnings, predicted->extras.warnings);
+      addMissing(force.warnings, predicted->extras.warnings);
     }
     SolvedHalfSpace solution;
     const HalfSpaceCall call =

@@ -17,6 +17,7 @@
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "ros/checked_messages.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/scan_folders.hpp"
@@ -340,10 +341,7 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
   violations = readYaml(ours, describe);
   placeNamedFiles(beside, std::filesystem::current_path(), configuration.core);
   // Combinations of settings; ranges are found by both and named once.
-  for (const std::string& line : configuration.core.validate()) {
-    if (std::find(violations.begin(), violations.end(), line) == violations.end())
-      violations.push_back(line);
-  }
+  addMissing(configuration.core.validate(), violations);
   if (!configuration.node.transform.frame.empty() &&
       !isIdentity(configuration.core.counter_surface.pose)) {
     violations.push_back(

@@ -1,9 +1,11 @@
 #include "mems_stiction/settings/option_visitor.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 
@@ -74,13 +76,9 @@ void OptionValidator::text(const std::string& /*key*/, std::string& /*value*/,
 void OptionValidator::choice(const std::string& key, std::string& value,
                              const std::vector<std::string>& names,
                              const std::string& /*meaning*/) {
-  std::string allowed;
-  for (const std::string& name : names) {
-    if (name == value) return;
-    allowed += (allowed.empty() ? "" : ", ") + name;
-  }
+  if (std::find(names.begin(), names.end(), value) != names.end()) return;
   violations_.push_back(key + ": '" + shortened(value, kLongestQuotation) +
-                        "' is not allowed, must be one of: " + allowed);
+                        "' is not allowed, must be one of: " + listed(names));
 }
 
 std::string numberText(double value) {

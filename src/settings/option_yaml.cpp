@@ -338,9 +338,7 @@ class YamlWriter : public OptionVisitor {
   }
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
               const std::string& meaning) override {
-    std::string allowed;
-    for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
-    line(key, quoted(value), meaning + "; one of: " + allowed);
+    line(key, quoted(value), meaning + "; one of: " + listed(names));
   }
 
   const std::string& text() const { return text_; }

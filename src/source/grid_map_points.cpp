@@ -9,6 +9,7 @@
 #include "errors/short_number.hpp"
 #include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "source/cloud_points.hpp"
 
 namespace mems_stiction {
@@ -60,11 +61,9 @@ LayerLayout layoutOf(const std::string& name, const std_msgs::Float32MultiArray&
 cv::Mat layerOf(const GridMapMessage& map, const std::string& name) {
   const auto found = std::find(map.layers.begin(), map.layers.end(), name);
   if (found == map.layers.end()) {
-    std::string names;
-    for (const std::string& one : map.layers) names += (names.empty() ? "" : ", ") + one;
-    throw SurfaceError(
-        "the grid map has no layer " + quoted(name) + ", but " +
-        (names.empty() ? "none at all" : shortened(oneLine(names), kLongestQuotation)));
+    const std::string names = shortened(oneLine(listed(map.layers)), kLongestQuotation);
+    throw SurfaceError("the grid map has no layer " + quoted(name) + ", but " +
+                       (names.empty() ? "none at all" : names));
   }
   const std_msgs::Float32MultiArray& array =
       map.data[static_cast<std::size_t>(found - map.layers.begin())];

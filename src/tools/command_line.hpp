@@ -39,10 +39,14 @@ inline int& warningCount() {
   return count;
 }
 
+inline void printWarning(const std::string& path, const std::string& what) {
+  std::cerr << oneLine(path) << ": warning: " << oneLine(what) << "\n";
+}
+
 /// One line about a scan that goes on.
 inline void warn(const std::string& path, const std::string& what) {
   ++warningCount();
-  std::cerr << oneLine(path) << ": warning: " << oneLine(what) << "\n";
+  printWarning(path, what);
 }
 
 /// "M" or "MX,MY" into both pitches. @throw OptionsError

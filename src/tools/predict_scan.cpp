@@ -27,6 +27,7 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "numeric/words.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
 #include "scan_answer.hpp"
@@ -295,7 +296,7 @@ void predictScan(const std::string& path, const Arguments& arguments,
         return evidenceOfScan(prepared, configuration, tell, &force);
       });
       warnings.add(force.warnings);
-      addForceWarnings(force.warnings, extras.warnings);
+      addMissing(force.warnings, extras.warnings);
       if (evidence.device) {
         scale = DeviceScale{*evidence.device, prediction.pull_off_force,
                             prediction.apparent_work_of_adhesion};
@@ -369,11 +370,8 @@ int run(const Arguments& arguments) {
     requireOutputs(arguments);
     const bool answer_shows_them = answerShowsWarnings(formOf(arguments));
     for (const std::string& warning : settingsWarnings(configuration)) {
-      if (answer_shows_them) {
-        ++warningCount();
-      } else {
-        warn("predict_scan", warning);
-      }
+      ++warningCount();
+      if (!answer_shows_them) printWarning("predict_scan", warning);
     }
   } catch (const Error& error) {
     complain("predict_scan", error.what());

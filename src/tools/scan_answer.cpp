@@ -22,10 +22,6 @@ bool hasColours() {
          environmentText("TERM") != "dumb";
 }
 
-void printWarning(const std::string& path, const std::string& line) {
-  std::cerr << oneLine(path) << ": warning: " << oneLine(line) << "\n";
-}
-
 }  // namespace
 
 void printAnswer(AnswerForm form, const std::string& file, const HeightMap& scan,

@@ -1,4 +1,5 @@
 #include "verdict/regime_flags.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -109,10 +110,6 @@ std::vector<std::string> regimeFlagSentences(std::uint32_t flags, const std::str
   return list;
 }
 
-std::string regimeFlagNames(std::uint32_t flags) {
-  std::string text;
-  for (const std::string& name : regimeFlagList(flags)) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
+std::string regimeFlagNames(std::uint32_t flags) { return listed(regimeFlagList(flags)); }
 
 }  // namespace mems_stiction

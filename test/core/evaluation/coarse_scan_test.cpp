@@ -15,6 +15,7 @@
 #include "evaluation/scan_flags.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/words.hpp"
 #include "station/contact_cycles.hpp"
 #include "station/load_sweep.hpp"
 #include "surface/tiled_surface.hpp"
@@ -69,7 +70,7 @@ Verdict judged(const HeightMap& scan, const Configuration& configuration) {
   const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
                                     configuration.model, prepared.surfaces.lower.cellArea(),
                                     evidenceOfScan(prepared, configuration, {}, &force));
-  addForceWarnings(force.warnings, warnings);
+  addMissing(force.warnings, warnings);
   const bool is_unresolved = (verdict.regime_flags & kUnresolvedFlag) != 0;
   const auto said = std::count_if(warnings.begin(), warnings.end(), [](const std::string& line) {
     return line.find("what holds") != std::string::npos;
