@@ -1,10 +1,12 @@
 #include "source/source_options.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "ros/parameters.hpp"
 #include "settings/option_yaml.hpp"
 #include "settings/yaml_text.hpp"
@@ -29,10 +31,10 @@ void takeScanOfConfiguration(YAML::Node& tree) {
   const std::string file = config["file"].as<std::string>("config/text");
   const YAML::Node stated = parseYaml(config["text"].as<std::string>(""), file);
   tree.remove("config");
-  if (!stated.IsMap() || !stated["scan"].IsDefined() || !stated["scan"].IsMap()) return;
-  for (const auto& entry : stated["scan"]) {
-    const auto key = entry.first.as<std::string>("");
-    if (!tree["scan"][key].IsDefined()) tree["scan"][key] = entry.second;
+  const std::vector<std::string> own = keysOf(tree);
+  for (const auto& [key, value] : statedIn(stated)) {
+    if (startsWith(key, "scan/") && std::find(own.begin(), own.end(), key) == own.end())
+      tree[key] = value;
   }
 }
 

@@ -27,6 +27,10 @@ TEST(SourceOptions, ScansOfTheNodesConfigurationServeBehindItsOwn) {
       withConfiguration("{folder: /data, scan: {pitch_x: 5e-8, pitch_y: 5e-8}}", config));
   EXPECT_DOUBLE_EQ(own.scan.pitch_x, 5e-8);
   EXPECT_DOUBLE_EQ(own.scan.height_scale, 1e-9);
+  const SourceOptions flat = statedSourceOptions(withConfiguration(
+      "{folder: /data, scan: {pitch_x: 5e-8}}", "{scan/pitch_x: 2e-8, scan/pitch_y: 3e-8}"));
+  EXPECT_DOUBLE_EQ(flat.scan.pitch_x, 5e-8);
+  EXPECT_DOUBLE_EQ(flat.scan.pitch_y, 3e-8);
   for (const char* without : {"", "lower: {hardness: 1e9}", "scan:"}) {
     EXPECT_EQ(statedSourceOptions(withConfiguration("folder: /data", without)).scan.pitch_x, 0.0);
   }
