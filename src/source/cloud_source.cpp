@@ -23,9 +23,6 @@ constexpr double kLookPeriod = 0.02;
 constexpr char kPointsTopic[] = "points";
 constexpr char kGridMapTopic[] = "grid_map";
 
-const std_msgs::Header& headerOf(const sensor_msgs::PointCloud2& cloud) { return cloud.header; }
-const std_msgs::Header& headerOf(const GridMapMessage& map) { return map.header; }
-
 /// Of a message in the books: its stamp and frame.
 std::string nameOf(const char* kind, const std_msgs::Header& header) {
   PlainStream text;
@@ -60,7 +57,7 @@ ros::Subscriber CloudSource::subscribe(ros::NodeHandle& handle, const char* topi
   return subscribeChecked<Message>(
       handle, topic, kSubscriberQueue,
       {[this, kind, points_of](const boost::shared_ptr<const Message>& message) {
-         const std_msgs::Header& header = headerOf(*message);
+         const std_msgs::Header& header = message->header;
          take({header, nameOf(kind, header), [message, points_of] { return points_of(*message); },
                ros::SteadyTime::now()});
        },
@@ -95,7 +92,7 @@ void CloudSource::take(Waiting one) {
     countMissing(one.header.seq);
     line_.push_back(std::move(one));
     if (line_.size() > static_cast<std::size_t>(options_.points.queue_size)) {
-      dropped = line_.front();
+      dropped = std::move(line_.front());
       line_.pop_front();
     }
     countWaiting();
@@ -125,7 +122,7 @@ bool CloudSource::work() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!at_hand_) {
-      at_hand_ = line_.front();
+      at_hand_ = std::move(line_.front());
       line_.pop_front();
     }
   }
@@ -153,10 +150,11 @@ bool CloudSource::work() {
 void CloudSource::publish(const Waiting& one) {
   const std_msgs::Header& header = one.header;
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
+  std::optional<geometry_msgs::Transform> transform;  // before work that is in vain without it
+  if (transforms_) transform = transforms_->at(options_.points.frame, header.frame_id, stamp);
   cv::Mat points = one.points();
   dropUnmeasured(points, options_.points.map);
-  if (transforms_)
-    transformPoints(transforms_->at(options_.points.frame, header.frame_id, stamp), points);
+  if (transform) transformPoints(*transform, points);
   const CloudMap map = mapOfPoints(points, options_.points.map);
   for (const std::string& note : map.notes)
     logSoon(ros::console::levels::Info, one.name + ": " + note);

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include <ros/ros.h>
@@ -32,11 +32,11 @@ void requestEnd(int /*signal*/) {
   if (is_serving == 0) ros::requestShutdown();  // roscpp waits for a master that is not there
 }
 
+/// What a handler writes, which may not put texts together.
+std::string end_text;
+
 void endAtOnce(int /*signal*/) {
-  constexpr std::string_view kText =
-      "the node ends without having finished: a master that does not answer, or a long prediction; "
-      "the master may still hold its name\n";
-  const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
+  const ssize_t written = write(STDERR_FILENO, end_text.data(), end_text.size());
   _exit(written < 0 ? EXIT_FAILURE : EXIT_SUCCESS);
 }
 
@@ -81,6 +81,9 @@ int run(int argc, char** argv, const NodeProgram& program) {
     return kBadInput;
   }
   ros::init(argc, argv, program.name, ros::init_options::NoSigintHandler);
+  end_text = std::string(program.what) +
+             " ends without having finished: a master that does not answer, or work that takes "
+             "long; the master may still hold its name\n";
   std::signal(SIGALRM, endAtOnce);
   std::signal(SIGINT, requestEnd);
   shutDownOn(SIGTERM);

@@ -10,7 +10,6 @@
 #include "ros/source/cloud_cases.hpp"
 #include "source/cloud_grid.hpp"
 #include "source/cloud_points.hpp"
-#include "source/cloud_source.hpp"
 
 namespace mems_stiction {
 namespace {
