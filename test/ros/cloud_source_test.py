@@ -133,7 +133,7 @@ class CloudTest(unittest.TestCase):
             lambda: sensor.get_num_connections() and frames.get_num_connections(),
             "the source to listen",
         )
-        wait_until(lambda: counts["found"] == "0" and not counts["hindered_by"], "listeners")
+        counts.wait_for_listeners()
         stamp = rospy.Time(2000)
         sensor.publish(snapshot(field(4), stamp))
         counts.wait(waiting=1)
@@ -171,7 +171,7 @@ class CloudTest(unittest.TestCase):
         counts = source_counts("map/source")
         maps = rospy.Publisher("/map/grid_map", GridMap, queue_size=10)
         wait_until(maps.get_num_connections, "the source to listen")
-        wait_until(lambda: counts["found"] == "0" and not counts["hindered_by"], "listeners")
+        counts.wait_for_listeners()
         expected = field(6)
         expected[4, 7] = np.nan
         maps.publish(grid_map(expected, rospy.Time(4000, 7), start=(5, 17)))

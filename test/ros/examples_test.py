@@ -108,9 +108,7 @@ class Example:
         test.addCleanup(self.page.close)
         self.page.open(address.search(told.read_text()).group(1))
         self.page.wait("state && state.link.level === 'ok'")
-        wait_until(
-            lambda: self.counts["found"] and not self.counts["hindered_by"], "the node to listen"
-        )
+        self.counts.wait_for_listeners()
 
     def end(self):
         if self._process.poll() is None:

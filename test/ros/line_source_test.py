@@ -64,7 +64,7 @@ class Scanner:
             parameters["motion"], []
         )
         wait_until(lambda: all(one.get_num_connections() for one in used), "the source to listen")
-        wait_until(lambda: self.counts["found"] and not self.counts["hindered_by"], "listeners")
+        self.counts.wait_for_listeners()
 
     def send(self, rows, first=1000.0, period=0.01, **how):
         """The lines of the map, from the lowest y up, as the stage moves along y; 40 are one
@@ -228,9 +228,7 @@ class LinesTest(unittest.TestCase):
                 counts = source_counts()
                 sensor = rospy.Publisher("/profiles", PointCloud2, queue_size=1000)
                 wait_until(sensor.get_num_connections, "the source to listen")
-                wait_until(
-                    lambda: counts["found"] and not counts["hindered_by"], "the node to listen"
-                )
+                counts.wait_for_listeners()
                 for number, heights in enumerate(lines_of(6)[::-1]):
                     sensor.publish(line(heights, rospy.Time.from_sec(1000.0 + 0.01 * number)))
                 prediction = predictions.wait(1)[0]

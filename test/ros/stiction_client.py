@@ -242,9 +242,17 @@ class Counts:
             raise AssertionError("%s; they are %s" % (error, self._values))
 
 
-def source_counts(node="scan_source"):
+class SourceCounts(Counts):
     """The books of a scan_source."""
-    return Counts(node, "scan_source")
+
+    def wait_for_listeners(self):
+        wait_until(
+            lambda: self["found"] and not self["hindered_by"], "whoever listens to the source"
+        )
+
+
+def source_counts(node="scan_source"):
+    return SourceCounts(node, "scan_source")
 
 
 class Station:
