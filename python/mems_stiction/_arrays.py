@@ -100,9 +100,7 @@ def is_data_array(heights: Any) -> bool:
 
 
 def _factor_of(unit: Any, what: str, whose: str) -> float:
-    """Metres of a unit of length; a number without one is in metres. Raises SurfaceError."""
-    if unit is None or unit == "":
-        return 1.0
+    """Metres of a unit of length. Raises SurfaceError."""
     factor = METRES.get(unit) if isinstance(unit, str) else None
     if factor is None:
         raise SurfaceError(
@@ -110,6 +108,12 @@ def _factor_of(unit: Any, what: str, whose: str) -> float:
             % (what, unit, whose, ", ".join(METRES))
         )
     return factor
+
+
+def _factor_of_attributes(attributes: Any, what: str, whose: str) -> float:
+    """The same of xarray's; numbers without a unit are in metres."""
+    unit = attributes.get("units", attributes.get("unit"))
+    return 1.0 if unit is None or unit == "" else _factor_of(unit, what, whose)
 
 
 def _of_data_array(array: Any, pitch: Optional[Pitch], settings: Settings, what: str) -> Surface:
@@ -125,7 +129,7 @@ def _of_data_array(array: Any, pitch: Optional[Pitch], settings: Settings, what:
             "%s: numbers with %s are not heights; open the file with decode_cf=True"
             % (what, " and ".join(packed))
         )
-    factor = _factor_of(array.attrs.get("units", array.attrs.get("unit")), what, "the heights")
+    factor = _factor_of_attributes(array.attrs, what, "the heights")
     placed = [name for name in ("x", "y") if name in array.coords]
     if placed and pitch is not None:
         raise SurfaceError(
@@ -150,7 +154,7 @@ def _of_data_array(array: Any, pitch: Optional[Pitch], settings: Settings, what:
 
 def _pitch_along(places: Any, what: str, axis: str) -> float:
     """Of evenly spaced coordinates [m]. Raises SurfaceError."""
-    factor = _factor_of(places.attrs.get("units", places.attrs.get("unit")), what, axis)
+    factor = _factor_of_attributes(places.attrs, what, axis)
     steps = np.diff(np.asarray(places.values, dtype=float)) * factor
     if not len(steps) or not np.allclose(steps, steps.mean(), rtol=1e-6, atol=0.0):
         raise SurfaceError(
@@ -181,12 +185,7 @@ def _of_topography(
         raise SurfaceError(
             "%s: the topography states no unit; must be one of: %s" % (what, ", ".join(METRES))
         )
-    factor = METRES.get(unit) if isinstance(unit, str) else None
-    if factor is None:
-        raise SurfaceError(
-            "%s: the unit '%s' of the topography is not allowed, must be one of: %s"
-            % (what, unit, ", ".join(METRES))
-        )
+    factor = _factor_of(unit, what, "the topography")
     if sizes is not None and heights.size:
         pitches = _pitch_of_sizes(sizes, heights.shape, factor)
     else:

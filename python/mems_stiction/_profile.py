@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 import warnings
 from typing import Any, Optional, Tuple
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from mems_stiction import _core
 from mems_stiction._arrays import Surface, pitch_of
-from mems_stiction._scans import Scan
+from mems_stiction._scans import Scan, shape_of
 from mems_stiction._settings import SurfaceError
 from mems_stiction._warnings import ScanWarning
 from mems_stiction.other_packages import require_package
@@ -55,7 +54,8 @@ def surface_of_profile(
             "kind: %r is not allowed, must be one of %s" % (kind, ", ".join(map(repr, KINDS)))
         )
     columns = len(line) if kind == "grooves" else min(len(line), MOST_ROWS)
-    rows, columns = _checked_shape(shape, (min(len(line), MOST_ROWS), columns))
+    usual = (min(len(line), MOST_ROWS), columns)
+    rows, columns = usual if shape is None else shape_of(shape, range(8, 2**15), "from 8 to 32767")
     if kind == "grooves":
         if columns > len(line):
             raise SurfaceError(
@@ -86,21 +86,6 @@ def _checked_line(heights: Any) -> np.ndarray:
             % (missing, len(line))
         )
     return line
-
-
-def _checked_shape(shape: Optional[Tuple[int, int]], usual: Tuple[int, int]) -> Tuple[int, int]:
-    if shape is None:
-        return usual
-    try:
-        rows, columns = (operator.index(count) for count in shape)
-    except (TypeError, ValueError):
-        rows = columns = 0
-    if not (8 <= rows < 2**15 and 8 <= columns < 2**15):
-        raise SurfaceError(
-            "shape: %r is not allowed, must be (rows, columns), both integers from 8 to 32767"
-            % (shape,)
-        )
-    return rows, columns
 
 
 def _isotropic(line: np.ndarray, pitch: float, rows: int, columns: int, seed: int) -> np.ndarray:

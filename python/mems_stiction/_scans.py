@@ -209,6 +209,19 @@ def clean(
     return cleaned
 
 
+def shape_of(shape: Any, allowed: range, words: str) -> Tuple[int, int]:
+    """(rows, columns), both allowed. Raises SurfaceError that says so by these words."""
+    try:
+        rows, columns = (operator.index(count) for count in shape)
+        if rows in allowed and columns in allowed:
+            return rows, columns
+    except (TypeError, ValueError):
+        pass
+    raise SurfaceError(
+        "shape: %r is not allowed, must be (rows, columns), both integers %s" % (shape, words)
+    )
+
+
 def generate(
     shape: Tuple[int, int], pitch: Pitch, config: Optional[Config] = None, **settings: Any
 ) -> Scan:
@@ -222,14 +235,7 @@ def generate(
     Raises OptionsError for another type than gaussian or self_affine, SurfaceError for lengths that
     the grid cannot have.
     """
-    try:
-        rows, columns = (operator.index(count) for count in shape)
-    except (TypeError, ValueError):
-        rows = columns = 0
-    if not (1 <= rows < 2**31 and 1 <= columns < 2**31):
-        raise SurfaceError(
-            "shape: %r is not allowed, must be (rows, columns), both integers >= 1" % (shape,)
-        )
+    rows, columns = shape_of(shape, range(1, 2**31), ">= 1")
     checked = Settings(config, **settings)
     return Scan(
         Surface(_core.generate(rows, columns, *pitch_of(pitch), checked._configuration), "", False)

@@ -3,14 +3,11 @@ device has no end."""
 
 import os
 import pathlib
+import re
 import stat
 from typing import Optional, Union
 
-OPEN_STREAMS = (
-    "/dev/std",
-    "/dev/fd/",
-    "/proc/self/fd/",
-)  # what the shell has opened, perhaps a pipe
+_OPEN = re.compile(r"/dev/(stdin|stdout|stderr|fd/\d+)|/proc/self/fd/\d+")  # of this process
 
 
 class UnfitFile(Exception):
@@ -32,6 +29,12 @@ def require_file(path: Union[str, pathlib.Path], what: str, most: Optional[int] 
         raise UnfitFile("has %d bytes, more than the %d of %s" % (status.st_size, most, what))
 
 
+def is_open_file(path: Union[str, pathlib.Path]) -> bool:
+    """Whether a path names what this process was given, as /dev/stdout does: a pipe, a terminal or
+    a file that others write to as well."""
+    return _OPEN.fullmatch(str(path)) is not None
+
+
 def is_open_pipe(path: Union[str, pathlib.Path]) -> bool:
     """Whether it is a pipe that the shell has opened, as by <(...): its writer is there."""
-    return str(path).startswith(OPEN_STREAMS) and stat.S_ISFIFO(os.stat(str(path)).st_mode)
+    return is_open_file(path) and stat.S_ISFIFO(os.stat(str(path)).st_mode)

@@ -93,9 +93,7 @@ def write_csv(stream, names, rows, is_for_excel=False):
 
 def _excel_cell(value):
     text = _cell(value)
-    if isinstance(value, float) and not isinstance(value, bool) or isinstance(value, Stamp):
-        return str(text).replace(".", ",")
-    return text
+    return str(text).replace(".", ",") if isinstance(value, (float, Stamp)) else text
 
 
 def _cell(value):

@@ -4,11 +4,12 @@ import contextlib
 import errno
 import os
 import pathlib
-import re
 import secrets
 import shutil
 import sys
 import tempfile
+
+from mems_stiction.input_file import is_open_file
 
 
 class CannotWrite(OSError):
@@ -55,15 +56,6 @@ def refuse_pipe(path):
     """Raises OSError for a pipe, which would wait for somebody who reads it, or a socket."""
     if path.is_fifo() or path.is_socket():
         raise OSError(errno.EINVAL, "is a pipe or a socket, must be a file", str(path))
-
-
-_OPEN = re.compile(r"/dev/(stdin|stdout|stderr|fd/\d+)|/proc/self/fd/\d+")  # of this process
-
-
-def is_open_file(path):
-    """Whether a path names what this process was given, as /dev/stdout does: a pipe, a terminal or
-    a file that others write to as well."""
-    return _OPEN.fullmatch(str(path)) is not None
 
 
 @contextlib.contextmanager
