@@ -14,6 +14,12 @@ function prefixFor(value) {
   return found || PREFIXES[PREFIXES.length - 1];
 }
 
+/** A value in three digits, with the unit of a figure or an axis where it has one. */
+function ofFigure(value, figure) {
+  const [factor, prefix] = figure.unit ? prefixFor(value) : [1, ""];
+  return `${Number((value / factor).toPrecision(3))}${figure.unit ? ` ${prefix}${figure.unit}` : ""}`;
+}
+
 function element(name, attributes, text) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -124,11 +130,7 @@ function drawChart(svg, whole) {
 
 /** What a screen reader says of a chart: its axes, and where they end. */
 function wordsOf({x, y}) {
-  const end = (axis, value) => {
-    const [factor, prefix] = axis.unit ? prefixFor(value) : [1, ""];
-    return `${Number((value / factor).toPrecision(3))}${axis.unit ? ` ${prefix}${axis.unit}` : ""}`;
-  };
-  const words = (axis) => `${axis.label || "the same axis"} from ${end(axis, axis.low)} to ${end(axis, axis.high)}`;
+  const words = (axis) => `${axis.label || "the same axis"} from ${ofFigure(axis.low, axis)} to ${ofFigure(axis.high, axis)}`;
   return `Chart: ${words(y)} over ${words(x)}`;
 }
 

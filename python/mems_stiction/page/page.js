@@ -46,7 +46,6 @@ function show() {
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showDownloads();
   showTab();
-  attempt("title", tellVerdict);
 }
 
 /** The title carries the verdict, and a screen reader hears a new one. */
@@ -57,7 +56,7 @@ function tellVerdict() {
   const title = `${isStale ? "Old: " : ""}${word} \u00b7 ${TITLE}`;
   if (document.title !== title) document.title = title;
   const key = [word, isStale].join();
-  const scan = state && state.count;
+  const scan = state.count;
   if (told.word === key && (told.scan === scan || isStale || performance.now() - told.at < TELL_AGAIN)) return;
   told = {word: key, scan, at: performance.now()};
   const [label, ratio, interval] = ["ratio-label", "ratio-value", "ratio-interval"].map((id) => byId(id).textContent);
@@ -321,7 +320,7 @@ function showNode() {
 
 for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => { location.hash = button.dataset.tab; });
 document.querySelector("nav").addEventListener("keydown", followKeys);
-for (const box of document.querySelectorAll(".box")) box.addEventListener("click", () => { box.classList.toggle("unfolded"); showUnfolding(); if (state) show(); });
+for (const box of document.querySelectorAll(".box")) box.addEventListener("click", () => { box.classList.toggle("unfolded"); if (state) show(); else showUnfolding(); });
 addPictureButtons();
 window.addEventListener("hashchange", showTab);
 window.addEventListener("resize", () => { if (state) show(); });

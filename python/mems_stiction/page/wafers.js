@@ -182,7 +182,6 @@ function drawWaferBar(figure) {
 
 // ---------------------------------------------------------------- parts side by side
 
-const UNIT_COLUMNS = ["part", "places", "median (middle half)", "each place", "sticks"];
 const unitOrder = (a, b) => a.name.localeCompare(b.name, undefined, {numeric: true});
 
 function drawUnits(figure) {
@@ -193,6 +192,7 @@ function drawUnits(figure) {
   const ofUnits = wafers.places.filter((place) => place.part !== null && place.values[figure.name] !== null);
   const isReleasing = !figure.unit;  // a margin or a peel number
   const limits = limitsOf(ofUnits.map((place) => place.values[figure.name]).concat(isReleasing ? [1] : []), true);
+  const head = byId("unit-table").tHead.rows[0];
   const rows = numbered.map((part) => {
     const of = part.figures[figure.name];
     const row = document.createElement("tr");
@@ -203,18 +203,13 @@ function drawUnits(figure) {
     const cell = row.insertCell();
     cell.className = level;
     cell.textContent = text;
-    [...row.cells].forEach((one, column) => { one.dataset.label = UNIT_COLUMNS[column]; });
+    for (const one of row.cells) one.dataset.label = head.cells[one.cellIndex].textContent;
     return [row, () => drawStrip(strip, ofUnits.filter((place) => place.part === part.number), of.median, figure, limits, isReleasing)];
   });
   byId("units").replaceChildren(...rows.map(([row]) => row));
   for (const [, draw] of rows) draw();
   say("unit-keys", `Dots are places, the upright is their median${isReleasing ? ", the dashed line 1: sticks below" : ""}; from ${ofFigure(limits.low, figure)} to ${
       ofFigure(limits.high, figure)}${limits.log ? ", by ratios" : ""}.`);
-}
-
-function ofFigure(value, figure) {
-  const [factor, prefix] = figure.unit ? prefixFor(value) : [1, ""];
-  return `${Number((value / factor).toPrecision(3))}${figure.unit ? ` ${prefix}${figure.unit}` : ""}`;
 }
 
 /** What the node says of the part; else the verdicts on its places. */
