@@ -17,33 +17,26 @@ import time
 
 import numpy as np
 import rospy
+import soak
 import tornado.websocket
-from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import StictionPrediction
-from stiction_client import Counts, wait_until
+from stiction_client import Counts, source_counts, wait_until
 
 TABS = 4
 PAUSE = 4.0  # between files [s], so that a device has its force before the next scan
 SETTLED = 1.0 / 3.0  # share of the time after which caches and heaps are as large as they become
-SHARE_OF_GROWTH = 1.25
-MORE_HANDLES = 8
 PROGRAMS = ("stiction_node", "scan_source", "station_page", "watch_drift", "record")
 
 
-class Process:
-    """Of one program of the station."""
+class Program(soak.Process):
+    """One of the station."""
 
     def __init__(self, pid):
-        self._folder = "/proc/%d/" % pid
+        super().__init__(pid)
         self.samples = []
 
     def sample(self):
-        """Resident memory [MB], handles, threads."""
-        with open(self._folder + "status") as status:
-            memory = next(int(line.split()[1]) / 1024 for line in status if "VmRSS" in line)
-        self.samples.append(
-            (memory, len(os.listdir(self._folder + "fd")), len(os.listdir(self._folder + "task")))
-        )
+        self.samples.append((self.memory(), self.handles(), self.threads()))
 
     def wrong(self):
         """What has grown, in words."""
@@ -51,10 +44,10 @@ class Process:
         early = np.max(self.samples[:first], axis=0)
         late = np.max(self.samples[-first:], axis=0)
         found = []
-        if late[0] > SHARE_OF_GROWTH * early[0] and late[0] > early[0] + 20.0:
+        if late[0] > soak.SHARE_OF_GROWTH * early[0] and late[0] > early[0] + 20.0:
             found.append("memory from %.0f to %.0f MB" % (early[0], late[0]))
         for place, name in ((1, "handles"), (2, "threads")):
-            if late[place] > early[place] + MORE_HANDLES:
+            if late[place] > early[place] + soak.MORE_HANDLES:
                 found.append("%s from %d to %d" % (name, early[place], late[place]))
         return found
 
@@ -81,7 +74,7 @@ def processes_below(group):
         if above == group:
             for name in PROGRAMS:
                 if name in names[pid]:
-                    found[name] = Process(pid)
+                    found[name] = Program(pid)
     return found
 
 
@@ -149,13 +142,6 @@ class Instrument:
             self.good += 1
 
 
-def source_counts(message):
-    for status in message.status:
-        if status.name.startswith("scan_source"):
-            return {value.key: value.value for value in status.values}
-    return None
-
-
 def main(group, folder, port, minutes, seed):
     rospy.init_node("soak", disable_signals=True)
     counts = Counts()
@@ -166,12 +152,9 @@ def main(group, folder, port, minutes, seed):
         lambda message: published.append(message.header.stamp),
         queue_size=1000,
     )
-    source = {}
-    rospy.Subscriber(
-        "/diagnostics", DiagnosticArray, lambda message: source.update(source_counts(message) or {})
-    )
+    source = source_counts()
     wait_until(lambda: len(processes_below(group)) == len(PROGRAMS), "all programs", 120.0)
-    wait_until(lambda: source, "the source to report")
+    wait_until(lambda: source["found"], "the source to report")
     processes = processes_below(group)
     tabs = [Tab(port) for _ in range(TABS)]
     for tab in tabs:
@@ -203,7 +186,7 @@ def main(group, folder, port, minutes, seed):
                 flush=True,
             )
     wait_until(lambda: len(published) >= instrument.good, "the last predictions", 120.0)
-    wait_until(lambda: source.get("waiting") == "0", "the source's last file", 60.0)
+    wait_until(lambda: source["waiting"] == "0", "the source's last file", 60.0)
     print("source:", {key: source[key] for key in ("found", "published", "refused", "waiting")})
     print(
         "%d good files, %d damaged, %d equal to the one before; tabs took %s states"
