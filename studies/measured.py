@@ -129,27 +129,14 @@ def effects_section(results):
         "| case | rms height | %s |" % " | ".join(variation.name for variation in shown),
         "|---|---|%s" % ("---|" * len(shown)),
     ]
-    near = []
     for case in map(case_of, cases.OF_EFFECTS):
         factors = [factors_of(results, case, variation) for variation in shown]
         for place, row in enumerate(zip(*factors)):
-            where = "%s, %s" % (case.key, rms_text(case, place))
             text.append(
                 "| %s | %s | %s |"
                 % (case.key, rms_text(case, place), " | ".join(number(factor) for factor in row))
             )
-            fitting = [
-                "*%s*" % variation.name
-                for variation, factor in zip(shown, row)
-                if 1.0 / cases.NEAR <= factor <= cases.NEAR
-            ]
-            near.append("%s: %s" % (where, ", ".join(fitting) if fitting else "none of them"))
-    return text + [
-        "",
-        "Within a factor of %g of what was measured are, for %s. The others are excluded by that "
-        "measurement if all else is as assumed." % (cases.NEAR, "; for ".join(near)),
-        "",
-    ]
+    return text + [""]
 
 
 def separation_rows(study):
@@ -245,16 +232,14 @@ def device_section(study):
     ]
     text += [
         "",
-        "What can be said now: %s. The interval is that of plates of the same statistics; what "
-        "roughness and constants leave open stands in [the table of "
-        "assumptions](#what-the-assumptions-move). The frames' force by area ignores that the "
-        "whole plate rests on few summits."
+        "%s. The frames' force by area ignores that the whole plate "
+        "rests on few summits."
         % (
-            "of the rms heights that were tried, the measured force lies within the 95 %% interval "
+            "Of the rms heights that were tried, the measured force lies within the 95 %% interval "
             "of the whole plate at %s alone"
             % " and ".join("%g nm" % round(rms_height * 1e9, 3) for rms_height in inside)
             if inside
-            else "the measured force lies outside of the 95 % interval of the whole plate for each "
+            else "The measured force lies outside of the 95 % interval of the whole plate for each "
             "of these rms heights"
         ),
         "",
@@ -281,9 +266,6 @@ def device_section(study):
             % (round(rms_height * 1e9, 3), " | ".join(micro(force) for force in forces), power)
         )
     text += [
-        "",
-        "Force proportional to area would be a power of 1. The measured scaling was not "
-        "available as a number, so only the trend can be compared.",
         "",
     ]
     return text
@@ -340,8 +322,7 @@ def beams_section(study, results):
     return text + [
         "",
         "A larger area rests on higher summits, so its work is below that of a "
-        "frame. A beam thin enough to follow the ground lies closer and holds "
-        "more. A beam shorter than its crack length comes off.",
+        "frame. A beam shorter than its crack length comes off.",
         "",
     ]
 
@@ -372,9 +353,7 @@ def page(study):
         "**This page shows an order of magnitude and a trend, no more.** A prediction needs "
         "roughness, correlation length, work of adhesion, Hamaker constant, humidity and area. No "
         "available source gives all of them, and most were read as abstracts. Missing values are "
-        "assumed; [a table](#what-the-assumptions-move) shows the effect of each assumption. How "
-        "far the model lies from the mechanics that it approximates is another question, with much "
-        "smaller numbers: [error map](trust.md).",
+        "assumed; [a table](#what-the-assumptions-move) shows the effect of each assumption.",
         "",
         "## Measured and predicted",
         "",
@@ -417,8 +396,7 @@ def page(study):
     text += [row for _, _, row in separations]
     text += [
         "",
-        "The work goes with D_ave to the power of %.2f. The excess over the planes' "
-        "work, from contacts and the uneven gap, is largest on the roughest surfaces."
+        "The work goes with D_ave to the power of %.2f."
         % exponent(separations),
         "",
         "## What the assumptions move",
@@ -440,10 +418,8 @@ def page(study):
     text += [
         "",
         "The rms height is that of both surfaces together: a source that gives one surface "
-        "leaves a factor open. A larger frame has a higher highest summit, which keeps the "
-        "surfaces further apart. Real plates are larger still, but not flat over their "
-        "length. Surfaces grown on each other fit each other, so their composite roughness "
-        "is smaller than either's (DelRio et al. 2005).",
+        "leaves a factor open. Surfaces grown on each other fit each other, so their composite "
+        "roughness is smaller than either's (DelRio et al. 2005).",
         "",
         "## Found, but not predicted",
         "",

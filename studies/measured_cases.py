@@ -246,7 +246,6 @@ EFFECTS = (
     ),
 )
 OF_EFFECTS = ("beams", "plates", "flat tips")  # of polysilicon or silicon under its oxide
-NEAR = 2.0  # a factor that assumptions leave open anyway
 
 # Measurements whose available text lacks the roughness, or the force.
 FOUND = (

@@ -31,7 +31,7 @@ UNTOUCHED = 5e-5  # smaller changes print as 0.0 %
 # Why a setting's default is what it is; what else there is to say. Numbers come from the study.
 PITCH = (
     "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` "
-    "makes them. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
+    "makes them, or *refined by N* (`preprocessing/refine/factor`).",
     "With coarser pixels the pull-off force is lost first, then the contact area, then the "
     "mean gap: radii need pixels. Aim at {min_contact_pixels:g} pixels in the median "
     "contact, below which `is_resolution_limited` is set.",
@@ -48,7 +48,7 @@ SETTINGS = {
     ),
     "approach/connectivity": (
         'The stricter reading of "connected"; hardly matters.',
-        "only contacts of few pixels differ.",
+        "",
     ),
     "approach/max_contact_fraction": (
         "Matters only [near bonding](#near-bonding), where it separates surfaces that rest from "
@@ -82,8 +82,7 @@ SETTINGS = {
     ),
     "approach/deformation": (
         "A choice of model too: real surfaces flow.",
-        "matters where Hertz's largest pressure exceeds the hardness; under `formulation: "
-        "paper` wherever the plasticity index is above 0.6.",
+        "",
     ),
 }
 YARDSTICKS = {
@@ -543,15 +542,11 @@ def page(study, figure, is_generated):
         "## Near bonding",
         "",
         "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction "
-        "closes them. Here are Gaussian ones with a correlation length of 80 nm, without "
-        "mechanical load.",
+        "closes them: Gaussian ones with a correlation length of 80 nm, without mechanical load.",
         "",
     ]
     lines += near_bonding_table(study)
     lines += [
-        "The limit matters only for the smoothest surface: bonded with a low limit, at rest "
-        "with a higher one, at nearly the same force.",
-        "",
         "## Samples of the interval",
         "",
         "The margin's 95 %% interval is drawn at random. The table gives its ends, as "
