@@ -265,9 +265,7 @@ def device_section(study):
             "| %g nm | %s | %.2f |"
             % (round(rms_height * 1e9, 3), " | ".join(micro(force) for force in forces), power)
         )
-    text += [
-        "",
-    ]
+    text += [""]
     return text
 
 
@@ -378,17 +376,15 @@ def page(study):
         "the planes from rest on.",
         "",
         "A plate that springs tear off peels instead of staying parallel, so the prediction "
-        "is an upper bound for it. Where the measured force is larger still, the plates were"
-        " smoother, wet or charged, or fitted each other; the source does not say.",
+        "is an upper bound for it.",
         "",
     ]
     text += effects_section(results) + device_section(study) + beams_section(study, results)
     text += [
         "## The separation law",
         "",
-        "One result of the polysilicon measurements needs no constant but the Hamaker constant. At "
-        "small roughness the work is that of planes at the average separation, H/(12 pi D_ave^2); "
-        "at large roughness contacts take over. Predicted, for the beams' settings:",
+        "At small roughness the work is that of planes at the average separation, H/(12 pi "
+        "D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:",
         "",
         "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |",
         "|---|---|---|---|---|",
@@ -396,8 +392,7 @@ def page(study):
     text += [row for _, _, row in separations]
     text += [
         "",
-        "The work goes with D_ave to the power of %.2f."
-        % exponent(separations),
+        "The work goes with D_ave to the power of %.2f." % exponent(separations),
         "",
         "## What the assumptions move",
         "",

@@ -39,17 +39,13 @@ PITCH = (
 SETTINGS = {
     "paper/step": (
         "Shorter steps agree well within the scan-to-scan spread; longer ones can miss the rest.",
-        "of `formulation: paper`; the separation curve chooses its own steps, a tenth of z0 and "
-        "more where the surfaces are deep in contact.",
+        "of `formulation: paper`; the separation curve chooses its own steps.",
     ),
     "approach/max_steps": (
         "Far above what a scan needs: it only ends searches with a mistyped step.",
         "",
     ),
-    "approach/connectivity": (
-        'The stricter reading of "connected"; hardly matters.',
-        "",
-    ),
+    "approach/connectivity": ('The stricter reading of "connected"; hardly matters.', ""),
     "approach/max_contact_fraction": (
         "Matters only [near bonding](#near-bonding), where it separates surfaces that rest from "
         "surfaces that have closed.",
@@ -80,10 +76,7 @@ SETTINGS = {
         "gives the reasons.",
         "",
     ),
-    "approach/deformation": (
-        "A choice of model too: real surfaces flow.",
-        "",
-    ),
+    "approach/deformation": ("A choice of model too: real surfaces flow.", ""),
 }
 YARDSTICKS = {
     "interface/work_of_adhesion": "work of adhesion",
@@ -408,42 +401,12 @@ def in_short(study):
         if study.cases(key)[0][0]["kind"] == "numerical"
         and key not in ("paper/cutoff_distance", "approach/max_steps")
     ]
-    halved = [
-        (cases, surface, case)
-        for cases in study.cases("paper/step")
-        for surface, case in zip(study.surfaces, cases)
-        if case["value"] in ("sigma/100", "sigma/200", "sigma/500")
-    ]
-    step = max(
-        (statistics.mean(surface.changes(case, "pull_off_force")) for _, surface, case in halved),
-        key=abs,
-    )
-    cutoff = [
-        percent(statistics.mean(surface.changes(case, "pull_off_force")))
-        for cases in study.cases("paper/cutoff_distance")
-        for surface, case in zip(study.surfaces, cases)
-        if not case["is_default"]
-    ]
     spreads = study.spreads("pull_off_force")
     area, gap = study.spreads("contact_area"), study.spreads("mean_gap")
     lines = [
         "- **Another place of the same surface** moves the pull-off force by %s %% (standard "
         "deviation), the contact area by %s %%, the mean gap by %s %%. Smaller digits describe "
-        "this scan, not the surface." % (span(spreads), span(area), span(gap)),
-        "- **The step is converged**: steps of half to a tenth of the default move the mean "
-        "pull-off force by %s %% at most." % percent(step)
-        if abs(step) < max(spreads)
-        else "- **The step is not converged:** shorter ones move the mean pull-off force by %s %%."
-        % percent(step),
-        "- **The cut-off distance** is the one setting that decides the first digit of "
-        "`pull_off_force`: %s to %s %% over the values in use. It leaves contact area and gap "
-        "nearly alone, unless the surface is so smooth that its own attraction presses it "
-        "together." % (min(cutoff, key=number), max(cutoff, key=number))
-        if max(abs(number(text)) for text in cutoff) > 100 * max(spreads)
-        else "- **The cut-off distance** does not move `pull_off_force`."
-        if set(cutoff) == {"0"}
-        else "- **The cut-off distance** moves `pull_off_force` by %s to %s %% over the values in "
-        "use, less than another place does." % (min(cutoff, key=number), max(cutoff, key=number)),
+        "this scan, not the surface." % (span(spreads), span(area), span(gap))
     ]
     few = [
         surface.name
@@ -474,10 +437,6 @@ def span(shares):
     """1.5 to 2.5, in percent; one number if they are all the same."""
     lowest, highest = percent(min(shares), False), percent(max(shares), False)
     return lowest if lowest == highest else "%s to %s" % (lowest, highest)
-
-
-def number(text):
-    return float(text.replace("−", "-"))
 
 
 def linked_from(folder, text):

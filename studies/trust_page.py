@@ -40,7 +40,7 @@ INTERVAL = (
     "It holds for flattening ratios up to 1; above, it falls with the power %s of that ratio. "
     "It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of them lie "
     "within 1.96 times it. *Covered*: share of this page's frames whose deviation lies within the "
-    "model's part of the 95 %% interval. On the easier frames of this map the interval is wide."
+    "model's part of the 95 %% interval."
 )
 INTERVAL_OF_PROCESSES = (
     "As on the [map](trust.md#the-interval-of-the-margin), for this page's frames."

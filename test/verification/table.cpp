@@ -9,7 +9,7 @@ namespace mems_stiction {
 namespace verification {
 namespace {
 
-/// What test/property checks, and where a plausible property ends.
+/// What test/property checks.
 constexpr const char* kProperties =
     "\n## Properties of every prediction\n\n"
     "test/property checks these on random rough surfaces, materials and loads (RapidCheck; a fixed "
@@ -28,14 +28,7 @@ constexpr const char* kProperties =
     "- Only cells that touched are lower afterwards. The hardness determines how both bodies share "
     "the\n"
     "  volume.\n"
-    "- A second, slow algorithm, which labels the frame at each step, finds the same state.\n\n"
-    "Two plausible properties have exceptions in the paper's model. *More work of adhesion gives "
-    "more\n"
-    "force*: where contacts merge, the sum of radii may fall faster than w rises (2 of 1000 small "
-    "random\n"
-    "frames at 1.5 times the work of adhesion). *More load gives more area*: an asperity that (6) "
-    "loads\n"
-    "beyond JKR's apparent load of its radius resists more (3 of 10000 frames).\n";
+    "- A second, slow algorithm, which labels the frame at each step, finds the same state.\n";
 
 /// Of the page's table, and what marks a row that is out.
 constexpr const char* kHeader = "| | rows | references | nearest to its limit: error, allowed |\n";
