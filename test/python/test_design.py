@@ -21,6 +21,7 @@ from unittest import mock
 
 import mems_stiction
 import numpy as np
+import scipy.ndimage
 
 try:
     from mems_stiction import _core  # noqa: F401
@@ -431,6 +432,34 @@ class RowsTest(unittest.TestCase):
         with self.assertRaisesRegex(mems_stiction.Error, "a worker process has ended"):
             swept({WORK: [0.01 * place for place in range(1, 9)]}, workers=2, on_progress=kill)
         self.assertEqual(multiprocessing.active_children(), [])
+
+
+class HumidityExampleTest(unittest.TestCase):
+    def test_the_example_of_the_document_has_its_figures(self):
+        text = (REPOSITORY / "doc" / "process.md").read_text(encoding="utf-8")
+        section = text.split("### What humidity does\n")[1].split("\n## ")[0]
+        code = section.split("```python\n")[1].split("```")[0]
+        names = {"numpy": np, "scipy": scipy, "mems_stiction": mems_stiction}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            code = code.replace('"config/', '"%s/' % (REPOSITORY / "config"))
+            exec(code.replace("axes=", "workers=1, axes="), names)
+        found = names["found"]
+        table = re.findall(r"^\| ([0-9.]+) \| ([0-9.]+) \| ([0-9.]+) \|$", section, re.M)
+        forces = 1e9 * found.rows["pull_off_force"].reshape(5, 2)
+        np.testing.assert_allclose(
+            np.column_stack([found.axes["interface/relative_humidity"], forces]),
+            np.array(table, float),
+            rtol=0.02,
+        )
+        self.assertTrue((np.diff(forces[:, 0]) > 0.0).all(), "without films it rises throughout")
+        self.assertEqual(forces[0, 0], forces[0, 1], "films without humidity are no water")
+        self.assertTrue((forces[1:, 1] > 1.5 * forces[1:, 0]).all())
+        limits = [
+            float(re.search(r"releases surely: 0\.([0-9]{2})", statement).group(1))
+            for statement in found.statements
+        ]
+        self.assertIn("is %d %% without films and %d %% with them" % tuple(limits), section)
 
 
 class AxesTest(unittest.TestCase):
