@@ -151,6 +151,22 @@ class RosApiTest(unittest.TestCase):
         )
 
 
+class ParametersTest(unittest.TestCase):
+    def test_the_ten_that_matter_are_settings_and_every_section_is_named(self):
+        page = (REPOSITORY / "doc" / "parameters.md").read_text(encoding="utf-8")
+        begin = page.index("## What a prediction depends on")
+        matter, sections = page[:begin].split("## Section by section")
+        keys = set(re.findall(r"^\| `([\w/]+)` \|", page[begin:], re.MULTILINE))
+        chosen = re.findall(r"^\| `([\w/]+)` \|", matter, re.MULTILINE)
+        self.assertEqual((len(chosen), set(chosen) - keys), (10, set()))
+        headings = re.findall(r"^### (.+)$", page[begin:], re.MULTILINE)
+        self.assertEqual(
+            {name for heading in headings for name in heading.split(", ")}
+            - set(re.findall(r"`(\w+)`", sections)),
+            set(),
+        )
+
+
 class ValidityTest(unittest.TestCase):
     def test_every_flag_is_explained(self):
         page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
