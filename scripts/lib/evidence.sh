@@ -46,7 +46,13 @@ else
 fi
 
 # ---------------------------------------------------------------- clang-tidy of all sources, a minute of fuzzing for each reader
-check 'clang-tidy (scripts/tidy)' "$repository/scripts/tidy"
+. "$repository/scripts/lib/tidy.sh"
+if hasClangTidy; then
+  check 'clang-tidy (scripts/tidy)' "$repository/scripts/tidy"
+else
+  echo 'scripts/setup --developer installs clang-tidy' >"$results/logs/tidy.txt"
+  record skipped 'clang-tidy (scripts/tidy)' "$results/logs/tidy.txt"
+fi
 if command -v clang++ >/dev/null; then
   check 'fuzzing of each reader for a minute (scripts/fuzz)' "$repository/scripts/fuzz"
 else

@@ -1,5 +1,9 @@
 # clang-tidy over the sources of a build, whose generated headers must be there; source after common.sh and build.sh.
 
+# pip puts clang-tidy into a folder that few have on their PATH.
+PATH=$(python3 -m site --user-base)/bin:$PATH
+hasClangTidy() { python3 -c 'import clang_tidy' 2>/dev/null; }
+
 # What tidy.py finds goes to standard output, its progress to a file. It gives way to whatever else runs.
 tidySources() {
   mkdir -p "$build_folder/tidy"

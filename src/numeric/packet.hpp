@@ -27,8 +27,8 @@ class PacketMask {
   MEMS_STICTION_INLINE explicit PacketMask(const Vector& bits) : bits_(bits) {}
   // Written out, here and below: how else the class is handed over depends on the instructions a
   // file is compiled for.
-  MEMS_STICTION_INLINE PacketMask(const PacketMask& other)
-      : bits_(other.bits_) {}  // NOLINT(modernize-use-equals-default)
+  // NOLINTNEXTLINE(modernize-use-equals-default)
+  MEMS_STICTION_INLINE PacketMask(const PacketMask& other) : bits_(other.bits_) {}
   PacketMask& operator=(const PacketMask& other) = default;
 
   MEMS_STICTION_INLINE const Vector& bits() const { return bits_; }
@@ -61,8 +61,8 @@ class Packet {
   MEMS_STICTION_INLINE Packet(double value)
       : values_{value, value, value, value} {}  // NOLINT: as double from int
   MEMS_STICTION_INLINE Packet(double a, double b, double c, double d) : values_{a, b, c, d} {}
-  MEMS_STICTION_INLINE Packet(const Packet& other)
-      : values_(other.values_) {}  // NOLINT(modernize-use-equals-default)
+  // NOLINTNEXTLINE(modernize-use-equals-default)
+  MEMS_STICTION_INLINE Packet(const Packet& other) : values_(other.values_) {}
   Packet& operator=(const Packet& other) = default;
 
   /// From memory.

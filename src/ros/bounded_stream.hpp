@@ -27,6 +27,7 @@ class MessageError : public std::runtime_error {
 /// As ros::serialization::IStream, for every type of message that is generated.
 class BoundedStream : public ros::serialization::Stream {
  public:
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that generated messages ask for
   static constexpr ros::serialization::StreamType stream_type =
       ros::serialization::stream_types::Input;
 

@@ -244,6 +244,7 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
                                                 const DisplayOptions& options) {
   const View view(prediction.deformed_lower, scan, header, options);
   std::vector<const Asperity*> shown;
+  shown.reserve(prediction.asperities.size());
   for (const Asperity& asperity : prediction.asperities) shown.push_back(&asperity);
   if (shown.size() > static_cast<std::size_t>(options.max_markers)) {
     std::stable_sort(shown.begin(), shown.end(), [](const Asperity* left, const Asperity* right) {

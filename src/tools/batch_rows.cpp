@@ -216,9 +216,10 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
     if (rowFormatOf(shard) != format) throw FileError(shard + ": not of the kind of " + path);
     std::string torn;
     std::vector<std::string> lines = linesOf(readRows(shard), torn);
-    if (!torn.empty())
+    if (!torn.empty()) {
       throw FileError(shard +
                       ": the last line is torn: run this shard again, it goes on from there");
+    }
     if (format == RowFormat::kCsv && !lines.empty()) {
       if (!heading.empty() && heading != lines.front())
         throw FileError(shard + ": other columns than " + shards.front());
