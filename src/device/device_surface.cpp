@@ -114,9 +114,10 @@ void DeviceSurface::reseed(std::uint64_t seed) {
   ends_ = ends;
   lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below,
                  blocksOf(pieces_.size));
-  if (laws_->upper)
+  if (laws_->upper) {
     upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above,
                    blocksOf(pieces_.size));
+  }
 }
 
 void DeviceSurface::goTo(int piece) {

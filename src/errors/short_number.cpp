@@ -8,7 +8,7 @@ namespace mems_stiction {
 
 std::string shortNumber(double value, int digits) {
   if (std::isnan(value)) return "nan";  // printf shows its sign
-  const std::string text = plainFormat("%.*g", digits, value);
+  std::string text = plainFormat("%.*g", digits, value);
   if (text.find("e+") == std::string::npos || !(std::abs(value) < 1e6)) return text;
   return plainFormat("%.0f", plainStrtod(text.c_str()));  // 7250, not 7.25e+03
 }

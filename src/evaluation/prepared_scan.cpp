@@ -23,7 +23,7 @@ namespace {
 
 const Configuration& checked(const Configuration& configuration) {
   configuration.check();
-  return configuration;
+  return configuration;  // NOLINT(bugprone-return-const-ref-from-parameter): the caller's own
 }
 
 PipelineOptions withoutRefinement(PipelineOptions options) {

@@ -12,6 +12,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/verdict/resolution.hpp"
 #include "settings/time_limit.hpp"
+#include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -24,6 +24,7 @@ template <typename Number>
 bool takeBytes(std::string_view& bytes, Number& number) {
   static_assert(std::is_trivially_copyable<Number>::value, "a number, or a structure of some");
   if (bytes.size() < sizeof number) return false;
+  // NOLINTNEXTLINE(bugprone-suspicious-stringview-data-usage): so many bytes are there
   std::memcpy(&number, bytes.data(), sizeof number);
   bytes.remove_prefix(sizeof number);
   return true;

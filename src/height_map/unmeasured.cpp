@@ -148,9 +148,9 @@ void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_ro
       (is_row ? mask.row(line) : mask.col(line)).setTo(255);
     }
     for (const auto& [line, filled] : begun) {
-      if (is_stopped && !mask.empty())
-        (is_row ? mask(cv::Range(line, line + 1), filled) : mask(filled, cv::Range(line, line + 1)))
-            .setTo(255);
+      if (!is_stopped || mask.empty()) continue;
+      const cv::Range lines(line, line + 1);
+      (is_row ? mask(lines, filled) : mask(filled, lines)).setTo(255);
     }
     begin = next(end + 1, 1);
   }

@@ -159,7 +159,7 @@ int channelId(const std::string& name, std::string& rest) {
   const std::string digits = name.substr(1, slash - 1);
   if (digits.find_first_not_of("0123456789") != std::string::npos) return -1;
   rest = name.substr(slash + 1);
-  return std::atoi(digits.c_str());
+  return static_cast<int>(std::strtol(digits.c_str(), nullptr, 10));
 }
 
 /// @return how many pixels that had a height have none now

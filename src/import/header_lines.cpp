@@ -46,9 +46,10 @@ std::string HeaderLines::value(const std::string& key) const {
 
 std::uint64_t HeaderLines::count(const std::string& key) const {
   const auto found = countIn(value(key));
-  if (!found)
+  if (!found) {
     throw FileError("the header states '" + key + "' as '" + shownPiece(value(key)) +
                     "', which is no count: damaged");
+  }
   return *found;
 }
 

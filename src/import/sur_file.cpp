@@ -116,9 +116,10 @@ std::string unpacked(ByteCursor& file, std::uint64_t size) {
 
 double unitOf(const std::string& text, const char* axis) {
   const auto unit = lengthUnit(text);
-  if (!unit)
+  if (!unit) {
     throw FileError(std::string("the .sur file states ") + axis + " in '" + shownPiece(text) +
                     "', which is no length");
+  }
   return *unit;
 }
 

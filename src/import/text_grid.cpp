@@ -138,9 +138,10 @@ cv::Mat withoutVoids(const cv::Mat& both) {
 }
 
 void applyUnits(const TextHeader& header, FileChannel& channel) {
-  if (header.missing_value)
+  if (header.missing_value) {
     channel.values.setTo(std::numeric_limits<double>::quiet_NaN(),
                          channel.values == *header.missing_value);
+  }
   if (header.scale != 1.0) channel.values *= header.scale;
   if (header.unit_z.empty()) return;
   channel.unit_z = header.unit_z;

@@ -322,9 +322,10 @@ std::vector<FileChannel> parseTiff(const std::string& bytes) {
   do {
     ++pages;
   } while (pages < kMostPages && TIFFReadDirectory(tiff.get()) != 0);
-  if (TIFFLastDirectory(tiff.get()) == 0 || pageCount(bytes, kMostPages) != pages)
+  if (TIFFLastDirectory(tiff.get()) == 0 || pageCount(bytes, kMostPages) != pages) {
     throw FileError("the list of its pages is damaged, or longer than " +
                     std::to_string(kMostPages));
+  }
 
   std::vector<FileChannel> channels;
   std::uint64_t pixels = 0;

@@ -365,7 +365,9 @@ void findGround(const cv::Mat& heights, double pitch_x, double pitch_y, Polynomi
   Rounds rounds(grid, other, memory);
   rounds.settleOnGround();
   const double width = rounds.ground().noise;
-  if (width < kClearlyNarrower * Rounds(grid, fit, memory).ground().noise) fit = other;
+  if (width < kClearlyNarrower * Rounds(grid, fit, memory).ground().noise) {
+    fit = std::move(other);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -129,7 +130,7 @@ const cv::Mat& Region::outside(const cv::Size& size, double pitch_x, double pitc
                        numberText(size.width * pitch_x) + " m wide and " +
                        numberText(size.height * pitch_y) + " m high");
   }
-  outside_ = outside;
+  outside_ = std::move(outside);
   pitch_x_ = pitch_x;
   pitch_y_ = pitch_y;
   return outside_;

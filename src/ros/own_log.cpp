@@ -70,9 +70,10 @@ class OwnLog {
       const std::size_t lost = std::exchange(lost_, 0);
       lock.unlock();
       ROS_LOG_STREAM(level, ROSCONSOLE_DEFAULT_NAME, text);
-      if (lost > 0)
+      if (lost > 0) {
         ROS_WARN_STREAM(
             lost << " lines of the log are missing: it could not be written for a while");
+      }
       lock.lock();
       lines_.pop_front();  // only now, so that finish() waits for it
       is_writing_ = false;

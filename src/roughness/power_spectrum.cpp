@@ -105,9 +105,10 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
       const double square = q_x * q_x + q_y * q_y;
       const double q = std::sqrt(square);
       double power = twins * density * line[row].dot(line[row]);
-      if (!knows_all)
+      if (!knows_all) {
         power /=
             weighted.known.of(std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0)));
+      }
       zeroth += power;
       second += power * square;
       fourth += power * square * square;

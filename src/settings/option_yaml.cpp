@@ -173,11 +173,10 @@ class YamlReader : public OptionVisitor {
 
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
               const std::string& meaning) override {
-    if (const YAML::Node* node = take(key)) {
-      if (!node->IsScalar() || !parseNumber(node->Scalar(), value)) {
-        wrongType(key, *node, "a number " + range.text() + (unit.empty() ? "" : " " + unit));
-        return;
-      }
+    const YAML::Node* const node = take(key);
+    if (node != nullptr && (!node->IsScalar() || !parseNumber(node->Scalar(), value))) {
+      wrongType(key, *node, "a number " + range.text() + (unit.empty() ? "" : " " + unit));
+      return;
     }
     OptionValidator validator;
     validator.number(key, value, unit, range, meaning);

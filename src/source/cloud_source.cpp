@@ -53,7 +53,7 @@ CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
 
 template <typename Message>
 ros::Subscriber CloudSource::subscribe(ros::NodeHandle& handle, const char* topic, const char* kind,
-                                       std::function<cv::Mat(const Message&)> points_of) {
+                                       const std::function<cv::Mat(const Message&)>& points_of) {
   return subscribeChecked<Message>(
       handle, topic, kSubscriberQueue,
       {[this, kind, points_of](const boost::shared_ptr<const Message>& message) {

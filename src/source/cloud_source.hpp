@@ -48,7 +48,7 @@ class CloudSource {
 
   template <typename Message>
   ros::Subscriber subscribe(ros::NodeHandle& handle, const char* topic, const char* kind,
-                            std::function<cv::Mat(const Message&)> points_of);
+                            const std::function<cv::Mat(const Message&)>& points_of);
   void take(Waiting one);
   void countWaiting() { accounting_.waits(line_.size() + (at_hand_ ? 1 : 0)); }
   void countMissing(std::uint32_t number);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <ros/single_subscriber_publisher.h>
 #include <sensor_msgs/Image.h>
 #include <boost/make_shared.hpp>
 

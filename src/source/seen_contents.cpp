@@ -121,9 +121,10 @@ void SeenContents::noteLine(const std::string& line) {
                         readInteger(words[4], stamp.size) &&
                         readInteger(words[5], stamp.modified) &&
                         readInteger(words[6], stamp.changed);
-  if (!is_whole)
+  if (!is_whole) {
     failOnState(path_, "has a line that is not scan_source's: " +
                            shortened(oneLine(line), kLongestQuotation));
+  }
   if (words[0] == kSending) {
     sending_[words[1]] = scan_stamp;
     stamps_.push_back(scan_stamp);

@@ -55,7 +55,7 @@ std::vector<std::string> complaintsOf(const SourceOptions& options) {
   std::vector<std::string> lines;
   if (options.source == SourceKind::kLines) complainOfMotion(options, lines);
   if (options.source == SourceKind::kFolder && options.folder.folder.empty()) {
-    lines.push_back(
+    lines.emplace_back(
         "folder: is not stated, must be the folder that the instrument's program writes into");
   }
   if (!(options.points.map.invalid_below < options.points.map.invalid_above)) {
@@ -65,7 +65,7 @@ std::vector<std::string> complaintsOf(const SourceOptions& options) {
   for (const std::string& line : identityComplaints(options.identity, "scan/"))
     lines.push_back(line);
   if (options.scan.height_scale == 0.0)
-    lines.push_back("scan/height_scale: 0 is not allowed, must not be 0");
+    lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
   return lines;
 }
 

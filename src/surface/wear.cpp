@@ -1,5 +1,7 @@
 #include "surface/wear.hpp"
 
+#include <utility>
+
 #include "height_map/validity.hpp"
 
 namespace mems_stiction {
@@ -34,8 +36,8 @@ void Wear::Side::add(const cv::Mat& as_made, const cv::Mat& after) {
     as_made.copyTo(new_made, is_known);
     after.copyTo(new_left, is_known);
   }
-  made = new_made;
-  left = new_left;
+  made = std::move(new_made);
+  left = std::move(new_left);
   is_changed = cv::countNonZero((left != made) & validMask(left)) > 0;
 }
 

@@ -203,9 +203,10 @@ class BagWalk {
     if (index_place != size_ && places.count(index_place) == 0)
       fail(kMagic.size(), "its index is not where it states");
     for (const auto& [connection, named_at] : named_) {
-      if (connections.count(connection) == 0)
+      if (connections.count(connection) == 0) {
         fail(named_at,
              "a connection (" + std::to_string(connection) + ") that is not in its index");
+      }
     }
   }
 

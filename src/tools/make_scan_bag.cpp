@@ -191,7 +191,7 @@ class ScanBag {
   /// Nothing of it stays. The bag lives to the end of the process: closing writes, and would fail
   /// in its destructor.
   void giveUp(const std::string& partial) {
-    static_cast<void>(bag_.release());
+    [[maybe_unused]] const auto* const left_open = bag_.release();
     std::error_code ignored;
     fs::remove(partial, ignored);
   }

@@ -39,7 +39,7 @@ std::vector<std::string> probeCommand(const BatchArguments& arguments, const std
 RowsInHand::RowsInHand(const std::string& rows_path, std::size_t count) {
   std::error_code none;
   if (!fs::is_regular_file(rows_path, none)) return;
-  const std::string path = rows_path + ".in_hand";
+  std::string path = rows_path + ".in_hand";
   if (fs::exists(path, none)) {
     std::istringstream text(readInput(path, kInHand));
     if (!(text >> left_)) left_ = count;

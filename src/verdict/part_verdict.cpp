@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "errors/short_number.hpp"
 #include "numeric/constants.hpp"
@@ -180,7 +181,9 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
     const PooledRatio& peel = part.peel_number;
     Finding of_beam = judgedRatio("peel number", peel.value, peel.lower, peel.upper, false, false);
     of_beam.reason += worst("peel number", peel);
-    if (!has_margin || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
+    if (!has_margin || gravity(of_beam.sticks) > gravity(finding.sticks)) {
+      finding = std::move(of_beam);
+    }
   }
   return finding;
 }
