@@ -13,37 +13,42 @@ import numpy as np
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._settings import Config, OptionsError, Settings, values_of
 from mems_stiction.other_packages import require_package
+from mems_stiction.calibration_constants import (
+    ANGLE,
+    FILM,
+    HAMAKER,
+    NORMAL_95,
+    POTENTIAL,
+    RANGE,
+    TELLING,
+    WORK,
+    Axis,
+    configured,
+    settings_of,
+    word_of,
+)
 from mems_stiction.calibration_data import Measurement, measurements_of, pooled, shared_scans
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
 from mems_stiction.calibration_grid import between_nodes
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.quantities import ratio, with_interval, with_unit
 
-WORK, HAMAKER, ANGLE = (
-    "interface/work_of_adhesion",
-    "interface/hamaker_constant",
-    "interface/contact_angle",
-)
-RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18)}  # that is searched [J/m^2, J]
-WIDEST_COSINES = (0.01, 1.0)
+SECOND = (POTENTIAL, ANGLE, FILM, HAMAKER)  # of which one is fitted beside the work of adhesion
 COARSE_NODES = 13
 COARSE_NODES_MADE = 21  # more nodes at once cost less than surfaces that are made again
-COARSE_NODES_SECOND = 7  # of a second constant
 FINE_NODES = 9
 FINE_NODES_MADE = 4
 FINE_NODES_OF_TWO = 5  # where two constants are sought
 REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought, too
 MOST_REFINEMENTS = 3
 STEPS_FOR_SLOPES = (1.0 / 1.15, 1.15)
-TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
-TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
 DEPENDING = (
     2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
 )
 FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
 MOST_ASKED = 3  # values that are asked for their unit
-TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
-NORMAL_95 = 1.959964
+FEWEST_FOR_SECOND = 3
+LEAST_DEVIATION = 1e-3  # of a constant that is exact
 MOST_WIDENING = 1.5  # of the interval of the work of adhesion, by a second constant
 BETTER = 6.635  # of the deviance, by one constant more: chi^2 at 1 %
 
@@ -54,8 +59,8 @@ class Calibration(ReadOnly):
     """Constants that a process has, by measurements; NaN: they do not tell.
 
     work_of_adhesion, work_of_adhesion_lower, work_of_adhesion_upper: best fit and 95 % interval
-    [J/m^2]. hamaker_constant,
-    ..._lower, ..._upper [J] and contact_angle, ... [rad]: the same where the measurements tell;
+    [J/m^2]. hamaker_constant, ..._lower, ..._upper [J], contact_angle, ... [rad],
+    contact_potential, ... [V] and film_thickness, ... [m]: the same where the measurements tell;
     else the configured value, its ends NaN. The intervals are those of the measurements; the
     model's own error comes with each prediction.
     relative_uncertainty: of the work, as uncertainty/work_of_adhesion takes it.
@@ -76,6 +81,12 @@ class Calibration(ReadOnly):
     contact_angle: float
     contact_angle_lower: float
     contact_angle_upper: float
+    contact_potential: float
+    contact_potential_lower: float
+    contact_potential_upper: float
+    film_thickness: float
+    film_thickness_lower: float
+    film_thickness_upper: float
     relative_uncertainty: float
     chi_square: float
     degrees_of_freedom: int
@@ -126,12 +137,9 @@ class Calibration(ReadOnly):
     @property
     def is_told(self) -> bool:
         """Whether the measurements tell one constant at least."""
-        lower_ends = (
-            self.work_of_adhesion_lower,
-            self.hamaker_constant_lower,
-            self.contact_angle_lower,
+        return not all(
+            math.isnan(getattr(self, word_of(name) + "_lower")) for name in (WORK, *SECOND)
         )
-        return not all(math.isnan(end) for end in lower_ends)
 
     def _provenance(self) -> List[str]:
         lines = [
@@ -204,36 +212,11 @@ class Calibration(ReadOnly):
         return "\n".join(lines)
 
 
-class _Axis:
-    """One constant that is sought: its name, what of it is sought, its range."""
-
-    def __init__(self, name: str, base: Dict[str, Any]) -> None:
-        self.name = name
-        self.configured = float(base[name])
-        self.is_cosine = name == ANGLE
-        self.bounds: Tuple[float, float] = WIDEST_COSINES
-        if not self.is_cosine:
-            self.bounds = math.log(RANGE[name][0]), math.log(RANGE[name][1])
-
-    def value(self, parameter: float) -> float:
-        return math.acos(min(max(parameter, 0.0), 1.0)) if self.is_cosine else math.exp(parameter)
-
-    def parameter(self, value: float) -> float:
-        return math.cos(value) if self.is_cosine else math.log(value)
-
-    def tells(self, interval: Interval) -> bool:
-        if self.is_cosine:
-            return interval.upper - interval.lower < TELLING_COSINE
-        return interval.is_closed and interval.upper - interval.lower < 2.0 * math.log(
-            TELLING_WORK if self.name == WORK else TELLING
-        )
-
-
 class _Surrogate:
     """ln of the expected values at nodes of the constants, and between them."""
 
     def __init__(
-        self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]
+        self, measurements: List[Measurement], axes: List[Axis], on_step: Callable[[], None]
     ) -> None:
         self.measurements, self.axes, self.on_step = measurements, axes, on_step
         self.known: Dict[Tuple[float, ...], np.ndarray] = {}
@@ -305,7 +288,7 @@ class _Surrogate:
 class _Found(NamedTuple):
     """What a search found."""
 
-    axes: List[_Axis]
+    axes: List[Axis]
     whole: Likelihood  # of all measurements
     likelihood: Likelihood  # without outliers
     fit: Fit
@@ -321,7 +304,7 @@ class _Search:
     """Best constants of a list of axes."""
 
     def __init__(
-        self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]
+        self, measurements: List[Measurement], axes: List[Axis], on_step: Callable[[], None]
     ) -> None:
         self.measurements, self.axes = measurements, axes
         self.surrogate = _Surrogate(measurements, axes, on_step)
@@ -335,8 +318,8 @@ class _Search:
         )
         first = COARSE_NODES_MADE if has_made and len(self.axes) == 1 else COARSE_NODES
         nodes = [
-            np.linspace(axis.bounds[0], axis.bounds[1], count)
-            for axis, count in zip(self.axes, (first, COARSE_NODES_SECOND))
+            np.linspace(axis.bounds[0], axis.bounds[1], axis.coarse_nodes if place else first)
+            for place, axis in enumerate(self.axes)
         ]
         if around is not None:
             nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
@@ -416,42 +399,34 @@ def calibrate(
         the scan itself is what touched;
         radius: of a tip or sphere [m] that was pulled off the scanned surface, or off a smooth
         plane without scans; beam_type (cantilever, doubly_clamped), thickness [m], gap [m], modulus
-        [Pa], residual_stress [Pa]: of a beam; relative_humidity, mechanical_load [N], name: of this
-        measurement.
+        [Pa], residual_stress [Pa]: of a beam; relative_humidity, water_film [m], mechanical_load
+        [N], name: of this measurement; voltage [V], with its sign: on while the surfaces were drawn
+        apart.
     config, settings: as of predict(): materials, cleaning, and the constants that are not sought.
     on_progress: called with the share of the work that is done; what it throws ends it.
 
-    Maximum likelihood with profile intervals (doc/process.md). The Hamaker constant is fitted, too,
-    where the measurements tell it; the angle of contact of the liquid where they were made at
-    several humidities. Raises OptionsError and SurfaceError, which name the measurement.
+    Maximum likelihood with profile intervals (doc/process.md). One constant more is fitted where
+    the measurements tell it: the contact potential if they were made at several voltages, the angle
+    of contact of the liquid if at several humidities, else the thickness of native films, or the
+    Hamaker constant. Raises OptionsError and SurfaceError, which name the measurement.
     """
     base = Settings(config, **settings)
     data = measurements_of(measurements, base, {})
     values = values_of(base)
     progress = _Progress(on_progress, len({id(datum.place) for datum in data}))
-    found = _Search(data, [_Axis(WORK, values)], progress.step).run()
-    second, statements = _second_axis(data, values, found)
-    if second is not None:
-        around = float(found.fit.parameters[0]) if found.axes[0].tells(found.intervals[0]) else None
-        both = _Search(data, found.axes + [second], progress.step).run(around)
-        # a second constant must not cost the work of adhesion, unless its configured value is wrong
-        keeps_work = around is None or _keeps_work(both, found)
-        if second.tells(both.intervals[1]) and (keeps_work or _fits_better(both, found)):
-            found = both
-            statements.append(_told(second, both))
-        else:
-            statements.append(_not_told(second))
+    found = _Search(data, [Axis(WORK, values)], progress.step).run()
+    found, statements = _with_second(data, values, found, progress.step)
     progress.end()
     return _calibration(data, base, values, found, statements)
 
 
 def _keeps_work(both: _Found, found: _Found) -> bool:
-    """Whether the work of adhesion stays told: beside a Hamaker constant nearly as well.
+    """Whether the work of adhesion stays told: beside a Hamaker constant or a film nearly as well.
 
-    Optical spectra tell that constant, and nothing but measurements the angle of a liquid.
+    Optical spectra tell these, and nothing but measurements the angle of a liquid or a potential.
     """
     widths = [one.intervals[0].upper - one.intervals[0].lower for one in (both, found)]
-    is_as_narrow = both.axes[1].is_cosine or widths[0] < MOST_WIDENING * widths[1]
+    is_as_narrow = both.axes[1].is_free or widths[0] < MOST_WIDENING * widths[1]
     return both.axes[0].tells(both.intervals[0]) and is_as_narrow
 
 
@@ -480,25 +455,78 @@ class _Progress:
             self.on_progress(1.0)
 
 
-def _second_axis(
+def _with_second(
+    data: List[Measurement], values: Dict[str, Any], found: _Found, on_step: Callable[[], None]
+) -> Tuple[_Found, List[str]]:
+    """With a second constant where the measurements tell one, and a sentence about each that they
+    may tell."""
+    around = float(found.fit.parameters[0]) if found.axes[0].tells(found.intervals[0]) else None
+    first, statements = found, []
+    for axis, may_be_told in _second_axes(data, values, found):
+        if len(found.axes) > 1:
+            statements.append(axis.left())
+            continue
+        both = _Search(data, first.axes + [axis], on_step).run(around) if may_be_told else first
+        # a second constant must not cost the work of adhesion, unless its configured value is wrong
+        if (
+            may_be_told
+            and axis.tells(both.intervals[1])
+            and (around is None or _keeps_work(both, first) or _fits_better(both, first))
+        ):
+            found = both
+            statements.append(axis.told(both.fit.parameters[1], both.intervals[1]))
+        else:
+            statements.append(axis.not_told())
+    return found, statements
+
+
+def _second_axes(
     data: List[Measurement], values: Dict[str, Any], found: _Found
-) -> Tuple[Optional[_Axis], List[str]]:
-    """A second constant that the measurements may tell, and a sentence where they clearly do
-    not."""
-    humidities = {datum.place.humidity for datum in data}
-    if len(humidities) > 1:
-        return _Axis(ANGLE, values), []
-    if len(data) < 3 or float(values[HAMAKER]) <= 0.0:
-        return None, [_not_told(_Axis(HAMAKER, values))] if float(values[HAMAKER]) > 0.0 else []
-    axis = _Axis(HAMAKER, values)
-    here = {WORK: found.axes[0].value(found.fit.parameters[0]), HAMAKER: axis.configured}
-    slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
-    widths = np.array([math.log(RANGE[name][1] / RANGE[name][0]) for name in (WORK, HAMAKER)])
-    # what measurements leave open of the work ends with its range
-    information = found.whole.information(slopes, found.fit) + np.diag(12.0 / widths**2)
-    if math.sqrt(np.linalg.inv(information)[1, 1]) * NORMAL_95 > 1.5 * math.log(TELLING):
-        return None, [_not_told(axis)]
-    return axis, []
+) -> List[Tuple[Axis, bool]]:
+    """Constants that measurements of this kind may tell, the first choice first; whether these
+    measurements are worth a search for it."""
+    voltages = [datum.place.voltage for datum in data]
+    axes = []
+    if len(set(voltages)) > 1:
+        axes.append((Axis(POTENTIAL, values, max(map(abs, voltages))), True))
+    elif configured(POTENTIAL, values) != 0.0:
+        axes.append((Axis(POTENTIAL, values), False))
+    if len({datum.place.humidity for datum in data}) > 1:
+        axes.append((Axis(ANGLE, values), True))
+    if any(may_be_told for _, may_be_told in axes):
+        return axes
+    if configured(FILM, values) > 0.0:
+        # what is known of the Hamaker constant leaves the thickness as open
+        known = math.sqrt(math.log1p(float(values["uncertainty/hamaker_constant"]) ** 2))
+        is_told = _may_be_told(data, values, found, [FILM, HAMAKER], [known])
+        axes.append((Axis(FILM, values), is_told))
+    if configured(HAMAKER, values) > 0.0:
+        axes.append((Axis(HAMAKER, values), _may_be_told(data, values, found, [HAMAKER])))
+    return axes
+
+
+def _may_be_told(
+    data: List[Measurement],
+    values: Dict[str, Any],
+    found: _Found,
+    names: Sequence[str],
+    known: Sequence[float] = (),
+) -> bool:
+    """Whether the slopes of the measurements promise the first constant a narrow interval.
+
+    known: standard deviations of the others' logarithms, as they are known from elsewhere.
+    """
+    if len(data) < FEWEST_FOR_SECOND:
+        return False
+    here = {WORK: found.axes[0].value(found.fit.parameters[0])}
+    here.update({name: configured(name, values) for name in names})
+    slopes = np.array([[_slope(datum, here, name) for name in here] for datum in data])
+    widths = np.array([math.log(RANGE[name][1] / RANGE[name][0]) for name in here])
+    # what measurements leave open of a constant ends with its range
+    priors = 12.0 / widths**2
+    priors[len(priors) - len(known) :] = 1.0 / np.maximum(known, LEAST_DEVIATION) ** 2
+    information = found.whole.information(slopes, found.fit) + np.diag(priors)
+    return math.sqrt(np.linalg.inv(information)[1, 1]) * NORMAL_95 <= 1.5 * math.log(TELLING)
 
 
 def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
@@ -510,34 +538,6 @@ def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
             return 0.0
         ends.append(math.log(value))
     return (ends[1] - ends[0]) / math.log(STEPS_FOR_SLOPES[1] / STEPS_FOR_SLOPES[0])
-
-
-def _told(axis: _Axis, found: _Found) -> str:
-    best, low, high = (
-        axis.value(value)
-        for value in (found.fit.parameters[1], found.intervals[1].lower, found.intervals[1].upper)
-    )
-    if axis.is_cosine:
-        return "the liquid's angle of contact is %s rad (%s to %s)" % (
-            ratio(best),
-            ratio(min(low, high)),
-            ratio(max(low, high)),
-        )
-    return "the measurements tell the Hamaker constant, too: %s" % with_interval(
-        best, low, high, "J"
-    )
-
-
-def _not_told(axis: _Axis) -> str:
-    if axis.is_cosine:
-        return (
-            "these humidities do not tell the liquid's angle of contact; it stays at %s rad as "
-            "configured" % ratio(axis.configured)
-        )
-    return (
-        "the measurements do not tell the Hamaker constant apart from the work of adhesion; it "
-        "stays at %.3g J as configured" % axis.configured
-    )
 
 
 def _calibration(
@@ -554,20 +554,22 @@ def _calibration(
         "degrees_of_freedom": max(len(fit.values) - len(found.axes), 0),
         "scatter": fit.scatter if has_places else math.nan,
     }
-    for name, word in ((HAMAKER, "hamaker_constant"), (ANGLE, "contact_angle")):
+    for name in SECOND:
+        word = word_of(name)
         figures.update(
-            {word: float(values[name]), word + "_lower": math.nan, word + "_upper": math.nan}
+            {word: configured(name, values), word + "_lower": math.nan, word + "_upper": math.nan}
         )
     constants: Dict[str, float] = {}
     for axis, parameter, interval in zip(found.axes, fit.parameters, found.intervals):
-        word = axis.name.partition("/")[2]
+        word = word_of(axis.name)
         ends = sorted(axis.value(end) for end in (interval.lower, interval.upper))
         figures.update(
             {word: axis.value(parameter), word + "_lower": ends[0], word + "_upper": ends[1]}
         )
-        constants[axis.name] = axis.value(parameter)
-        if not axis.is_cosine:
-            constants["uncertainty/" + word] = _relative(interval)
+        constants.update(settings_of({axis.name: axis.value(parameter)}, values))
+        relative = axis.relative_uncertainty(parameter, interval)
+        if relative is not None:
+            constants["uncertainty/" + word] = relative
     statements = _of_other_places(data) + _of_outliers(data, found) + _of_misfit(found) + statements
     if not found.axes[0].tells(found.intervals[0]):
         statements[:0] = [_open_end(found)] + _of_units(data, found)
@@ -582,8 +584,8 @@ def _calibration(
             if not name.endswith("/work_of_adhesion")
         }
         if constants:
-            configured = with_unit(found.axes[0].configured, "J/m^2")
-            statements.insert(1, "the work of adhesion stays at %s as configured" % configured)
+            stays = with_unit(found.axes[0].configured, "J/m^2")
+            statements.insert(1, "the work of adhesion stays at %s as configured" % stays)
     rows = [
         (
             datum.name,
@@ -617,14 +619,6 @@ def _calibration(
         settings=Settings(base, **constants),
     )
     return Calibration(figures, [datum.place.fingerprint() for datum in data])
-
-
-def _relative(interval: Interval) -> float:
-    """Relative standard deviation of a lognormal number with this 95 % interval of its logarithm,
-    as uncertainty/... take it."""
-    return min(
-        math.sqrt(math.expm1(((interval.upper - interval.lower) / (2.0 * NORMAL_95)) ** 2)), 1.0
-    )
 
 
 def _of_other_places(data: List[Measurement]) -> List[str]:

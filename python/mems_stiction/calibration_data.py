@@ -19,6 +19,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import surface_of
 from mems_stiction._device import _listed, _pitches_of, with_pitches
 from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
+from mems_stiction.calibration_constants import POTENTIAL
 from mems_stiction.calibration_places import Figures, Place, digest_of
 from mems_stiction.calibration_words import UNITS
 
@@ -36,6 +37,8 @@ COMMON = (
     "area",
     "contacts",
     "relative_humidity",
+    "water_film",
+    "voltage",
     "mechanical_load",
     "name",
 )
@@ -43,6 +46,14 @@ OF_FORCES = ("radius",)
 OF_BEAMS = ("beam_type", "thickness", "gap", "modulus", "residual_stress")
 MOST_CONTACTS = 1000000  # as device/contacts has it
 POSITIVE = ("value", "uncertainty", "area", "radius", "thickness", "gap", "modulus")
+NUMBERS = (
+    *POSITIVE,
+    "relative_humidity",
+    "water_film",
+    "voltage",
+    "mechanical_load",
+    "residual_stress",
+)
 
 OF_OTHERS = 8  # degrees of freedom of what other places say of a place's scatter
 FEWEST_REPEATED = 3  # values of one place, before it is asked whether it is one
@@ -271,8 +282,7 @@ def _measurement(datum: Any, what: str, reader: _Reader) -> Measurement:
     numbers = {
         key: _number(datum[key], "%s/%s" % (what, key), key)
         for key in datum
-        if key in POSITIVE + ("relative_humidity", "mechanical_load", "residual_stress")
-        and datum[key] is not None
+        if key in NUMBERS and datum[key] is not None
     }
     required = ("value", "uncertainty") + (("thickness", "gap", "modulus") if kind in BEAMS else ())
     for key in required:
@@ -330,6 +340,8 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, reader: _Reader
     contacts = _contacts(datum, "%s/contacts" % what)
     stated = {
         "interface/relative_humidity": numbers.get("relative_humidity"),
+        "interface/water_film": numbers.get("water_film"),
+        POTENTIAL: _potential(numbers, reader),
         "load/mechanical_load": numbers.get("mechanical_load"),
         "counter_surface/facing": "down" if radius is not None and scans is not None else None,
     }
@@ -350,9 +362,24 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, reader: _Reader
         )
         if key not in reader.places:
             reader.places[key] = Place(
-                surfaces, above, area, contacts, radius, settings, values, digests
+                surfaces,
+                above,
+                area,
+                contacts,
+                radius,
+                settings,
+                values,
+                digests,
+                numbers.get("voltage", 0.0),
             )
     return reader.places[key]
+
+
+def _potential(numbers: Dict[str, float], reader: _Reader) -> Optional[float]:
+    """Of a place whose voltage stays on while it is drawn apart, as the contact potential does."""
+    if "voltage" not in numbers:
+        return None
+    return float(reader.settings_with({})[1][POTENTIAL]) + numbers["voltage"]
 
 
 @contextlib.contextmanager

@@ -18,6 +18,7 @@ import mems_stiction
 from mems_stiction._device import predict_device_under
 from mems_stiction._settings import Settings
 from mems_stiction._warnings import ScanWarning, SettingsWarning
+from mems_stiction.calibration_constants import settings_of
 
 FRAME_ALONE = {"device_force": {"enabled": False}, "half_space": {"enabled": False}}
 NO_CLEANING = {
@@ -76,7 +77,7 @@ class Place:
 
     upper: a list of scans of the counter-surface, or None for the configured one. settings, values:
     with what was stated of these measurements, and the same by names. digests: of the scans, by
-    which one is known again.
+    which one is known again. voltage: on while the surfaces are drawn apart [V].
     """
 
     def __init__(
@@ -89,9 +90,11 @@ class Place:
         settings: Settings,
         values: Dict[str, Any],
         digests: Sequence[str],
+        voltage: float = 0.0,
     ) -> None:
         self.scans, self.upper, self.area, self.contacts = scans, upper, area, contacts
         self.radius, self.settings, self.values = radius, settings, values
+        self.voltage = voltage
         self.digests = tuple(digests)
         self.realisations = int(values["device_force/realisations"])  # that are made for it
         self.stands_for_others = False
@@ -211,19 +214,25 @@ class Place:
             return self.figures(constants)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            predictor = mems_stiction.Predictor(self.settings, **FRAME_ALONE, **constants)
+            predictor = mems_stiction.Predictor(
+                self.settings, **FRAME_ALONE, **self._stated(constants)
+            )
             return _of_several([predictor.predict(self.scans[0])])
 
     def _find(self, constants: List[Dict[str, float]]) -> List[Figures]:
-        settings = [Settings(self._base, **one) for one in constants]
+        stated = [self._stated(one) for one in constants]
+        settings = [Settings(self._base, **one) for one in stated]
         if self.is_made:
             assert self.area is not None
             found = predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)
             return [_of_device(one) for one in found]
         return [
             self._of_frame(one, dict(self.values, **values))
-            for one, values in zip(settings, constants)
+            for one, values in zip(settings, stated)
         ]
+
+    def _stated(self, constants: Dict[str, float]) -> Dict[str, float]:
+        return settings_of(constants, self.values, self.voltage)
 
     def _of_frame(self, settings: Settings, values: Dict[str, Any]) -> Figures:
         predictor = mems_stiction.Predictor(settings)

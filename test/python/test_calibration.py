@@ -23,8 +23,9 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from mems_stiction import calibration_places  # noqa: E402
-from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
+from mems_stiction._calibration import _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
+from mems_stiction.calibration_constants import WORK, Axis  # noqa: E402
 from mems_stiction.calibration_data import measurements_of, pooled, shared_scans  # noqa: E402
 from mems_stiction.calibration_fit import Likelihood  # noqa: E402
 from mems_stiction.calibration_grid import between_nodes  # noqa: E402
@@ -34,6 +35,12 @@ from tiers import evidence, times  # noqa: E402
 PITCH = 10e-9
 TRUTH = 0.031  # work of adhesion [J/m^2]
 SURFACES = [rough(96, 96, 3e-9, seed) for seed in range(3)]
+OXIDE = {
+    "lower": {"film_thickness": 2e-9, "hamaker_constant": 261e-21},
+    "upper": {"film_thickness": 2e-9, "hamaker_constant": 261e-21},
+    "interface": {"retardation_length": 20e-9},
+}
+LOWER, UPPER = "lower/film_thickness", "upper/film_thickness"
 CALIBRATE = str(REPOSITORY / "scripts" / "calibrate")
 
 
@@ -44,6 +51,19 @@ def force_of(heights, **interface):
         return mems_stiction.predict(
             heights, PITCH, interface=dict({"work_of_adhesion": TRUTH}, **interface)
         ).pull_off_force
+
+
+def predicted(heights, config, **settings):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mems_stiction.ScanWarning)
+        warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+        return mems_stiction.predict(
+            heights,
+            PITCH,
+            mems_stiction.Settings(config, **{WORK: TRUTH}),
+            half_space={"enabled": False},
+            **settings,
+        )
 
 
 def measured(value, heights, error=0.2, **others):
@@ -77,7 +97,7 @@ def calibrated(data, config=None, **settings):
 class MadeDataTest(unittest.TestCase):
     def test_intervals_of_200_draws_hold_the_truth_and_there_is_no_bias(self):
         data = measurements_of(exact(), None, {})
-        search = _Search(data, [_Axis(WORK, values_of(mems_stiction.Settings()))], lambda: None)
+        search = _Search(data, [Axis(WORK, values_of(mems_stiction.Settings()))], lambda: None)
         search.run()
         truth = np.array([datum.value for datum in data])
         covered, logs = 0, []
@@ -291,6 +311,90 @@ class MadeDataTest(unittest.TestCase):
             r"^the liquid's angle of contact is 0\.[67][0-9]* rad \(0\.[0-9]+ to [0-9.]+\)$",
         )
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.1)
+
+    def test_the_thickness_of_films_where_rough_surfaces_see_under_them(self):
+        """Works of rough surfaces see the silicon, forces of smooth ones the oxide."""
+        data = []
+        for seed, rms in enumerate((0.5e-9, 1e-9, 3e-9, 6e-9, 10e-9)):
+            heights = rough(64, 64, rms, seed, 12)
+            for kind in ("pull_off_force", "apparent_work_of_adhesion"):
+                value = getattr(predicted(heights, OXIDE, **{LOWER: 3e-9, UPPER: 3e-9}), kind)
+                data.append(dict(measured(value, heights, 0.03), kind=kind))
+        found = calibrated(data, OXIDE)
+        self.assertAlmostEqual(found.film_thickness / 3e-9, 1.0, delta=0.1)
+        self.assertLess(found.film_thickness_lower, 3e-9)
+        self.assertGreater(found.film_thickness_upper, 3e-9)
+        self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.05)
+        self.assertRegex(
+            found.statements[-2],
+            r"^the measurements tell the thickness of the films, too: [0-9.]+ nm \([0-9.]+ to",
+        )
+        self.assertRegex(found.statements[-1], "^the Hamaker constant was not fitted beside it")
+        configured = values_of(found.settings)
+        self.assertEqual(configured[LOWER], found.film_thickness)
+        self.assertEqual(configured[UPPER], found.film_thickness)
+
+    def test_films_of_smooth_surfaces_stay_as_configured(self):
+        data = [
+            measured(predicted(heights, OXIDE).pull_off_force, heights, 0.1)
+            for heights in (rough(64, 64, 0.3e-9, seed, 12) for seed in range(4))
+        ]
+        found = calibrated(data, OXIDE)
+        self.assertEqual(found.film_thickness, 2e-9)
+        self.assertTrue(math.isnan(found.film_thickness_lower))
+        self.assertIn(
+            "the measurements do not tell the thickness of the films apart from the work of "
+            "adhesion; it stays at 2.00 nm as configured",
+            found.statements,
+        )
+        self.assertEqual(values_of(found.settings)[LOWER], 2e-9)
+
+    def test_a_contact_potential_where_several_voltages_were_on(self):
+        """Whose voltages act while the surfaces are drawn apart: with the potential's sign they
+        hold more, against it less."""
+        insulated = {"interface": {"insulator_thickness": 4e-9}}
+        data = [
+            measured(
+                predicted(
+                    heights, insulated, **{"load/contact_potential": voltage - 0.3}
+                ).apparent_work_of_adhesion,
+                heights,
+                0.05,
+                kind="apparent_work_of_adhesion",
+                voltage=voltage,
+            )
+            for heights in (rough(64, 64, 6e-9, seed, 12) for seed in range(3))
+            for voltage in (-0.8, 0.0, 0.8)
+        ]
+        found = calibrated(data, insulated)
+        self.assertAlmostEqual(found.contact_potential, -0.3, delta=0.05)
+        self.assertLess(found.contact_potential_lower, -0.3)
+        self.assertGreater(found.contact_potential_upper, -0.3)
+        self.assertRegex(
+            found.statements[-1],
+            r"^the measurements tell the contact potential, too: -[0-9]+ mV \(-[0-9]+ to -[0-9]+\)",
+        )
+        configured = values_of(found.settings)
+        self.assertEqual(configured["load/contact_potential"], found.contact_potential)
+        self.assertLess(configured["uncertainty/contact_potential"], 0.3)
+        self.assertEqual(configured["load/voltage"], 0.0)
+
+    def test_a_contact_potential_of_one_voltage_stays_as_configured(self):
+        settings = {"interface": {"insulator_thickness": 4e-9}, "load": {"contact_potential": 0.2}}
+        found = calibrated(
+            [
+                measured(predicted(heights, settings).pull_off_force, heights)
+                for heights in SURFACES
+            ],
+            settings,
+        )
+        self.assertEqual(found.contact_potential, 0.2)
+        self.assertIn(
+            "these measurements at one voltage do not tell the contact potential; it stays at "
+            "200 mV as configured",
+            found.statements,
+        )
+        self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.02)
 
     def test_the_hamaker_constant_alone(self):
         """Works of rough surfaces that hardly stick go by it: it is told, and the work of adhesion
