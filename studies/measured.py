@@ -418,13 +418,9 @@ def page(study):
         "",
         "## Found, but not predicted",
         "",
-        "The available text of these lacks the roughness, or the force: %s."
-        % "; ".join(cases.FOUND),
-    ]
-    text += [
-        "",
-        "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in "
-        "`studies/measured_cases.py` and run `studies/measured` again.",
+        "Of %d other sources the available text lacks the roughness, or the force: `FOUND` in "
+        "`studies/measured_cases.py`. Whoever has the full texts, or a beam and its AFM scan, can "
+        "replace an assumption there and run `studies/measured` again." % len(cases.FOUND),
         "",
     ]
     return "\n".join(text)

@@ -22,7 +22,6 @@ import trust_kinds  # noqa: E402
 
 CONFORMING, DOUBTED = "conforming", "doubted"
 SPARSE = "sparse"
-WARNING_FLAGS = {"near_bonding", "resolution"}
 COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 OF_THE_MAP = (
@@ -368,20 +367,6 @@ def page(lines, figure):
         row(
             "without NEAR_BONDING",
             ratios([line for line in resolved if not is_doubted(line)], ours, reference),
-        ),
-        row(
-            "neither NEAR_BONDING nor RESOLUTION",
-            ratios(
-                [line for line in resolved if not flags_of(line) & WARNING_FLAGS], ours, reference
-            ),
-        ),
-        row(
-            "RESOLUTION alone",
-            ratios(
-                [line for line in resolved if flags_of(line) & WARNING_FLAGS == {"resolution"}],
-                ours,
-                reference,
-            ),
         ),
         row(
             "NEAR_BONDING", ratios([line for line in resolved if is_doubted(line)], ours, reference)
