@@ -4,11 +4,11 @@ force over the area.
 Takes the record that predict_device --json prints, as a dictionary.
 """
 
-import json
 import math
 import textwrap
 
 from mems_stiction.input_file import UnfitFile, is_open_pipe, require_file
+from mems_stiction.json_text import read_json
 from mems_stiction.plots import plt, save, with_unit
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import length_scale, literal, ratio, typeset
@@ -41,7 +41,7 @@ def read_device(path):
         if not is_open_pipe(path):
             require_file(path, "a record of predict_device", MOST_BYTES)
         with open(str(path), encoding="utf-8") as stream:
-            record = json.load(stream)
+            record = read_json(stream.read())
     except OSError as error:
         raise RecordError("%s: cannot be read: %s" % (path, error.strerror))
     except UnfitFile as error:

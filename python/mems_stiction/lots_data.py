@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import array
 import csv
-import json
 import math
 import os
 import pathlib
@@ -28,6 +27,7 @@ import numpy as np
 
 from mems_stiction._settings import FileError, OptionsError
 from mems_stiction.input_file import UnfitFile, require_file
+from mems_stiction.json_text import read_json
 from mems_stiction.row_table import PARQUET
 
 RELEASING = ("margin", "peel_number")  # the device sticks below 1
@@ -216,7 +216,7 @@ def _csv_rows(stream: IO[str], columns: Set[str]) -> Iterator[Mapping[str, Any]]
 def _json_rows(stream: IO[str]) -> Iterator[Mapping[str, Any]]:
     for line in stream:
         if line.strip():
-            row = json.loads(line)
+            row = read_json(line)
             if not isinstance(row, dict):
                 raise ValueError("a line is no record")
             yield row

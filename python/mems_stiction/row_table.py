@@ -3,15 +3,16 @@ rows come from."""
 
 import csv
 import decimal
-import json
 import re
 
 from mems_stiction.csv_text import ESCAPED, csv_cell
+from mems_stiction.json_text import read_json
 from mems_stiction.version import version
 from mems_stiction.whole_file import whole
 
 PARQUET = ".parquet"
 NEEDS = "Parquet needs the Python package pyarrow (pip install pyarrow; with NumPy 1 pyarrow 17)"
+FEW_LEVELS = 100  # of lists and maps in one another, which every reader bears
 STAMP = "stamp"  # the column with the time of a scan
 _UNIT = re.compile(r"\[(-|[A-Za-z][\w/^]*)\]")
 _FIELD = re.compile(r"[\w/]+(?:\[\d*\])?\s+(\w+)\s*(?:#(.*))?$")
@@ -154,6 +155,13 @@ def _of_kind(column, kind, pyarrow):
     )
 
 
+def _check_levels(lines):
+    """pyarrow's process dies of lists in lists in lists."""
+    for line in lines:
+        if line.count("[") + line.count("{") > FEW_LEVELS:
+            read_json(line)
+
+
 def converted(path, units, kinds, is_text):
     """The rows of a CSV or of JSON lines as a table of pyarrow. A figure has the same type in every
     file, known or not.
@@ -175,7 +183,9 @@ def converted(path, units, kinds, is_text):
     }
     is_csv = str(path).endswith(".csv")
     with open(str(path), encoding="utf-8-sig", newline="") as stream:
-        names = next(csv.reader(stream), []) if is_csv else json.loads(stream.readline() or "{}")
+        names = next(csv.reader(stream), []) if is_csv else read_json(stream.readline() or "{}")
+        if not is_csv:
+            _check_levels(stream)
     if not isinstance(names, (list, dict)) or isinstance(names, list) != is_csv:
         raise ValueError("the first line is no record")
     declared = {name: pyarrow.string() for name in names if name == STAMP or is_text(name)}

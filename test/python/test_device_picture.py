@@ -179,12 +179,14 @@ class ProgramTest(unittest.TestCase):
         texts = {
             "no.json": "no json",
             "list.json": "[1]",
+            "deep.json": "[" * 200000,
             "other.json": json.dumps({"pull_off_force": 1.0}),
         }
         for name, text in texts.items():
             (self.folder / name).write_text(text)
         for name, words in (
             ("no.json", "is no JSON object"),
+            ("deep.json", "is no JSON object"),
             ("list.json", "has no 'pull_off_force'"),
             ("other.json", "has no 'area'"),
             ("none.json", "no such file"),

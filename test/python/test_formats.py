@@ -187,6 +187,8 @@ class ParquetTest(InFolder):
             ("empty.csv", ""),
             ("empty.jsonl", ""),
             ("number.jsonl", "5\n"),
+            ("deep.jsonl", "[" * 200000 + "\n"),
+            ("deep_below.jsonl", '{"number":1}\n' + '{"a":' * 200000 + "1" + "}" * 200000 + "\n"),
             ("dates.csv", "stamp\n2026-01-01\n"),
         ):
             (self.folder / name).write_text(text)

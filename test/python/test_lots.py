@@ -579,9 +579,12 @@ class WaferTest(unittest.TestCase):
         self.assertEqual(crosses, [4, 3, 3])  # missing, and two rings
 
     def test_what_is_wrong_is_one_line(self):
+        deep = self.path / "deep.jsonl"
+        deep.write_text('{"margin":' + "[" * 200000 + "\n")
         for arguments, words in (
             ((self.path / "none.csv",), r"^compare_lots: .*none\.csv: No such file[^\n]*\n$"),
             ((self.path / "part.yaml",), r"must end in \.csv"),
+            ((deep,), r"^compare_lots: .*deep\.jsonl: holds no rows: too many levels[^\n]*\n$"),
             (
                 ("--against", "time", self.table),
                 r"^compare_lots: against: the rows have no column 'time'",
