@@ -171,6 +171,8 @@ class WaterLaw {
   double kelvinRadius() const { return kelvin_radius_; }  ///< r_K [m]; 0 without water
   double gapLimit() const { return gap_limit_; }          ///< d_K + 2 t_w [m]; 0 without water
   double pressure() const { return pressure_; }           ///< p [Pa]; 0 without water
+  /// What flat surfaces that it fills gain by it [J/m^2].
+  double energy() const { return pressure_ * gap_limit_; }
 
   /// At a gap that is counted from the outermost atoms: water fills it from `contact` to `contact`
   /// + gapLimit(), both ends smeared over `front` [m].

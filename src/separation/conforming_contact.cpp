@@ -12,8 +12,9 @@ namespace {
 
 /// Of the strength of the law, Gamma/z0: nearly that of springs, too.
 /// - @p field_share of the force that is a field's
-Exponents lawExponents(double field_share) {
-  const double rest = 1.0 - field_share;
+/// - @p water_share that is water's, on which none of the constants acts
+Exponents lawExponents(double field_share, double water_share) {
+  const double rest = 1.0 - field_share - water_share;
   return {1.5 * rest, 0.0, -0.5 * rest, 2.0 * field_share};
 }
 
@@ -27,19 +28,22 @@ double stiffnessOf(double flattening_energy, double rms_height) {
 /// Of a work that is nearly what flattening, which goes with the modulus, leaves of the work of
 /// adhesion.
 /// - @p field_energy what a field gives of it
-Exponents flatteningExponents(double flattening_energy, double field_energy, double work) {
+/// - @p water_energy what water gives
+Exponents flatteningExponents(double flattening_energy, double field_energy, double water_energy,
+                              double work) {
   const double share = flattening_energy / work;
   const double field_share = field_energy / work;
-  return {1.0 + share - field_share, -share, 0.0, 2.0 * field_share};
+  return {1.0 + share - field_share - water_energy / work, -share, 0.0, 2.0 * field_share};
 }
 
 }  // namespace
 
 void ConformingContact::start(const GapField& gap, const ContactTraction& law,
-                              const FieldLaw& field, double contact_modulus,
+                              const FieldLaw& field, const WaterLaw& water, double contact_modulus,
                               double flattening_energy) {
   gap_ = &gap;
   field_ = field;
+  water_ = water;
   law_ = &law;
   contact_modulus_ = contact_modulus;
   flattening_energy_ = flattening_energy;
@@ -55,7 +59,7 @@ std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) 
       if (gap <= gap_->largestGap()) depths.add(gap);
     }
   }
-  return springBranch(depths.classes(), *law_, field_,
+  return springBranch(depths.classes(), *law_, field_, water_,
                       stiffnessOf(flattening_energy, gap_->rmsGap()));
 }
 
@@ -80,8 +84,11 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
   Unloading unloading;
   unloading.contact_area = rest->contact_fraction * area();
   unloading.force = area() * strengthFrom(rest, branch_);
-  unloading.force_exponents = lawExponents(
-      field_.isOn() ? area() * field_.pressure(law_->strongestGap()) / unloading.force : 0.0);
+  const double strongest = law_->strongestGap();
+  const double by_water = strongest < water_.gapLimit() ? water_.pressure() : 0.0;
+  unloading.force_exponents =
+      lawExponents(field_.isOn() ? area() * field_.pressure(strongest) / unloading.force : 0.0,
+                   std::min(1.0, area() * by_water / unloading.force));
   if (mayTear())
     unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
@@ -107,15 +114,16 @@ bool ConformingContact::mayTear() const {
 void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
   const double flattening = waves_.of(*gap_, contact_modulus_);
   const double by_field = field_.isOn() ? field_.energy(0.0) : 0.0;
+  const double by_water = water_.energy();
   // the surfaces rest in the state of the least energy, and contacts jump in either
   const double work = std::min(energyGained(springsOf(flattening)) + by_contacts.lost,
-                               law_->workOfAdhesion() + by_field);
+                               law_->workOfAdhesion() + by_field + by_water);
   if (by_contacts.work > work) {
     unloading.work = by_contacts.work;
     unloading.work_exponents = by_contacts.work_exponents;
   } else {
     unloading.work = work;
-    unloading.work_exponents = flatteningExponents(flattening, by_field, work);
+    unloading.work_exponents = flatteningExponents(flattening, by_field, by_water, work);
   }
 }
 

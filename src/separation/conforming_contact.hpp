@@ -32,10 +32,11 @@ class ConformingContact {
  public:
   /// What the next calls are about. Everything must outlive them; nothing is computed yet.
   /// - @p field that stays on the way out
+  /// - @p water between the surfaces
   /// - @p flattening_energy U/A [J/m^2], >= 0
   /// - @p contact_modulus E [Pa], > 0
   void start(const GapField& gap, const ContactTraction& law, const FieldLaw& field,
-             double contact_modulus, double flattening_energy);
+             const WaterLaw& water, double contact_modulus, double flattening_energy);
 
   /// Whether springs hold the bonded surfaces together without a load.
   bool holds();
@@ -57,6 +58,7 @@ class ConformingContact {
   const GapField* gap_ = nullptr;
   const ContactTraction* law_ = nullptr;
   FieldLaw field_{0.0, 0.0, 1.0};
+  WaterLaw water_;
   double contact_modulus_ = 0.0;
   double flattening_energy_ = 0.0;
   std::vector<SpringState> branch_;  ///< empty until it is asked for

@@ -17,8 +17,7 @@ std::vector<UnusedSetting> CurveStatement::unusedSettings(const ContactSettings&
   return unused;
 }
 
-ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion,
-                                  bool are_thin) {
+ModelStatement CurveStatement::of(const ContactSolution& solution, double gained, bool are_thin) {
   ModelStatement statement;
   statement.is_bound_where_bonded = false;
   statement.knows_every_load = true;
@@ -30,7 +29,7 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
     return statement;
   }
   statement.doubt = solution.model.doubt;
-  const double flattening_ratio = solution.flattening_energy / work_of_adhesion;
+  const double flattening_ratio = solution.flattening_energy / gained;
   if (statement.doubt == nullptr && !solution.is_conforming && flattening_ratio < 1.0) {
     statement.doubt =
         "bonded surfaces have less energy than the contacts that were found on the way to them";

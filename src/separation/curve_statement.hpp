@@ -18,11 +18,10 @@ class CurveStatement {
 
   /// - @p solution whose model already has the doubt of the unloading branch; it is doubted, too,
   /// where bonded surfaces have less energy
-  /// - @p work_of_adhesion Gamma [J/m^2]
+  /// - @p gained by flat surfaces that bond, Gamma and what water adds [J/m^2]
   /// - @p are_thin whether the longest wave of the frame meets another stiffness than that of thick
   /// bodies, which the curve follows
-  static ModelStatement of(const ContactSolution& solution, double work_of_adhesion,
-                           bool are_thin = false);
+  static ModelStatement of(const ContactSolution& solution, double gained, bool are_thin = false);
 };
 
 }  // namespace mems_stiction

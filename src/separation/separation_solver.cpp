@@ -53,9 +53,9 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listPullOffContacts(standing, solution);
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
-  solution.model =
-      CurveStatement::of(solution, settings.interface.work_of_adhesion,
-                         areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
+  solution.model = CurveStatement::of(
+      solution, settings.interface.work_of_adhesion + settings.capillary.law().energy(),
+      areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
 }
 
 const GapField& SeparationSolver::comeToRest(const ContactProblem& problem,
@@ -80,12 +80,13 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   const ContactTraction& law = curve_.frame().law();
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
-  if (!(solution.flattening_energy / law.workOfAdhesion() < chosen::kConformingRatio))
-    return std::nullopt;
+  const WaterLaw water = problem.settings.capillary.law();
+  const double gained = law.workOfAdhesion() + water.energy();
+  if (!(solution.flattening_energy / gained < chosen::kConformingRatio)) return std::nullopt;
   const FieldLaw lasting_field =
       fieldLaw(problem.settings.load.contact_potential, problem.settings.interface);
-  conforming_.start(problem.gap, law, lasting_field, curve_.frame().patchForces().contactModulus(),
-                    solution.flattening_energy);
+  conforming_.start(problem.gap, law, lasting_field, water,
+                    curve_.frame().patchForces().contactModulus(), solution.flattening_energy);
   if (!conforming_.holds()) return std::nullopt;
   return conforming_.unloading(curve_.byContacts(),
                                problem.settings.load.mechanical_load / curve_.frame().area());

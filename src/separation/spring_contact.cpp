@@ -25,8 +25,8 @@ class Spring {
   /// - @p nearest distance that is asked for [m]
   /// - @p span from the nearest cell to the farthest one [m]: where the nearest has let go, the
   /// farthest is that much beyond
-  Spring(const ContactTraction& law, const FieldLaw& field, double stiffness, double nearest,
-         double span) {
+  Spring(const ContactTraction& law, const FieldLaw& field, const WaterLaw& water, double stiffness,
+         double nearest, double span) {
     constexpr double kGrowth = 1.0 + chosen::kAccuracy;
     // counted from the atoms' centres: the plane of contact is at z0
     const auto pointAt = [&](double gap) {
@@ -37,8 +37,17 @@ class Spring {
         traction += field.pressure(apart);
         energy += field.energy(apart) + field.pressure(0.0) * (apart - (gap - law.range()));
       }
+      const double filled = water.gapLimit() - std::max(gap - law.range(), 0.0);
+      if (filled > 0.0) {
+        traction += gap > law.range() ? water.pressure() : 0.0;
+        energy += water.pressure() * filled;
+      }
       return Point{gap + traction / stiffness, traction,
                    0.5 * traction * traction / stiffness - energy, gap};
+    };
+    const auto holds = [&](double gap) {
+      const double apart = gap - law.range();
+      return law.curvature(apart) < 0.0 || apart < water.gapLimit();
     };
     double gap = law.range();
     while (pointAt(gap).start > nearest && gap > chosen::kAccuracy * law.range()) gap /= kGrowth;
@@ -46,30 +55,18 @@ class Spring {
       points_.push_back(pointAt(gap));
       // the law falls ever more steeply up to where it bends back: beyond, no spring pulls harder,
       // and none lets go
-      if (law.curvature(gap - law.range()) < 0.0) end_ = std::max(end_, points_.back().start);
+      if (holds(gap)) end_ = std::max(end_, points_.back().start);
       gap *= kGrowth;
-    } while (law.curvature(points_.back().gap - law.range()) < 0.0 ||
-             points_.back().start < end_ + span);
-    while (last_inner_ + 1 < points_.size() &&
-           points_[last_inner_ + 1].start > points_[last_inner_].start) {
-      ++last_inner_;
-    }
-    first_outer_ = last_inner_;
-    for (std::size_t i = last_inner_ + 1; i < points_.size(); ++i) {
-      if (points_[i].start < points_[first_outer_].start) first_outer_ = i;
-    }
+    } while (holds(points_.back().gap) || points_.back().start < end_ + span);
   }
 
-  /// Whether it lets go at once when it is drawn far enough.
-  bool snaps() const { return first_outer_ != last_inner_; }
   /// Distance beyond which it has let go, or pulls ever less [m].
   double end() const { return end_; }
 
   /// At a distance; @p place is where the last, smaller distance was found, 0 at first.
   Point at(double start, std::size_t& place) const {
-    const bool is_inner = !snaps() || start <= points_[last_inner_].start;
-    if (!is_inner) place = std::max(place, first_outer_);
-    const std::size_t last = is_inner ? last_inner_ : points_.size() - 1;
+    // where it lets go the next points start nearer, down to those that it comes to
+    const std::size_t last = points_.size() - 1;
     while (place < last && points_[place + 1].start < start) ++place;
     const Point& from = points_[place];
     if (place == last || start <= from.start) return from;
@@ -82,8 +79,6 @@ class Spring {
 
  private:
   std::vector<Point> points_;
-  std::size_t last_inner_ = 0;
-  std::size_t first_outer_ = 0;
   double end_ = 0.0;
 };
 
@@ -129,11 +124,11 @@ std::vector<ReliefClass> ReliefClasses::classes() const {
 
 std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
                                       const ContactTraction& law, const FieldLaw& field,
-                                      double stiffness) {
+                                      const WaterLaw& water, double stiffness) {
   const double range = law.range();
   const double deepest = range - relief.back().depth;
   const double span = relief.back().depth - relief.front().depth;
-  const Spring spring(law, field, stiffness, range - span, span);
+  const Spring spring(law, field, water, stiffness, range - span, span);
   const double highest = spring.end() - relief.front().depth;
   std::vector<SpringState> branch;
   for (int i = 0; i <= chosen::kParts; ++i) {

@@ -4,11 +4,12 @@
 /// A relief whose cells hang on equal springs and attract a plane: what it takes to draw the plane
 /// away.
 ///
-///     g = Z + r - u,   k u = t(g) + p(g - z0)
+///     g = Z + r - u,   k u = t(g) + p(g - z0) + p_w(g - z0)
 ///
 /// Z is the height of the plane, r the relief below its highest point, u what the spring gives, p
-/// the pressure of a field that stays, that of contact where cells are pressed. A cell stays on its
-/// branch while the plane goes up, and lets go where -t' - p' = k. With k = 2 U/(A sigma^2) all
+/// the pressure of a field that stays, that of contact where cells are pressed, p_w that of water,
+/// which fills gaps up to a width. A cell stays on its branch while the plane goes up, and lets go
+/// where -t' - p' = k, and where its gap is wider than water fills. With k = 2 U/(A sigma^2) all
 /// springs together store the flattening energy U when all is flat.
 
 #include <vector>
@@ -51,9 +52,10 @@ struct SpringState {
 /// last cell has let go.
 /// - @p stiffness k [Pa/m], > 0, may be infinite
 /// - @p field that stays on the way out
+/// - @p water between the surfaces
 std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
                                       const ContactTraction& law, const FieldLaw& field,
-                                      double stiffness);
+                                      const WaterLaw& water, double stiffness);
 
 /// The state of least energy + pressure Z, from which surfaces are drawn apart.
 std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch,

@@ -59,6 +59,27 @@ TEST(ConformingContact, shortWavesBreakAsAWhole) {
   EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1);
 }
 
+TEST(ConformingContact, waterHoldsBondedSurfaces) {
+  const double modulus = 100e9;
+  Options options = elastic(modulus);
+  const double pitch = 8e-9;
+  const HeightMap waves =
+      analytic::sine(8, 64, pitch, pitch, amplitudeFor(0.3, 16 * pitch, options, modulus), 4, 0);
+  const Prediction dry = AdhesionModel(options).predict(waves);
+  ASSERT_TRUE(dry.is_conforming);
+  options.capillary.relative_humidity = 0.3;
+  for (const double film : {0.0, 0.8e-9}) {
+    options.capillary.water_film = film;
+    const SolvedHalfSpace solved = halfSpaceOf(waves, options);
+    ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+    const Prediction prediction = AdhesionModel(options).predict(waves);
+    ASSERT_TRUE(prediction.is_conforming);
+    EXPECT_GT(prediction.pull_off_force, 1.1 * dry.pull_off_force);
+    EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1) << film;
+    EXPECT_NEAR(prediction.apparent_work_of_adhesion / solved.work_of_adhesion, 1.0, 0.1) << film;
+  }
+}
+
 TEST(ConformingContact, groovesTakeTheHalfSpacesWork) {
   // along rows, flattened for half of what adhesion gives: by lines it would be 0.61 Gamma
   const double modulus = 10e9;

@@ -23,12 +23,29 @@ ContactTraction law() {
 
 TEST(SpringContact, aPlaneHasTheStrengthAndTheEnergyOfTheLaw) {
   const ContactTraction traction = law();
-  const auto branch = springBranch({{0.0, 1.0}}, traction, kNoField, kRigid);
+  const auto branch = springBranch({{0.0, 1.0}}, traction, kNoField, WaterLaw(), kRigid);
   const auto rest = restOf(branch, 0.0);
   EXPECT_NEAR(rest->energy, -0.05, 1e-4 * 0.05);
   EXPECT_NEAR(strengthFrom(rest, branch) / traction.strength(), 1.0, 1e-3);
   EXPECT_EQ(rest->contact_fraction, 1.0);
   EXPECT_EQ(branch.back().contact_fraction, 0.0);
+}
+
+TEST(SpringContact, waterAddsItsPressureAndItsEnergy) {
+  const ContactTraction traction = law();
+  const WaterLaw water(0.3, 0.072, 0.0, 298.15, 18.07e-6, 0.8e-9);
+  const auto branch = springBranch({{0.0, 1.0}}, traction, kNoField, water, kRigid);
+  const auto rest = restOf(branch, 0.0);
+  EXPECT_NEAR(rest->energy, -(0.05 + water.energy()), 1e-3 * water.energy());
+  EXPECT_NEAR(strengthFrom(rest, branch) / (traction.strength() + water.pressure()), 1.0, 1e-3);
+  EXPECT_EQ(branch.back().contact_fraction, 0.0);
+  // drawn out on springs it holds to the same width, and no less before
+  const double stiffness = 2.0 * water.pressure() / water.gapLimit();
+  const auto soft = springBranch({{0.0, 1.0}}, traction, kNoField, water, stiffness);
+  const double width = traction.range() + water.gapLimit();
+  EXPECT_NEAR(soft.back().height, width + water.pressure() / stiffness, 0.02 * width);
+  EXPECT_NEAR(strengthFrom(restOf(soft, 0.0), soft) / (traction.strength() + water.pressure()), 1.0,
+              0.01);
 }
 
 TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
@@ -37,14 +54,15 @@ TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
   const double height = 0.4e-9;
   const double flattening = 0.01;
   const double stiffness = 2.0 * flattening / (0.25 * height * height);
-  const auto branch = springBranch({{0.0, 0.5}, {height, 0.5}}, law(), kNoField, stiffness);
+  const auto branch =
+      springBranch({{0.0, 0.5}, {height, 0.5}}, law(), kNoField, WaterLaw(), stiffness);
   // all else but the give of the law, some U/(Gamma 27/...) of it: a stiff law would give exactly
   // Gamma - U
   EXPECT_NEAR(-restOf(branch, 0.0)->energy, 0.05 - flattening, 0.1 * flattening);
 }
 
 TEST(SpringContact, workIsTheAreaOfTheBranchWhereNothingSnaps) {
-  const auto branch = springBranch({{0.0, 0.3}, {0.05e-9, 0.7}}, law(), kNoField, 1e20);
+  const auto branch = springBranch({{0.0, 0.3}, {0.05e-9, 0.7}}, law(), kNoField, WaterLaw(), 1e20);
   const auto rest = restOf(branch, 0.0);
   double area = 0.0;
   for (auto state = rest; state + 1 != branch.end(); ++state) {
@@ -54,7 +72,7 @@ TEST(SpringContact, workIsTheAreaOfTheBranchWhereNothingSnaps) {
 }
 
 TEST(SpringContact, pressureMovesTheRestInwards) {
-  const auto branch = springBranch({{0.0, 0.5}, {0.2e-9, 0.5}}, law(), kNoField, 5e18);
+  const auto branch = springBranch({{0.0, 0.5}, {0.2e-9, 0.5}}, law(), kNoField, WaterLaw(), 5e18);
   EXPECT_LT(restOf(branch, 1e9)->height, restOf(branch, 0.0)->height);
 }
 
