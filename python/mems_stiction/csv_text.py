@@ -1,6 +1,7 @@
 """Cells of CSV files that a spreadsheet takes for text, and that a terminal can show, whoever wrote
 them."""
 
+import re
 import unicodedata
 
 _STARTS_A_FORMULA = ("=", "+", "-", "@", "\t")
@@ -31,3 +32,8 @@ def csv_cell(value):
 
 
 ESCAPED = r"^'([=+\-@\t])"  # what csv_cell() has put an apostrophe before
+
+
+def plain_text(cell):
+    """The text of a cell without that apostrophe."""
+    return re.sub(ESCAPED, r"\1", cell)

@@ -325,6 +325,43 @@ class ParquetTest(InFolder):
                 told, "export_predictions", "-o", self.folder / "a.csv", "--columns=" + wanted, bag
             )
 
+    def test_rows_of_a_batch_are_a_table_of_chosen_columns_too(self):
+        for ending in ("csv", "jsonl"):
+            self.rows_of_batch(ending)
+        with open(str(self.folder / "rows.csv"), newline="") as stream:
+            of_batch = list(csv.DictReader(stream))
+        table = self.exported(self.folder / "rows.csv")
+        of_lines = self.exported(self.folder / "rows.jsonl")
+        self.assertEqual(  # the bag is written anew for each
+            [dict(row, file_time="") for row in table],
+            [dict(row, file_time="") for row in of_lines],
+        )
+        names = list(table[0])
+        self.assertEqual(names, [name for name in of_batch[0] if name in names])
+        self.assertNotIn("contact_area_jkr", names)  # of the separation curve
+        self.assertEqual(
+            [float(row["pull_off_force"]) for row in table[:-1]],
+            [float(row["pull_off_force"]) for row in of_batch[:-1]],
+        )
+        self.assertEqual([row["stamp"] for row in table], [row["stamp"] for row in of_batch])
+        chosen = self.exported(
+            "--excel", "--columns=file,forces", self.folder / "rows.csv", delimiter=";"
+        )
+        self.assertEqual((list(chosen[0])[0], "sq" in chosen[0]), ("file", False))
+        self.assertEqual(chosen[0]["pull_off_force"], table[0]["pull_off_force"].replace(".", ","))
+        both = self.exported(self.prediction_bag(), self.folder / "rows.csv")
+        self.assertEqual(len(both), 2 + len(table))
+        for name, text, told in (
+            ("torn.jsonl", '{"number":1,"fi', "holds no rows"),
+            ("other.csv", "a,b\n1,2\n", "holds no rows of stiction_batch"),
+            ("none.csv", None, "No such file"),
+        ):
+            if text is not None:
+                (self.folder / name).write_text(text)
+            self.refused(
+                told, "export_predictions", "-o", self.folder / "a.csv", self.folder / name
+            )
+
     def test_a_table_for_a_spreadsheet_has_semicolons_and_decimal_commas(self):
         bag = self.prediction_bag()
         rows = self.exported("--excel", bag, delimiter=";")
