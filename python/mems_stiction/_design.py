@@ -19,8 +19,8 @@ from mems_stiction._settings import Config, OptionsError, values_of
 from mems_stiction._types import Scans, UpperScans
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.other_packages import require_package
-from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
-from mems_stiction.design_points import Holding, axes_of
+from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, TRAVEL, Axis
+from mems_stiction.design_points import GAP, POTENTIAL, Holding, axes_of
 from mems_stiction.design_rows import FIGURES, Rows
 from mems_stiction.design_words import statements_of, told_once
 from mems_stiction.design_workers import Answers, answers_of_processes
@@ -165,6 +165,7 @@ def design_sweep(
     lower, above, checked = scans_of_device(scans, None, pitch, None, config, upper, settings, {})
     sought = axes_of(axes, checked)
     _check_etching(sought, etch_wavelength)
+    _check_electrodes(sought, values_of(checked))
     fixed = _fixed(sought, values_of(checked))
     holding = Holding(lower, above, checked, etch_wavelength)
     rows = Rows(sought, fixed, holding.fingerprint(sought), output)
@@ -202,6 +203,17 @@ def _check_etching(axes: List[Axis], wavelength: Optional[float]) -> None:
         raise OptionsError(
             "etch_wavelength: %r is not allowed with the axis %s, must be a number > 0 m"
             % (wavelength, ETCH)
+        )
+
+
+def _check_electrodes(axes: List[Axis], values: Dict[str, Any]) -> None:
+    """What a contact potential holds at the electrodes would go with the travel, which costs no
+    time."""
+    names = [axis.name for axis in axes]
+    if TRAVEL in names and values[GAP] > 0 and (values[POTENTIAL] != 0 or POTENTIAL in names):
+        raise OptionsError(
+            "axes: %s is not allowed with %s and %s: the gap of the closed electrodes goes with it"
+            % (TRAVEL, GAP, POTENTIAL)
         )
 
 

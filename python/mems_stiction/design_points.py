@@ -36,6 +36,7 @@ from mems_stiction.design_axes import (
     settings_named,
 )
 
+GAP, POTENTIAL = "device/electrode_gap", "load/contact_potential"
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"
 MOST_AXES = 2
 MOST_VALUES = 10000  # of an axis
@@ -47,6 +48,17 @@ SURE_SPRING = {
     TRAVEL: 1e-2,
     "device/beam_type": "none",
 }  # the strongest that is taken: 10 kN
+
+
+def sure_spring(values: Dict[str, Any]) -> Dict[str, Any]:
+    """As settings, with the gap that the device leaves between its electrodes when it is closed.
+
+    values: of the settings, by names.
+    """
+    if not float(values[GAP]) > 0.0:
+        return SURE_SPRING
+    left = float(values[GAP]) - float(values[TRAVEL])
+    return dict(SURE_SPRING, **{GAP: SURE_SPRING[TRAVEL], TRAVEL: SURE_SPRING[TRAVEL] - left})
 
 
 class Hold(NamedTuple):
@@ -246,7 +258,9 @@ class Holding:
             settings = Settings(self.settings, **stated)
             scans = [self._changed(scan, point) for scan in self.scans]
             found = mems_stiction.predict_device(
-                scans, config=Settings(settings, **SURE_SPRING), upper=self.upper or None
+                scans,
+                config=Settings(settings, **sure_spring(values_of(settings))),
+                upper=self.upper or None,
             )
         verdict = found.verdict
         assert verdict is not None

@@ -13,22 +13,21 @@ constexpr double kNarrowGapStrength = 3e9;     // [V/m]
 constexpr double kWideGapStrength = 0.11e9;    // [V/m]
 constexpr double kNarrowestMeasured = 0.5e-6;  // [m]
 
-/// "load/voltage 20 V and load/contact_potential 0.3 V": what of them is on.
-std::string nameOf(const LoadOptions& load) {
+std::string sentence(const LoadOptions& load, const std::string& over, double field,
+                     double strength, const std::string& what) {
+  return fieldSources(load) + " over " + over + " is a field of " + shortNumber(field * 1e-9) +
+         " GV/m: " + what + " from about " + shortNumber(strength * 1e-9) + " GV/m on";
+}
+
+}  // namespace
+
+std::string fieldSources(const LoadOptions& load) {
   std::string name;
   if (load.voltage != 0.0) name = "load/voltage " + shortNumber(std::abs(load.voltage)) + " V";
   if (load.contact_potential == 0.0) return name;
   return name + (name.empty() ? "" : " and ") + "load/contact_potential " +
          shortNumber(std::abs(load.contact_potential)) + " V";
 }
-
-std::string sentence(const LoadOptions& load, const std::string& over, double field,
-                     double strength, const std::string& what) {
-  return nameOf(load) + " over " + over + " is a field of " + shortNumber(field * 1e-9) +
-         " GV/m: " + what + " from about " + shortNumber(strength * 1e-9) + " GV/m on";
-}
-
-}  // namespace
 
 std::vector<std::string> breakdownWarnings(const Options& options, const DeviceOptions& device,
                                            double mean_gap) {

@@ -31,6 +31,9 @@
 
 namespace mems_stiction {
 
+/// "load/voltage 20 V and load/contact_potential 0.3 V": what of them is on.
+std::string fieldSources(const LoadOptions& load);
+
 /// One sentence for each field that nothing stands, without commas; none without a
 /// voltage or contact potential.
 /// - @p mean_gap of the surfaces out of contact [m]; NaN if it is not known

@@ -29,11 +29,12 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   checkBody("upper", configuration.model.upper);
   const auto checkPlate = [&](const std::string& body, const Material& material) {
     const LoadOptions& load = configuration.model.load;
-    if (load.voltage == 0.0 || !(material.thickness > 0.0) || material.backing != Backing::kFree)
+    if (load.fieldVoltage() == 0.0 || !(material.thickness > 0.0) ||
+        material.backing != Backing::kFree)
       return;
-    lines.push_back("load/voltage " + fourDigits(load.voltage) + " V beside " + body +
-                    "/thickness " + fourDigits(material.thickness) +
-                    " m: the voltage presses the surfaces of the frame together and their plate "
+    lines.push_back(fieldSources(load) + " beside " + body + "/thickness " +
+                    fourDigits(material.thickness) +
+                    " m: their field presses the surfaces of the frame together and their plate "
                     "bends onto the contacts; how it "
                     "bends the whole part between its anchors is left out");
   };

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "station/remaining_contact.hpp"
-#include "verdict/beam_field.hpp"
+#include "verdict/electrode_hold.hpp"
 #include "verdict/finding.hpp"
 
 namespace mems_stiction {
@@ -45,20 +44,20 @@ void addListViolations(const std::string& name, const std::vector<double>& value
 /// The force of the voltage's field that holds the closed device; what stays without the voltage is
 /// in the pull-off force [N].
 double holdingField(const DeviceOptions& device, const InterfaceOptions& interface,
-                    const RemainingState& state, const Prediction& contact) {
+                    const RemainingState& state, const Prediction& contact,
+                    const LoadOptions& load) {
   if (device.electrode_area <= 0.0)
     return state.voltageForce() * device.contact_area / contact.nominal_area;
-  const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
-  return device.electrode_area *
-         surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
-                                               state.voltage, interface.insulator_thickness,
-                                               interface.insulator_relative_permittivity);
+  const auto forceAt = [&](double volts) {
+    return plateForce(device, interface, volts, contact.mean_gap);
+  };
+  return forceAt(load.fieldVoltage()) - forceAt(load.contact_potential);
 }
 
 /// What opens a beam that is held, over all that holds it [-]; NaN where a share is not known.
 double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& interface,
                            const RemainingState& state, const Prediction& contact,
-                           const LoadSweepRow& row) {
+                           const LoadOptions& load, const LoadSweepRow& row) {
   if (!(row.ratio() > 0.0))
     return row.ratio();  // it stays down without a load, too (compressed beams)
   const Beam beam = device.beam();
@@ -70,8 +69,10 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
   };
   double shares = 1.0 / row.ratio() + shareOfForce(state.mechanical_load);
   if (const auto electrode = electrodeOf(device, interface)) {
-    const FieldHold field = fieldHold(beam, *electrode, state.voltage, contact.mean_gap);
-    shares += row.is_peeled ? field.work / peelNumber(beam, 1.0) : field.force / beamForce(beam);
+    const FieldHold field = fieldHold(beam, *electrode, load.fieldVoltage(), contact.mean_gap);
+    const FieldHold lasting = fieldHold(beam, *electrode, load.contact_potential, contact.mean_gap);
+    shares += row.is_peeled ? (field.work - lasting.work) / peelNumber(beam, 1.0)
+                            : (field.force - lasting.force) / beamForce(beam);
   } else {
     shares += shareOfForce(state.voltageForce());
   }
@@ -90,7 +91,7 @@ class Loop {
         scale_(scale),
         contact_(options, surfaces, scan),
         cell_area_(scan.cell_area),
-        pull_in_(closingVoltage(device, options.interface)) {}
+        pull_in_(closingVoltage(device, options.interface, options.load.contact_potential)) {}
 
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
     LoadSweepRow row;
@@ -156,15 +157,18 @@ class Loop {
     row.is_peeled = isPeeled(verdict_);
     const bool is_known = contact.status == Status::kEquilibrium || contact.model.knows_every_load;
     if (!is_known) return;
+    LoadOptions load = options_.load;
+    load.voltage = state.voltage;
     if (device_.hasBeam() && !device_.hasSpring()) {
-      row.holding_margin = holdingMarginOfBeam(device_, options_.interface, state, contact, row);
+      row.holding_margin =
+          holdingMarginOfBeam(device_, options_.interface, state, contact, load, row);
       return;
     }
     if (std::isnan(verdict_.margin)) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
-    row.holding_margin =
-        verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
-                                    holdingField(device_, options_.interface, state, contact));
+    row.holding_margin = verdict_.restoring_force /
+                         (verdict_.device_pull_off_force + pressing +
+                          holdingField(device_, options_.interface, state, contact, load));
   }
 
   const Options& options_;
@@ -246,7 +250,8 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
   const int total = step_count * static_cast<int>(request.mechanical_loads.size());
   const MeasuredScan measured = scan ? *scan : asMeasured(options, surfaces);
   LoadSweepResult result;
-  result.pull_in_voltage = closingVoltage(device, options.interface);
+  result.pull_in_voltage =
+      closingVoltage(device, options.interface, options.load.contact_potential);
   if (std::isnan(result.pull_in_voltage)) result.pull_in_reason = whatPullInLacks(device);
   for (const double mechanical_load : request.mechanical_loads) {
     Loop loop(options, surfaces, device, uncertainty, scale, measured);

@@ -18,11 +18,6 @@ constexpr double kMarginQuantile = 1.959964;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Standard deviation of the logarithm of a lognormal number, by its relative one [-].
-double logDeviation(double relative_deviation) {
-  return std::sqrt(std::log1p(relative_deviation * relative_deviation));
-}
-
 /// Standard normal numbers that are the same everywhere: std::normal_distribution is not.
 class NormalNumbers {
  public:
@@ -36,7 +31,7 @@ class NormalNumbers {
   /// Lognormal with median 1 and the given relative standard deviation.
   double factor(double relative_deviation) {
     const double normal = next();  // drawn even if unused: each constant keeps its own numbers
-    return std::exp(normal * logDeviation(relative_deviation));
+    return std::exp(normal * lognormalDeviation(relative_deviation));
   }
 
  private:
@@ -110,7 +105,7 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
   if (!response && !(prediction.pull_off_force > 0.0)) return spread;
   const bool is_local = uncertainty.scan_sampling && !prediction.is_conforming;
   const double sampling = is_local ? samplingDeviation(prediction.holdingContacts()) : 0.0;
-  const double place_deviation = logDeviation(sampling);
+  const double place_deviation = lognormalDeviation(sampling);
   spread.place_deviation = response ? response->placeDeviation(place_deviation) : place_deviation;
 
   NormalNumbers numbers(static_cast<std::uint64_t>(uncertainty.seed));
@@ -204,6 +199,10 @@ ForceInterval pullOffInterval(const Prediction& prediction, const Options& optio
   const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
   return {prediction.pull_off_force * quantile(spread.pull_off, kLowerShare),
           prediction.pull_off_force * quantile(spread.pull_off, kUpperShare)};
+}
+
+double lognormalDeviation(double relative_deviation) {
+  return std::sqrt(std::log1p(relative_deviation * relative_deviation));
 }
 
 double quantile(const std::vector<double>& sorted_samples, double share) {

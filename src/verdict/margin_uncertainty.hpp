@@ -78,6 +78,9 @@ struct ForceInterval {
 ForceInterval pullOffInterval(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty);
 
+/// Standard deviation of the logarithm of a lognormal number, by its relative one [-].
+double lognormalDeviation(double relative_deviation);
+
 /// Value below which the given share of the sorted samples lies, linear between samples; NaN if
 /// there are none.
 double quantile(const std::vector<double>& sorted_samples, double share);

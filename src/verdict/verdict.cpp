@@ -6,6 +6,7 @@
 
 #include "errors/short_number.hpp"
 #include "verdict/contact_size.hpp"
+#include "verdict/electrode_hold.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/missing_scan.hpp"
@@ -96,11 +97,31 @@ struct Holding {
   const DeviceEvidence* of_device;  ///< its own figures; nullptr: the scan's stand for it
   bool has_cleanings;               ///< the spread knows of other cleanings
   std::string why_not;              ///< the scan cannot stand for it; empty if it can, or need not
+  FieldHold electrodes;             ///< what a contact potential holds there without a voltage
+  double potential_deviation;       ///< of the logarithm of the contact potential [-]
 };
 
+/// What holds, of which a share is of the surfaces and the rest of the electrodes: as a multiple
+/// of itself where both are at the same quantile, as if they went together.
+/// - @p deviations standard ones of a normal distribution to that quantile
+double holdingFactor(const Holding& holding, double share, double of_surfaces, double deviations) {
+  if (share == 1.0) return of_surfaces;
+  return share * of_surfaces +
+         (1.0 - share) * std::exp(2.0 * deviations * holding.potential_deviation);
+}
+
+/// "; 1.2e-07 N of what holds are of the contact potential between the electrodes", or nothing.
+std::string electrodeShare(double hold, const char* unit) {
+  if (hold == 0.0) return "";
+  return "; " + shortNumber(hold, 2) + " " + unit +
+         " of what holds are of the contact potential between the electrodes";
+}
+
 /// "; the scan's force by area would say margin 0.2", where that is worth saying.
-std::string linearMargin(const DeviceEvidence& of_device, const Verdict& verdict) {
-  const double linear = verdict.restoring_force / of_device.linear_pull_off_force;
+/// - @p electrodes what holds beside the surfaces [N]
+std::string linearMargin(const DeviceEvidence& of_device, double electrodes,
+                         const Verdict& verdict) {
+  const double linear = verdict.restoring_force / (of_device.linear_pull_off_force + electrodes);
   const double ratio = linear / verdict.margin;
   if (!(std::max(ratio, 1.0 / ratio) > kWorthSaying)) return "";
   return "; the scan's force by area would say margin " + shortNumber(linear, 2);
@@ -111,33 +132,48 @@ Finding springFinding(const Holding& holding, Verdict& verdict) {
   if (!holding.why_not.empty()) return {Sticks::kUnknown, holding.why_not};
   const double across_the_gap = prediction.pull_off_force - prediction.pull_off_force_jkr;
   const double transition = prediction.pull_off_force_transition + across_the_gap;
-  verdict.device_pull_off_force =
+  const double of_surfaces =
       holding.of_device != nullptr
           ? holding.of_device->pull_off_force
           : prediction.pull_off_force * (holding.device.contact_area / prediction.nominal_area);
+  const double of_electrodes = holding.electrodes.force;
+  verdict.device_pull_off_force = of_surfaces + of_electrodes;
   verdict.margin = verdict.restoring_force / verdict.device_pull_off_force;
   if (std::isinf(verdict.margin)) {
     verdict.margin_lower = verdict.margin_upper = verdict.margin_transition = verdict.margin;
     return {Sticks::kNo, "nothing holds the contact: no adhesion"};
   }
+  if (std::isinf(of_electrodes)) {
+    verdict.margin_lower = verdict.margin_upper = verdict.margin_transition = verdict.margin;
+    return {Sticks::kYes, "the contact potential between the electrodes holds the device"};
+  }
+  const double share = of_electrodes == 0.0 ? 1.0 : of_surfaces / verdict.device_pull_off_force;
   verdict.margin_transition = verdict.margin;
-  if (transition > 0.0) verdict.margin_transition *= prediction.pull_off_force / transition;
+  if (transition > 0.0 && share == 1.0) {
+    verdict.margin_transition *= prediction.pull_off_force / transition;
+  } else if (transition > 0.0) {
+    verdict.margin_transition /= share * transition / prediction.pull_off_force + 1.0 - share;
+  }
   if (!holding.spread.isKnown()) return withoutContacts("the margin's interval", prediction);
   // the margin falls as the pull-off force grows
-  const std::vector<double>& forces = holding.spread.pull_off;
+  const auto forceAt = [&](double place, double deviations) {
+    return holdingFactor(holding, share, quantile(holding.spread.pull_off, place), deviations);
+  };
   verdict.device_pull_off_force_lower =
-      verdict.device_pull_off_force * quantile(forces, kLowerShare);
+      verdict.device_pull_off_force * forceAt(kLowerShare, -kReach95);
   verdict.device_pull_off_force_upper =
-      verdict.device_pull_off_force * quantile(forces, kUpperShare);
+      verdict.device_pull_off_force * forceAt(kUpperShare, kReach95);
   verdict.margin_lower = verdict.restoring_force / verdict.device_pull_off_force_upper;
   verdict.margin_upper = verdict.restoring_force / verdict.device_pull_off_force_lower;
   verdict.margin_uncertainty =
       0.5 * verdict.margin *
-      (1.0 / quantile(forces, kStandardLower) - 1.0 / quantile(forces, kStandardUpper));
+      (1.0 / forceAt(kStandardLower, -1.0) - 1.0 / forceAt(kStandardUpper, 1.0));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
   Finding finding = judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper,
                                 prediction.isLowerBound(), holding.has_cleanings);
-  if (holding.of_device != nullptr) finding.reason += linearMargin(*holding.of_device, verdict);
+  finding.reason += electrodeShare(of_electrodes, "N");
+  if (holding.of_device != nullptr)
+    finding.reason += linearMargin(*holding.of_device, of_electrodes, verdict);
   return finding;
 }
 
@@ -148,16 +184,23 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const Beam beam = device.beam();
   const double work = verdict.apparent_work_of_adhesion;
   if (std::isnan(work)) return withoutContacts("the beam's adhesion", holding.prediction);
-  verdict.peel_number = peelNumber(beam, work);
+  const double of_electrodes = holding.electrodes.work;
+  const double share = of_electrodes == 0.0 ? 1.0 : work / (work + of_electrodes);
+  verdict.peel_number = peelNumber(beam, work + of_electrodes);
   verdict.detachment_length = detachmentLength(beam, work);
   verdict.unstuck_length = unstuckLength(beam, work);
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
-  if (!is_measured) {  // known, as the contacts that the work of adhesion was summed over
-    const double at_most =
-        verdict.peel_number / quantile(holding.spread.apparent_work, kLowerShare);
-    const double at_least =
-        verdict.peel_number / quantile(holding.spread.apparent_work, kUpperShare);
+  if (std::isinf(of_electrodes))
+    return {Sticks::kYes, "the contact potential of the electrode holds the beam"};
+  // the spread is known, as the contacts that the work of adhesion was summed over
+  if (!is_measured || of_electrodes != 0.0) {
+    const auto workAt = [&](double place, double deviations) {
+      const double of_surfaces = is_measured ? 1.0 : quantile(holding.spread.apparent_work, place);
+      return holdingFactor(holding, share, of_surfaces, deviations);
+    };
+    const double at_most = verdict.peel_number / workAt(kLowerShare, -kReach95);
+    const double at_least = verdict.peel_number / workAt(kUpperShare, kReach95);
     verdict.peel_number_lower =
         std::min(at_least, at_most);  // compressed beams have peel numbers below 0
     verdict.peel_number_upper = std::max(at_least, at_most);
@@ -165,6 +208,7 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   Finding finding = judgedRatio(
       "peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
       holding.prediction.isLowerBound() && !is_measured, holding.has_cleanings && !is_measured);
+  finding.reason += electrodeShare(of_electrodes, "J/m^2");
   if (!is_measured && device.contact_area == 0.0) {
     finding.reason +=
         "; by the scan's work of adhesion: with device/contact_area it would be that of the device";
@@ -189,7 +233,8 @@ struct PeelReach {
 PeelReach peelReach(const Holding& holding, const Verdict& verdict) {
   const DeviceOptions& device = holding.device;
   const Beam beam = device.beam();
-  const double pressure = verdict.device_pull_off_force / device.contact_area;
+  const double pressure =
+      (verdict.device_pull_off_force - holding.electrodes.force) / device.contact_area;
   PeelReach reach;
   reach.length = reach.shortest = peelLength(beam, verdict.apparent_work_of_adhesion, pressure);
   reach.longest = kDecayLength * reach.length;
@@ -236,29 +281,35 @@ Finding governingFinding(const Holding& holding, Finding of_force, Finding of_wo
 }
 
 /// What pressed the surfaces before they were drawn apart, if that changed them; else nothing.
-std::string historyOf(const Prediction& prediction) {
+/// - @p contact_potential [V]
+std::string historyOf(const Prediction& prediction, double contact_potential) {
   const bool flowed = prediction.elasto_plastic_count + prediction.plastic_count > 0;
-  const bool is_pressed = prediction.mechanical_load > 0.0 || prediction.voltage != 0.0;
-  if (!flowed || !is_pressed || !prediction.model.knows_every_load) return "";
+  if (!flowed || !prediction.model.knows_every_load) return "";
   const double pressure = prediction.mechanical_load / prediction.nominal_area;
-  std::string loads = pressure > 0.0 ? shortNumber(1e-6 * pressure) + " MPa" : "";
-  if (prediction.voltage != 0.0) {
-    loads += (loads.empty() ? "" : " and ") + shortNumber(std::abs(prediction.voltage)) + " V";
-  }
-  return "; after " + loads + ", under which contacts have flowed";
+  std::string loads;
+  const auto add = [&](double value, const std::string& unit) {
+    if (value == 0.0) return;
+    loads += (loads.empty() ? "" : " and ") + shortNumber(std::abs(value)) + unit;
+  };
+  add(1e-6 * pressure, " MPa");
+  add(prediction.voltage, " V");
+  add(contact_potential, " V of contact potential");
+  return loads.empty() ? "" : "; after " + loads + ", under which contacts have flowed";
 }
 
 /// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
 /// - @p cell_area of the scan [m^2]
 /// - @p evidence on the device, with the cleanings; its half-space is in the prediction
+/// - @p potential_deviation of the logarithm of the contact potential [-]
 /// - @p spread_of gives the spread of the figures, if it is needed
 Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, const Options& options,
                   std::uint32_t flags, double cell_area, const Evidence& evidence,
-                  const std::function<AdhesionSpread()>& spread_of) {
+                  double potential_deviation, const std::function<AdhesionSpread()>& spread_of) {
   Verdict verdict;
   verdict.regime_flags = flags;
-  verdict.pull_in_voltage = closingVoltage(device, options.interface);
+  const double contact_potential = options.load.contact_potential;
+  verdict.pull_in_voltage = closingVoltage(device, options.interface, contact_potential);
   verdict.apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
   const bool has_contact = hasContact(device);
   if (device.hasSpring() || device.hasBeamContact())
@@ -294,8 +345,15 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   if (why_not.empty() && of_device == nullptr && !hasSizeOfScan(prediction, device)) {
     why_not = whatSizeLacks(prediction, device, evidence.why_no_device);
   }
-  const Holding holding{prediction, device, spread, of_device, evidence.cleaning.has_value(),
-                        why_not};
+  const Holding holding{
+      prediction,
+      device,
+      spread,
+      of_device,
+      evidence.cleaning.has_value(),
+      why_not,
+      lastingHold(device, options.interface, contact_potential, prediction.mean_gap),
+      potential_deviation};
   Finding finding{Sticks::kNo, ""};
   if (has_contact) finding = springFinding(holding, verdict);
   if (device.hasBeam()) {
@@ -318,7 +376,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
     verdict.sticks = Sticks::kUnknown;
     verdict.reason = finding.reason + "; but " + lack;
   }
-  verdict.reason += historyOf(prediction);
+  verdict.reason += historyOf(prediction, contact_potential);
   const bool is_plain = verdict.sticks == Sticks::kNo || verdict.sticks == Sticks::kYes;
   if (of_device != nullptr && why_not.empty() && !is_plain && !of_device->warnings.empty()) {
     verdict.reason += "; " + of_device->warnings.front();
@@ -361,6 +419,7 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device,
                  figures.apparent_work_of_adhesion / prediction.apparent_work_of_adhesion);
     }
     return verdictBy(figures, device, options, flags, cell_area, counted,
+                     lognormalDeviation(uncertainty.contact_potential),
                      [&] { return adhesionSpread(prediction, options, uncertainty, counted); });
   };
   if (counted.half_space == nullptr) {

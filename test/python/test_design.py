@@ -80,7 +80,7 @@ def as_if(force_of):
 
 
 class MarginTest(unittest.TestCase):
-    def assertIsOf(self, row, verdict):
+    def assertIsOf(self, row, verdict, delta=1e-12):
         for name in (
             "margin",
             "margin_lower",
@@ -88,7 +88,7 @@ class MarginTest(unittest.TestCase):
             "margin_transition",
             "restoring_force",
         ):
-            self.assertAlmostEqual(row[name] / getattr(verdict, name), 1.0, delta=1e-12, msg=name)
+            self.assertAlmostEqual(row[name] / getattr(verdict, name), 1.0, delta=delta, msg=name)
         self.assertEqual(row["sticks"], verdict.sticks)
 
     def test_softer_bodies_that_are_pressed_harder_hold_harder(self):
@@ -125,6 +125,26 @@ class MarginTest(unittest.TestCase):
         # the spring
         self.assertEqual(words, {"yes", "marginal", "unknown"})
         self.assertGreater(found.rows[5]["margin_lower"], 1.0)
+
+    def test_electrodes_keep_their_closed_gap_and_what_a_potential_holds_there(self):
+        electrodes = {
+            "device/electrode_area": 1e-9,
+            "device/electrode_gap": 1.5e-6,
+            "load/contact_potential": 20.0,
+            "interface/insulator_thickness": 100e-9,
+        }
+        found = swept({STIFFNESS: [0.04, 0.4]}, **electrodes)
+        bare = swept({STIFFNESS: [0.04]}, **dict(electrodes, **{"device/electrode_area": 0.0}))
+        plates = 0.5 * 8.8541878128e-12 * 1e-9 * 20.0**2 / (0.5e-6 + 100e-9 / 3.9) ** 2
+        held = found.rows["pull_off_force"][0] - bare.rows["pull_off_force"][0]
+        self.assertAlmostEqual(held / plates, 1.0, delta=0.1)  # beside the surfaces' mean gap
+        for row in found.rows:
+            verdict = verdict_of(**dict(electrodes, **{STIFFNESS: row[STIFFNESS]}))
+            self.assertIsOf(row, verdict, 1e-9)  # round-off of the gap beside a travel of 1 cm
+        with self.assertRaisesRegex(
+            mems_stiction.OptionsError, "axes: device/travel is not allowed with device/electrode"
+        ):
+            swept({TRAVEL: [0.5e-6, 1e-6]}, **electrodes)
 
     def test_the_surface_may_be_scaled_polished_and_etched(self):
         for axes, heights, settings in (

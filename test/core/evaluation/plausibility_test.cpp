@@ -235,6 +235,10 @@ TEST(Plausibility, WhatAVoltageBendsOfAPartIsSaid) {
   configuration.model.upper.backing = Backing::kFree;
   configuration.model.load.voltage = 0.0;
   EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.model.load.contact_potential = -0.3;
+  EXPECT_EQ(onlyWarning(configuration)
+                .find("load/contact_potential 0.3 V beside upper/thickness 2e-06 m: "),
+            0U);
 }
 
 TEST(Plausibility, ASettingOfWhatIsOffIsNamed) {

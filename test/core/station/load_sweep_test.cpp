@@ -338,6 +338,26 @@ TEST(LoadSweep, fieldOfAStatedElectrodeHoldsTheDevice) {
   EXPECT_NEAR(row.holding_margin, 1e-6 / (row.pull_off_force + field), 1e-9 * row.holding_margin);
 }
 
+TEST(LoadSweep, aStatedElectrodeHasBothPotentials) {
+  const HeightMap scan = sphere();
+  DeviceOptions device = deviceFor(scan, 1e-6);
+  device.electrode_area = 1e-9;
+  device.electrode_gap = 1.5e-6;  // 0.5 um is left when closed
+  Options options = insulated();
+  const double bare = sweepLoads(options, scan, upTo(0.0, 1), device, {}, {}).pull_in_voltage;
+  options.load.contact_potential = -2.0;
+  const LoadSweepResult result = sweepLoads(options, scan, upTo(10.0, 2), device, {}, {});
+  EXPECT_DOUBLE_EQ(result.pull_in_voltage, bare - 2.0);
+  for (const double voltage : {0.0, 10.0}) {
+    const LoadSweepRow& row = result.rows[voltage > 0.0 ? 1 : 0];
+    options.load.voltage = voltage;
+    const double mean_gap = AdhesionModel(options).predict(scan).mean_gap;
+    const double field = 1e-9 * surface_forces::electrostaticPressure(0.5e-6 + mean_gap,
+                                                                      voltage + 2.0, 50 * kNm, 3.9);
+    EXPECT_NEAR(row.holding_margin, 1e-6 / (row.pull_off_force + field), 1e-9 * row.holding_margin);
+  }
+}
+
 TEST(LoadSweep, takesACounterSurface) {
   const HeightMap scan = rough();
   const HeightMap plane = analytic::flat(256, 256, scan.pitchX(), scan.pitchY(), 1e-6);

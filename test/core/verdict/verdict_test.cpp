@@ -84,14 +84,21 @@ TEST(Verdict, saysWhatPressedTheContactsIfTheyFlowed) {
   options.lower.hardness = options.upper.hardness = 0.5e9;
   const HeightMap surface = analytic::sphereArray(60, 60, 2 * kNm, 2 * kNm, {100 * kNm}, 2, 2);
   const double area = 60 * 60 * kCell;
-  const auto reasonUnder = [&](double pressure) {
+  const auto reasonUnder = [&](double pressure, double contact_potential = 0.0) {
     options.load.mechanical_load = pressure * area;
+    options.load.contact_potential = contact_potential;
     const Prediction prediction = AdhesionModel(options).predict(surface);
     return verdictOf(prediction, springOf(1e-6, area), UncertaintyOptions(), options, kCell).reason;
   };
   EXPECT_NE(reasonUnder(30e6).find("; after 30 MPa, under which contacts have flowed"),
             std::string::npos);
   EXPECT_EQ(reasonUnder(0.0).find("after"), std::string::npos);
+  options.interface.insulator_thickness = 4 * kNm;
+  EXPECT_NE(reasonUnder(0.0, -20.0)
+                .find("; after 20 V of contact potential, under which contacts have flowed"),
+            std::string::npos);
+  EXPECT_NE(reasonUnder(30e6, 20.0).find("; after 30 MPa and 20 V of contact potential, under"),
+            std::string::npos);
   options.lower.hardness = options.upper.hardness = 1e12;
   EXPECT_EQ(reasonUnder(30e6).find("after"), std::string::npos);
 }

@@ -1,0 +1,46 @@
+#include "verdict/electrode_hold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/surface_forces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Between the electrodes of a closed device on a spring [m].
+double closedGap(const DeviceOptions& device) {
+  return device.electrode_gap > 0.0 ? device.electrode_gap - device.travel : 0.0;
+}
+
+}  // namespace
+
+double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface,
+                      double contact_potential) {
+  const double bare = closingVoltage(device, interface);
+  return contact_potential == 0.0 || std::isnan(bare)
+             ? bare
+             : std::max(0.0, bare - std::abs(contact_potential));
+}
+
+double plateForce(const DeviceOptions& device, const InterfaceOptions& interface, double voltage,
+                  double contact_gap) {
+  return device.electrode_area *
+         surface_forces::electrostaticPressure(closedGap(device) + contact_gap, voltage,
+                                               interface.insulator_thickness,
+                                               interface.insulator_relative_permittivity);
+}
+
+FieldHold lastingHold(const DeviceOptions& device, const InterfaceOptions& interface,
+                      double contact_potential, double contact_gap) {
+  if (contact_potential == 0.0) return {};
+  const double gap = std::isnan(contact_gap) ? 0.0 : contact_gap;
+  if (const auto electrode = electrodeOf(device, interface))
+    return fieldHold(device.beam(), *electrode, contact_potential, gap);
+  if (!device.hasSpring() || !(device.electrode_area > 0.0)) return {};
+  const double landed = closedGap(device) > 0.0 ? 0.0 : device.contact_area;
+  const double share = std::max(0.0, device.electrode_area - landed) / device.electrode_area;
+  return {share * plateForce(device, interface, contact_potential, gap), 0.0};
+}
+
+}  // namespace mems_stiction

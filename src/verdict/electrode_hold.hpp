@@ -1,0 +1,41 @@
+#pragma once
+
+/// @file
+/// What do the electrodes of a device do when a contact potential lies between them, too?
+///
+/// Contact potential and trapped charge V_c have a sign of their own; they count as if they had
+/// that of the voltage (LoadOptions). So the electrodes see |V| + |V_c| while the voltage is on:
+///
+///     voltage at which they close        V = max(0, V_close - |V_c|)
+///     what V adds to what holds          F_e(|V| + |V_c|) - F_e(V_c)
+///     what stays when V has gone         F_e(V_c)
+///
+/// V_close without a contact potential: device_options.hpp. F_e of a spring's plate is A_e times
+/// the pressure of parallel plates (surface_forces.hpp) over the gap that is left when the device
+/// is closed and the mean gap of the surfaces; of a beam that of beam_field.hpp. Where no gap is
+/// left the plate lands on its electrode: there the field of the contact area is in the force of
+/// the surfaces, and the rest of the electrode alone counts here.
+///
+///     const FieldHold hold = lastingHold(device, interface, contact_potential, mean_gap);
+
+#include "verdict/beam_field.hpp"
+
+namespace mems_stiction {
+
+/// closingVoltage() of electrodes with a contact potential of either sign [V]; 0: it closes them by
+/// itself.
+double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface,
+                      double contact_potential);
+
+/// Force of the electrode below the plate of a closed device on a spring [N].
+/// - @p contact_gap mean gap of the surfaces where they do not touch [m], >= 0
+double plateForce(const DeviceOptions& device, const InterfaceOptions& interface, double voltage,
+                  double contact_gap);
+
+/// What of the electrodes' field holds the closed device when the voltage has gone. Nothing where
+/// no electrode is stated.
+/// - @p contact_gap as of plateForce(); NaN of surfaces that touch everywhere
+FieldHold lastingHold(const DeviceOptions& device, const InterfaceOptions& interface,
+                      double contact_potential, double contact_gap);
+
+}  // namespace mems_stiction
