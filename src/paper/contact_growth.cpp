@@ -64,9 +64,7 @@ class ContactGrowth : public ContactResponse {
       : pair_(contact.settings.lower, contact.settings.upper),
         contacts_(contact.asperities, pair_, contact.settings.deformation == Deformation::kElastic),
         adhesion_(kPi * contact.settings.interface.work_of_adhesion * contacts_.radiusSum()),
-        load_(contact.settings.load),
-        field_(contact.electrostatic_force),
-        lasting_(load_.lastingFieldShare() * field_),
+        lasting_(contact.settings.load.lastingFieldShare() * contact.electrostatic_force),
         applied_(contact.mechanical_load + contact.electrostatic_force),
         other_(contact.pull_off_force - contact.pull_off_force_jkr - contact.van_der_waals_force -
                lasting_),
@@ -83,8 +81,7 @@ class ContactGrowth : public ContactResponse {
     const double area = factors.pitch * factors.pitch;
     const double near_now =
         area * (factors.hamaker * near_ / (factors.cutoff * factors.cutoff) + other_);
-    const double demand_now = applied_ + field_ * (fieldFactor(factors) - 1.0) + near_now +
-                              area * factors.hamaker * far_ +
+    const double demand_now = applied_ + near_now + area * factors.hamaker * far_ +
                               2.0 * area * factors.adhesion * adhesion_;
     const double carried_now =
         contacts_.carriedLoad(factors.modulus * factors.pitch, factors.hardness * area,
@@ -118,21 +115,10 @@ class ContactGrowth : public ContactResponse {
                                     contact.mean_gap, contact.settings.interface.hamaker_constant));
   }
 
-  /// Of the field at rest, when the contact potential is another [-].
-  double fieldFactor(const ConstantFactors& factors) const {
-    if (load_.contact_potential == 0.0) return 1.0;
-    LoadOptions other = load_;
-    other.contact_potential *= factors.contact_potential;
-    const double ratio = other.fieldVoltage() / load_.fieldVoltage();
-    return ratio * ratio;
-  }
-
   ContactPair pair_;
   ContactList contacts_;
   double adhesion_;  ///< pi Gamma sum R_i [N]
-  LoadOptions load_;
-  double field_;     ///< F_e [N]
-  double lasting_;   ///< what of it stays on the way out [N]
+  double lasting_;   ///< what of F_e stays on the way out [N]
   double applied_;   ///< F_m + F_e [N]
   double other_;     ///< what else attracts around the contacts, such as condensed water [N]
   double demand_;    ///< B [N]

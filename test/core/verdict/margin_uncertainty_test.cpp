@@ -1,6 +1,7 @@
 #include "verdict/margin_uncertainty.hpp"
 #include "mems_stiction/paper/paper_options.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -89,6 +90,35 @@ TEST(AdhesionSpread, contactPotentialsMoveTheForceAsOtherOnesWould) {
   // by powers; 4000 samples: 1 %
   EXPECT_NEAR(logDeviation(spread.pull_off), std::hypot(moved, prediction.model.error.pull_off),
               0.2 * moved);
+}
+
+TEST(AdhesionSpread, contactPotentialsMoveTheForceOfThePaperAsItsSearchDoes) {
+  UncertaintyOptions uncertainty = exact();
+  uncertainty.contact_potential = 0.2;
+  uncertainty.samples = 1000;
+  std::vector<double> ratios;  // of the spread to what the search says
+  for (int seed = 1; seed <= 9; ++seed) {
+    GaussianSurfaceOptions rough;
+    rough.rows = rough.cols = 160;
+    rough.pitch_x = rough.pitch_y = 5 * kNm;
+    rough.rms_height = 3 * kNm;
+    rough.correlation_length_x = rough.correlation_length_y = 40 * kNm;
+    rough.seed = seed;
+    const HeightMap surface = gaussianSurface(rough);
+    Options options = paperOptions();
+    options.interface.insulator_thickness = 4 * kNm;
+    options.load.contact_potential = 1.0;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
+    std::vector<double> forces;
+    for (const double sign : {-1.0, 1.0}) {
+      options.load.contact_potential = std::exp(sign * lognormal(0.2));
+      forces.push_back(AdhesionModel(options).predict(surface).pull_off_force);
+    }
+    ratios.push_back(2.0 * logDeviation(spread.pull_off) / std::log(forces[1] / forces[0]));
+  }
+  std::sort(ratios.begin(), ratios.end());  // some searches go in steps
+  EXPECT_NEAR(ratios[ratios.size() / 2], 1.0, 0.2) << testing::PrintToString(ratios);
 }
 
 TEST(AdhesionSpread, workOfAdhesionActsInProportionWhenTheLoadRules) {
