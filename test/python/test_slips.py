@@ -474,6 +474,23 @@ class SlipTest(unittest.TestCase):
             "roslaunch)\n",
         )
 
+    def test_too_few_open_files_are_said_at_the_start(self):
+        for name in ("station_page",):
+            process = subprocess.Popen(
+                ["sh", "-c", 'ulimit -n 64; exec "$0"', find_node("mems_stiction", name)[0]],
+                env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                universal_newlines=True,
+            )
+            self.addCleanup(process.stderr.close)
+            self.addCleanup(process.wait)
+            self.addCleanup(process.kill)
+            self.assertRegex(
+                process.stderr.readline(),
+                "^%s: no more than 64 files and connections may be open .*ulimit -n" % name,
+            )
+
     def test_bags_that_are_none_are_named_before_anybody_waits(self):
         self.assertEqual(self.run_it("make_scan_bag", "-o", "good.bag", "scan.npy").returncode, 0)
         (self.folder / "cut.bag").write_bytes((self.folder / "good.bag").read_bytes()[:5000])
