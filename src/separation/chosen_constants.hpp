@@ -61,6 +61,13 @@ constexpr double kJoinedShare = 0.2;
 /// doubt, and 34.0 to 32.1 % of all are doubted; with 1.4 it is 0.7 %, with 1.05 0.35 %, of 34.8 %.
 constexpr double kDoubtedContacts = 1.25;
 
+/// Surfaces that water draws together are doubted where, on their way, no more than this share of
+/// what the contacts carried drew them on, towards a force so many times larger. Of 380 frames at
+/// 30 % humidity (studies/trust --effects) this doubts two, with 3.2 and 3.5 times the half-space's
+/// force; of 144 others one, with 16 times. No force hangs on it: the doubt does.
+constexpr double kHardlyPast = 0.35;
+constexpr double kMorePast = 1.3;
+
 /// Surfaces that have flowed are doubted where contacts carry so many times what they would without
 /// flow, since the surfaces attract each other more [-]. No force hangs on it. Of 288 pressed
 /// frames it doubts four, of which three are out by more than 1.3; up to 1.6 it doubts the same.

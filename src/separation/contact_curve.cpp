@@ -25,10 +25,16 @@ constexpr double kDoubtedFactor = 1.3;
 /// it. Or where the surfaces may have come to another rest, or what is out in the load of the
 /// contacts decides how near to it they part.
 /// - @p exponent of the force with all that attracts: 1 where nothing is subtracted
-const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
+/// - @p is_drawn_past as isDrawnPastARest()
+const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest,
+                    bool is_drawn_past) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a "
            "larger force";
+  }
+  if (is_drawn_past) {
+    return "water hardly draws the surfaces past a farther rest, from which they part with a "
+           "smaller force";
   }
   const SeparationState& strongest = curve.states[curve.strongest];
   if (!(strongest.adhesion > 0.0)) return nullptr;
@@ -60,6 +66,7 @@ void ContactCurve::start(const GapField& field, const ContactSettings& settings,
   flow_ = flow;
   cell_area_ = field.cellArea();
   has_voltage_ = settings.load.voltage != 0.0;
+  load_ = settings.load.mechanical_load;
   has_unloading_ = false;
   frame_.start(field, settings, far, flow == nullptr);
   followCurve(frame_, settings, loading_);
@@ -204,7 +211,8 @@ void ContactCurve::part(double force_from_next_rest) {
                           : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
   const double by_attraction =  // a lasting field pulls as adhesion does
       exponents.pull_off.adhesion + 0.5 * exponents.pull_off.contact_potential;
-  by_contacts_.doubt = doubtOf(curve, by_attraction, force_from_next_rest);
+  by_contacts_.doubt =
+      doubtOf(curve, by_attraction, force_from_next_rest, isDrawnPastARest(loading_, load_));
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   if (!has_unloading_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;

@@ -287,6 +287,17 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
   return largest;
 }
 
+bool isDrawnPastARest(const SeparationCurve& loading, double load) {
+  double before = 0.0;
+  return std::any_of(loading.states.begin(), loading.states.end(),
+                     [&](const SeparationState& state) {
+                       before = std::max(before, state.partingForce());
+                       return state.capillary > 0.0 &&
+                              state.force() + load < chosen::kHardlyPast * state.carried &&
+                              loading.pull_off_force > chosen::kMorePast * before;
+                     });
+}
+
 bool hangsOnWhatIsCarried(const SeparationCurve& curve) {
   return std::any_of(curve.states.begin(), curve.firstPushing(), [&](const SeparationState& state) {
     return state.partingForce() + kError * state.carried > (1.0 + kError) * curve.pull_off_force;

@@ -97,6 +97,11 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
                          const SeparationCurve& loading);
 
+/// Whether water draws the surfaces past a place at which a little more carried by the contacts
+/// would have let them rest, and they part with a larger force for it.
+/// - @p load that presses them [N]
+bool isDrawnPastARest(const SeparationCurve& loading, double load);
+
 /// Whether the pull-off force would be larger by more than the error with which the curve knows
 /// what the contacts carry if they carried less by that error: on the unloading branch, up to the
 /// rest without a load.

@@ -105,6 +105,26 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpaceAndBondedOnesWith
   EXPECT_GE(near_areas, 13) << "contact areas at rest within 1.3, of 15";
 }
 
+TEST(SeparationOfFreshFrames, wetOnesThatTheHalfSpaceKeepsAtAFartherRestAreDoubted) {
+  GaussianSurfaceOptions rough;
+  rough.rows = rough.cols = 80;
+  rough.pitch_x = rough.pitch_y = 6.44433e-9;
+  rough.correlation_length_x = rough.correlation_length_y = 64.4433e-9;
+  rough.rms_height = 1.50825e-9;
+  rough.seed = 55;
+  const HeightMap surface = gaussianSurface(rough);
+  Options options = elastic(15.6833e9);
+  options.interface.work_of_adhesion = 0.0218524;
+  EXPECT_EQ(AdhesionModel(options).predict(surface).model.doubt, nullptr);
+  options.capillary.relative_humidity = 0.3;
+  const Prediction wet = AdhesionModel(options).predict(surface);
+  const SolvedHalfSpace solved = halfSpaceOf(surface, options);
+  ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+  EXPECT_GT(wet.pull_off_force, 5.0 * solved.pull_off_force);
+  ASSERT_NE(wet.model.doubt, nullptr);
+  EXPECT_NE(std::string(wet.model.doubt).find("past a farther rest"), std::string::npos);
+}
+
 TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBondedOnes) {
   // flattening ratios around 1, but contact on a tenth of the frame: bonded surfaces would hold 20
   // % more
