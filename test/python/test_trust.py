@@ -17,7 +17,8 @@ STUDIES = REPOSITORY / "studies"
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(STUDIES))
 
-import half_space_steps  # noqa: E402  (the path comes first)
+import effects_map  # noqa: E402  (the path comes first)
+import half_space_steps  # noqa: E402
 import trust_frames  # noqa: E402
 import trust_kinds  # noqa: E402
 import trust_page  # noqa: E402
@@ -149,6 +150,37 @@ class TrustTest(unittest.TestCase):
         )
         self.assertIn(heading, headings(shipped))
         self.assertIn(table, shipped)
+
+    def test_effects_are_compared_and_the_run_goes_on(self):
+        page, path = self.folder / "page.md", self.folder / "effects.jsonl"
+        shipped = (REPOSITORY / "doc" / "separation_evidence.md").read_text(encoding="utf-8")
+        page.write_text(shipped, encoding="utf-8")
+        for count in (1, 2):
+            before = path.read_text() if path.exists() else ""
+            done = run(
+                sys.executable,
+                STUDIES / "effects_map.py",
+                self.folder,
+                count,
+                "--pixels",
+                "48",
+                "--seed",
+                "1",
+                "--page",
+                page,
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(path.read_text().startswith(before))
+        written = page.read_text(encoding="utf-8")
+        self.assertEqual(headings(written), headings(shipped))
+        section = written.split(effects_map.HEADING)[1].split("\n## ")[0]
+        rows = re.findall(r"^\| (.*?) \| 2 \| .* \|$", section, re.M)
+        self.assertEqual(rows, list(effects_map.EFFECTS))
+        for text in path.read_text().splitlines():
+            line = json.loads(text)
+            plain, *others = (line["found"][name]["half_space"][1] for name in effects_map.EFFECTS)
+            for work in others:  # each of them adds to what holds
+                self.assertGreater(work, plain)
 
     def test_retraction_does_not_pass_over_one_of_several_maxima(self):
         # behind the first maximum retraction is another branch for a while: reusing the states of
