@@ -2,7 +2,7 @@
 """How often the intervals of calibrate() hold the truth: made measurements of several kinds, the
 whole of calibrate(), outliers and all.
 
-usage: calibration_study.py [--draws 200] [--output FOLDER] [CASE...]
+usage: calibration_study.py [--draws 200] [--first 0] [--output FOLDER] [CASE...]
 
 A line for each case: draws, share of intervals that hold the work of adhesion the data were made
 with, bias, draws of which a sound measurement was left out, draws in which the Hamaker constant was
@@ -12,8 +12,7 @@ FOLDER/draws.jsonl has a line for each draw and is gone on with: another calibra
 folder. The case so far goes to the standard error after each draw.
 
 The cases of parts have ten parts with surfaces of their own (rms height 1 to 4 nm, work of adhesion
-20 to
-150 mJ/m^2, both drawn for each set), whose forces are known to 15 %.
+20 to 150 mJ/m^2, both drawn for each set), whose forces are known to 15 %.
 """
 
 import argparse
@@ -156,7 +155,7 @@ def summary(name, sets):
 def study(name, draws, make, path):
     known = {line["draw"]: line for line in trust_run.lines_of(path) if line["case"] == name}
     with open(path, "a") as file:
-        for draw in range(draws):
+        for draw in draws:
             if draw in known:
                 continue
             random = np.random.RandomState(1000 + draw)
@@ -164,7 +163,7 @@ def study(name, draws, make, path):
             file.write(json.dumps(known[draw]) + "\n")
             file.flush()
             print(summary(name, list(known.values())), file=sys.stderr, flush=True)
-    print(summary(name, [known[draw] for draw in range(draws)]), flush=True)
+    print(summary(name, [known[draw] for draw in draws]), flush=True)
 
 
 def main():
@@ -173,6 +172,9 @@ def main():
         "cases", nargs="*", metavar="CASE", help="of: %s" % ", ".join([*CASES, *PARTS])
     )
     parser.add_argument("--draws", type=int, default=200)
+    parser.add_argument(
+        "--first", type=int, default=0, metavar="DRAW", help="number of the first draw"
+    )
     parser.add_argument(
         "--output",
         type=pathlib.Path,
@@ -194,6 +196,7 @@ def main():
     ]
     arguments.output.mkdir(parents=True, exist_ok=True)
     path = arguments.output / "draws.jsonl"
+    draws = range(arguments.first, arguments.first + arguments.draws)
     for name in arguments.cases or [*CASES, *PARTS]:
         if name in PARTS:
 
@@ -204,7 +207,7 @@ def main():
             def make(random):
                 return made_data(random, surfaces, predictions, CASES[name])
 
-        study(name, arguments.draws, make, path)
+        study(name, draws, make, path)
 
 
 if __name__ == "__main__":

@@ -289,7 +289,9 @@ def _of_device(found: Any) -> Figures:
     median.
 
     What the device's deviation has beyond the scatter of its realisations is common to all places;
-    so is the error of a mean of few realisations, which the deviation includes.
+    so is the error of a mean of few realisations. The deviation rests on the larger of two
+    estimates of the scatter, that of the realisations and that by other scans: by chance alone
+    this exceeds the scatter by excess_of_larger(), which is no error of the scans.
     """
     force, force_scatter, force_common = _sampled(
         found.pull_off_force, found.realisations.pull_off_force, found.force_deviation
@@ -303,12 +305,27 @@ def _of_device(found: Any) -> Figures:
 
 
 def _sampled(figure: float, realisations: Any, deviation: float) -> Tuple[float, float, float]:
+    """Geometric mean, scatter, and what is common, of a figure with this deviation of its ln."""
     logs = _logs(realisations)
-    if len(logs) < 2 or not figure > 0.0:
+    count = len(logs)
+    if count < 2 or not figure > 0.0:
         return figure, 0.0, deviation
-    scatter = float(np.std(logs, ddof=1))
     mean = figure * math.exp(float(np.mean(logs) - np.median(logs)))
-    return mean, scatter, math.sqrt(max(deviation**2 - scatter**2, 0.0))
+    scatter = float(np.std(logs, ddof=1))
+    larger = 1.0 + excess_of_larger(count - 1)
+    beyond = deviation**2 - (1.0 + 1.0 / count) * larger * scatter**2
+    return mean, scatter, math.sqrt(max(beyond, 0.0) + scatter**2 / count)
+
+
+def excess_of_larger(freedom: int) -> float:
+    """By which share the larger of two independent estimates of one variance exceeds it in the
+    mean [-].
+
+    freedom: degrees of freedom of each. Half the mean difference of two gamma variables, which is
+    their Gini coefficient (McDonald and Jensen, J. Am. Stat. Assoc. 74 (1979) 856).
+    """
+    logs = math.lgamma((freedom + 1) / 2.0) - math.lgamma(freedom / 2.0 + 1.0)
+    return math.exp(logs) / math.sqrt(math.pi)
 
 
 def _of_several(predictions: List[Any]) -> Figures:

@@ -584,9 +584,34 @@ class KindsTest(unittest.TestCase):
             math.log(measurement.expected({WORK: TRUTH})), np.mean(logs) + shift, places=9
         )
         self.assertAlmostEqual(measurement.scatter({WORK: TRUTH}), np.std(logs, ddof=1), places=12)
-        together = math.hypot(measurement.scatter({WORK: TRUTH}), measurement.common({WORK: TRUTH}))
-        self.assertAlmostEqual(together, device.force_deviation, places=12)
-        self.assertGreater(measurement.common({WORK: TRUTH}), 0.1)  # the law's own error
+        common, scatter = measurement.common({WORK: TRUTH}), measurement.scatter({WORK: TRUTH})
+        self.assertGreaterEqual(common, scatter / math.sqrt(len(logs)))  # of a mean of so many
+        self.assertLess(math.hypot(common, scatter), device.force_deviation)
+
+    def test_what_scans_leave_open_is_not_the_chance_in_two_estimates_of_one_scatter(self):
+        """Beside the law's own error, and that of the mean of the realisations."""
+        own, scatter, count = 0.12, 0.1, 20
+        once_more = 1.0 + 1.0 / count
+        for of_scans, more in ((0.0, 0.03), (0.3, 0.05)):
+            random = np.random.RandomState(1)
+            found = []
+            for _ in range(2000):
+                stated = scatter * random.standard_normal(count)
+                others = math.hypot(scatter, of_scans) * random.standard_normal(count)
+                largest = max(np.var(stated, ddof=1), np.var(others, ddof=1))
+                deviation = math.sqrt(once_more * (largest + own**2))
+                found.append(calibration_places._sampled(1.0, np.exp(stated), deviation)[2] ** 2)
+            expected = once_more * (of_scans**2 + own**2) + scatter**2 / count
+            self.assertAlmostEqual(np.mean(found) / expected, 1.0, delta=more)
+
+    def test_the_larger_of_two_estimates_of_a_variance_exceeds_it(self):
+        of_exponentials = calibration_places.excess_of_larger(2)
+        self.assertAlmostEqual(of_exponentials, 0.5, places=12)
+        random = np.random.RandomState(2)
+        pairs = random.chisquare(7, (2, 100000)) / 7.0
+        self.assertAlmostEqual(
+            calibration_places.excess_of_larger(7), pairs.max(axis=0).mean() - 1.0, delta=0.005
+        )
 
     def test_several_constants_have_the_forces_of_each_and_their_surfaces_are_made_once(self):
         data = checked([measured(1e-7, SURFACES, area=4e-12)], FEW)
