@@ -9,6 +9,7 @@
 
 #include "mems_stiction/ScanInfo.h"
 #include "numeric/words.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/image_conversion.hpp"
 #include "ros/own_log.hpp"
 #include "ros/topic_names.hpp"
@@ -36,9 +37,12 @@ ScanPublisher::ScanPublisher(ros::NodeHandle& handle, const SourceOptions& optio
       height_(advertise<sensor_msgs::Image>(handle, kHeightTopic, height_listeners_)),
       info_(advertise<ScanInfo>(handle, kScanInfoTopic, info_listeners_)) {
   if (max_ahead_ == 0) return;
-  predictions_ = handle.subscribe<StictionPrediction>(
-      kPredictionTopic, kPredictionQueue,
-      [this](const StictionPredictionConstPtr& prediction) { takeAnswer(*prediction); });
+  predictions_ = subscribeChecked<StictionPrediction>(
+      handle, kPredictionTopic, kPredictionQueue,
+      {[this](const StictionPredictionConstPtr& prediction) { takeAnswer(*prediction); },
+       [](const auto&, const std::string& reason) {
+         logSoon(ros::console::levels::Warn, "an answer of the node is passed over: " + reason);
+       }});
 }
 
 template <typename Message>

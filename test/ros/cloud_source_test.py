@@ -28,9 +28,20 @@ from instrument_drivers import (
 )
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node, get_pkg_dir
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image, PointCloud2
 from std_msgs.msg import String
-from stiction_client import STATION, TIMEOUT, Collector, source_counts, wait_until
+from stiction_client import (
+    STATION,
+    TIMEOUT,
+    BytesPublisher,
+    Collector,
+    bytes_of,
+    peak_memory,
+    source_counts,
+    stating,
+    wait_until,
+)
 from tf2_msgs.msg import TFMessage
 
 
@@ -185,6 +196,43 @@ class CloudTest(unittest.TestCase):
         maps.publish(bad)
         self.assertRegex(refused.wait(1)[0].data, "grid map of stamp 4001.*'elevation', but height")
         counts.wait(found=2, published=1, refused=1, waiting=0)
+
+    def test_5b_messages_that_state_more_than_they_hold_take_no_memory(self):
+        for key, value in dict(source="cloud", diagnostic_period=0.1).items():
+            rospy.set_param("/hostile/source/" + key, value)
+        source = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=dict(os.environ, ROS_NAMESPACE="/hostile"),
+        )
+        self.addCleanup(source.terminate)
+        heights = Collector("/hostile/height", Image)
+        Collector("/hostile/scan_info", ScanInfo)
+        log = Collector("/rosout", Log).connect()
+        counts = source_counts("hostile/source")
+        sensor = rospy.Publisher("/hostile/points", PointCloud2, queue_size=10)
+        wait_until(sensor.get_num_connections, "the source to listen")
+        counts.wait_for_listeners()
+        sensor.publish(snapshot(field(7), rospy.Time(5000)))
+        heights.of(rospy.Time(5000))
+        before = peak_memory(source.pid)
+        many = 2**26  # texts, of which each takes 32 bytes once it is made
+        empty, one = bytes_of(StictionPrediction()), bytes_of(StictionPrediction(warnings=[""]))
+        place = next(at for at, (few, more) in enumerate(zip(empty, one)) if few != more)
+        answers = BytesPublisher("/hostile/prediction", StictionPrediction)
+        answers.publish(stating(many, empty, place))
+        wait_until(
+            lambda: any("states %d elements" % many in entry.msg for entry in log.messages),
+            "a warning of the answer",
+        )
+        clouds = BytesPublisher("/hostile/points", PointCloud2)
+        cloud = bytes_of(PointCloud2())
+        clouds.publish(stating(many, cloud, len(cloud) - 5))  # data, then is_dense
+        counts.wait(refused=1)
+        sensor.publish(snapshot(field(8), rospy.Time(5001)))
+        heights.of(rospy.Time(5001))
+        self.assertLess(peak_memory(source.pid) - before, 2**28)
+        answers.end()
+        clouds.end()
 
     def test_6_the_recording_has_each_cloud_that_became_a_scan(self):
         sent = {message.header.stamp for message in self.predictions.messages}
