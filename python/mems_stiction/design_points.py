@@ -268,11 +268,16 @@ class Holding:
             value / verdict.margin
             for value in (verdict.margin_lower, verdict.margin_upper, verdict.margin_transition)
         )
+        values = values_of(settings)
+        if values["device/electrode_area"] > 0 and values[POTENTIAL] != 0:
+            # the device's own interval is of its surfaces alone
+            ends = verdict.device_pull_off_force_lower, verdict.device_pull_off_force_upper
+        else:
+            ends = found.pull_off_force_lower, found.pull_off_force_upper
         is_unknown = verdict.sticks != "no"
         hold = Hold(
             verdict.device_pull_off_force,
-            found.pull_off_force_lower,
-            found.pull_off_force_upper,
+            *ends,
             shares,  # type: ignore[arg-type]
             verdict.reason.partition("; but ")[2] or verdict.reason if is_unknown else "",
             is_unknown and not verdict.reason.startswith("margin "),

@@ -141,6 +141,9 @@ class MarginTest(unittest.TestCase):
         for row in found.rows:
             verdict = verdict_of(**dict(electrodes, **{STIFFNESS: row[STIFFNESS]}))
             self.assertIsOf(row, verdict, 1e-9)  # round-off of the gap beside a travel of 1 cm
+            ends = row["pull_off_force_lower"], row["pull_off_force_upper"]
+            self.assertGreater(ends[0], plates / math.exp(2.0 * 1.96 * 0.3))
+            self.assertAlmostEqual(ends[1] / verdict.device_pull_off_force_upper, 1.0, delta=1e-9)
         with self.assertRaisesRegex(
             mems_stiction.OptionsError, "axes: device/travel is not allowed with device/electrode"
         ):
