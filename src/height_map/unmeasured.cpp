@@ -149,8 +149,8 @@ void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_ro
     }
     for (const auto& [line, filled] : begun) {
       if (!is_stopped || mask.empty()) continue;
-      const cv::Range lines(line, line + 1);
-      (is_row ? mask(lines, filled) : mask(filled, lines)).setTo(255);
+      const cv::Range whole(line, line + 1);
+      (is_row ? mask(whole, filled) : mask(filled, whole)).setTo(255);
     }
     begin = next(end + 1, 1);
   }
