@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 
 #include "errors/one_line.hpp"
 #include "errors/short_number.hpp"
@@ -115,6 +116,10 @@ cv::Mat gridMapPoints(const GridMapMessage& map, const std::string& layer, bool 
     throw SurfaceError("the grid map names " + std::to_string(map.layers.size()) +
                        " layers and has data of " + std::to_string(map.data.size()));
   }
+  if (map.basic_layers.size() > map.layers.size()) {
+    throw SurfaceError("the grid map names " + std::to_string(map.basic_layers.size()) +
+                       " basic layers, but has " + std::to_string(map.layers.size()) + " layers");
+  }
   const cv::Mat heights = layerOf(map, layer);
   if (!(map.resolution > 0.0) || !std::isfinite(map.resolution)) {
     throw SurfaceError("the resolution is " + shortNumber(map.resolution) + " m, must be above 0");
@@ -130,7 +135,9 @@ cv::Mat gridMapPoints(const GridMapMessage& map, const std::string& layer, bool 
                     heights.at<double>(row, col)};
     }
   }
-  for (const std::string& basic : map.basic_layers) {
+  // one that is named a million times is looked at once
+  const std::set<std::string> basic_layers(map.basic_layers.begin(), map.basic_layers.end());
+  for (const std::string& basic : basic_layers) {
     if (basic == layer) continue;
     const cv::Mat needed = layerOf(map, basic);
     if (needed.size() != heights.size())

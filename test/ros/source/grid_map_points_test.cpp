@@ -168,6 +168,8 @@ TEST(GridMapPoints, WhatDoesNotAgreeWithItselfIsNamed) {
   expect("inner_start_index is 14", [](auto& map) { map.inner_start_index = kAlongY; });
   expect("resolution is 0 m", [](auto& map) { map.resolution = 0.0; });
   expect("length_x is", [](auto& map) { std::swap(map.length_x, map.length_y); });
+  expect("names 1000000 basic layers, but has 2 layers",
+         [](auto& map) { map.basic_layers.assign(1000000, "variance"); });
   expect("no layer 'normal_z'", [](auto& map) { map.basic_layers = {"normal_z"}; });
 }
 
