@@ -3,6 +3,11 @@
 /// @file
 /// One configuration file or parameter tree: the model's options and how scans are read and
 /// prepared.
+///
+///     Configuration configuration;
+///     configuration.device.spring_stiffness = 10.0;  // [N/m]
+///     configuration.device.travel = 1e-6;            // [m]
+///     configuration.check();
 
 #include <limits>
 #include <string>

@@ -3,6 +3,9 @@
 /// @file
 /// One configuration file or parameter tree into a Configuration, and back. Keys:
 /// config/stiction.yaml.
+///
+///     const Configuration configuration = loadConfiguration("device.yaml");
+///     print(toYaml(configuration));
 
 #include <string>
 

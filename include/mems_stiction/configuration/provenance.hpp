@@ -3,6 +3,9 @@
 /// @file
 /// Where a figure comes from, so that whoever finds it years later can tell: which part, which
 /// scan, which settings, which version.
+///
+///     const Provenance origin = provenanceOf(identity, configuration);
+///     print(origin.scan_name, origin.version, origin.settings_hash);
 
 #include <string>
 

@@ -2,6 +2,11 @@
 
 /// @file
 /// What a contact of two surfaces depends on beside the surfaces.
+///
+///     ContactSettings settings;
+///     settings.upper.youngs_modulus = 70e9;     // [Pa]
+///     settings.interface.work_of_adhesion = 0.1;  // [J/m^2]
+///     settings.output.asperities = false;
 
 #include <any>
 #include <vector>

@@ -4,6 +4,8 @@
 /// What a solver says of its own answer, for those who judge by it, and how the contact answers
 /// when the constants are others than those that it was solved with: they need not know which
 /// solver it was.
+///
+///     if (prediction.model.doubt != nullptr) report(prediction.model.doubt);
 
 #include <memory>
 #include <vector>

@@ -2,6 +2,9 @@
 
 /// @file
 /// How the force of a whole device is found from scans of its surface (device_force.hpp).
+///
+///     DeviceForceOptions options;
+///     options.realisations = 16;
 
 #include "mems_stiction/settings/option_visitor.hpp"
 

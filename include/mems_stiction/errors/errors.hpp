@@ -2,6 +2,12 @@
 
 /// @file
 /// Errors of the core: a small family, one class per thing a caller can do about it.
+///
+///     try {
+///       use(readScanFile("scan.tiff"));
+///     } catch (const FileError& error) {
+///       report(error.what());
+///     }
 
 #include <stdexcept>
 #include <string>

@@ -7,6 +7,10 @@
 /// A scan is made coarser by the mean over blocks of pixels, as an instrument with larger pixels
 /// would see it. What full resolution still changes against half of it is a fair guess of what
 /// twice as many pixels would change.
+///
+///     const double fine = model.predict(scan).pull_off_force;
+///     const double coarse = model.predict(decimated(scan, 2)).pull_off_force;
+///     if (coarse > 1.3 * fine) report("finer pixels are needed");
 
 #include <string>
 #include <vector>

@@ -2,6 +2,10 @@
 
 /// @file
 /// How the half-space is solved, beside what it consists of.
+///
+///     HalfSpaceOptions options;
+///     options.path = HalfSpacePath::kRest;
+///     options.threads = 4;
 
 #include "mems_stiction/settings/option_visitor.hpp"
 

@@ -2,6 +2,9 @@
 
 /// @file
 /// What the half-space answers.
+///
+///     if (solution.status != HalfSpaceStatus::kSolved) report(solution.message);
+///     if (solution.is_resolved) use(solution.pull_off_force, solution.retraction);
 
 #include <cstdint>
 #include <limits>

@@ -6,6 +6,9 @@
 /// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z
 /// points out of the lower body towards the upper one. Heights are metres; a pixel that is not
 /// finite (NaN, +-Inf; REP 117) is invalid.
+///
+///     const HeightMap scan(heights, 10e-9, 10e-9);  // [m]; NaN: not measured
+///     print(heightStatistics(scan).rms_height);
 
 #include <memory>
 

@@ -2,6 +2,11 @@
 
 /// @file
 /// From pixels as an instrument or a message delivers them to heights in metres.
+///
+///     ScanOptions options;
+///     options.pitch_x = options.pitch_y = 10e-9;  // [m]
+///     options.height_scale = 1e-9;                // pixels are nanometres
+///     const HeightMap scan = heightMapFromPixels(pixels, options);
 
 #include <limits>
 

@@ -3,6 +3,11 @@
 /// @file
 /// Which scan it is: of which part and which place on its wafer, by whom and with what it was
 /// measured, and from which bytes it was read.
+///
+///     ScanIdentity identity;
+///     identity.part_id = "beam";
+///     identity.serial_id = "0012";
+///     for (const std::string& complaint : identityComplaints(identity, "")) report(complaint);
 
 #include <cmath>
 #include <cstddef>

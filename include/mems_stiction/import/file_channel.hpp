@@ -2,6 +2,10 @@
 
 /// @file
 /// One channel of a scan file, as the file states it: what every reader returns.
+///
+///     ScanFileOptions options;  // scan_file.hpp
+///     options.import.channel = "ZSensor";
+///     const HeightMap scan = readScanFile("scan.spm", {}, options);
 
 #include <string>
 #include <vector>

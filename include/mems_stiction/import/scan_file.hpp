@@ -9,6 +9,10 @@
 /// The sidecar is a YAML file beside the scan, "scan.tiff.yaml" for "scan.tiff", with keys of
 /// ScanOptions and ScanIdentity, with or without "scan/". "scan.yaml" serves, too, if it states
 /// such keys and no others.
+///
+///     const ScanFile file = openScanFile("scan.spm");
+///     for (const std::string& note : file.notes) report(note);
+///     use(file.surface);
 
 #include <string>
 #include <vector>

@@ -5,8 +5,8 @@
 /// energy of the model may already hold the water. With this term on, interface/work_of_adhesion
 /// must be the dry one, or water counts twice.
 ///
-///     const double pull = capillaryForce(order, approach, contact_count, options.law(),
-///         field.cellArea());
+///     Options options;
+///     options.capillary.relative_humidity = 0.4;
 
 #include "mems_stiction/settings/option_visitor.hpp"
 

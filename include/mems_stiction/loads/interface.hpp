@@ -3,6 +3,11 @@
 /// @file
 /// What acts between the two bodies: adhesion, van der Waals attraction, the insulator; and what is
 /// applied to them.
+///
+///     InterfaceOptions interface;
+///     interface.insulator_thickness = 100e-9;  // [m]: without it no voltage may be set
+///     LoadOptions load;
+///     load.voltage = 20.0;  // [V]
 
 #include <cmath>
 

@@ -3,6 +3,12 @@
 /// @file
 /// The two bodies: elastic constants, hardness, what is behind their surfaces, and of what the
 /// outermost nanometres are.
+///
+///     Material gold;
+///     gold.youngs_modulus = 78e9;  // [Pa]
+///     gold.poisson_ratio = 0.44;
+///     gold.hardness = 1e9;  // [Pa]
+///     print(ContactPair(gold, gold).contact_modulus);
 
 #include <string>
 #include <vector>

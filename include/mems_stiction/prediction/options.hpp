@@ -3,6 +3,10 @@
 /// @file
 /// Everything that a prediction depends on beside the surfaces. Keys, units, ranges: describe();
 /// sources: config/*.yaml.
+///
+///     Options options;
+///     options.formulation = "paper";
+///     options.check();
 
 #include <string>
 #include <vector>

@@ -3,6 +3,9 @@
 /// @file
 /// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about
 /// their mean (levelling is the caller's).
+///
+///     const ArealParameters figures = arealParameters(scan);
+///     print(figures.sq, figures.sdq);
 
 #include "mems_stiction/height_map/height_map.hpp"
 

@@ -9,6 +9,9 @@
 /// as a prediction, hence off by default. Outside: with a side below 8 pixels the spectral figures
 /// and Hurst's exponent are NaN, and the exponent too where fewer than three rings of the spectrum
 /// lie in its range.
+///
+///     const SpatialRoughness figures = spatialRoughness(scan, SpatialRoughnessOptions());
+///     print(figures.sal, figures.hurst);
 
 #include <limits>
 

@@ -21,7 +21,7 @@
 /// (Self-affine spectra: Persson, J. Chem. Phys. 115 (2001) 3840. The sums follow from the
 /// variogram r^(2H).)
 ///
-///     const UnresolvedWaves waves = unresolvedWaves(scan, {}, tipLimit(scan, 20e-9));
+///     const UnresolvedWaves waves = unresolvedWaves(scan, {}, 5e-9);  // against a plane
 
 #include <limits>
 

@@ -5,8 +5,8 @@
 /// place where a figure is declared; records, rows, messages and the attributes of Python follow
 /// from them.
 ///
-///     visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-///         print(figure.name, value); });
+///     const Figure figure{"mean_gap", "m", "of the surfaces at rest"};
+///     print(figure.name, figure.unit);
 
 #include <type_traits>
 

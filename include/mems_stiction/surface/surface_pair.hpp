@@ -2,6 +2,9 @@
 
 /// @file
 /// The two surfaces that meet.
+///
+///     const SurfacePair on_a_plane(scan);
+///     const SurfacePair pair(scan, counter_surface);
 
 #include <utility>
 

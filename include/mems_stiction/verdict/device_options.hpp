@@ -3,6 +3,12 @@
 /// @file
 /// The device that must come off again: what its designer knows of spring, contact and beam. 0
 /// means "not stated".
+///
+///     DeviceOptions device;
+///     device.spring_stiffness = 10.0;  // [N/m]
+///     device.travel = 1e-6;            // [m]
+///     device.contact_area = 1e-10;     // [m^2], of four dimples
+///     device.contacts = 4;
 
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 /// verdict takes all into account (verdict.hpp).
 ///
 ///     Evidence evidence;
-///     evidence.device = deviceEvidence(force);  // device/device_evidence.hpp
+///     evidence.cleaning = CleaningReach{{0.9, 1.3}, {0.8, 1.1}};  // of force and work
 ///     evidence.half_space = &solution;
 ///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, cell_area,
 ///         evidence);

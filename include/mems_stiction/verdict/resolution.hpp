@@ -7,6 +7,10 @@
 /// pixels has a radius that hangs on where the grid lies; a tip of radius r shows no summit sharper
 /// than r. Neither can be seen in the pull-off force itself, so the prediction carries a flag for
 /// each.
+///
+///     Prediction prediction = model.predict(scan);
+///     flagResolution(12.0, 20e-9, prediction);  // tip of 20 nm
+///     if (prediction.is_tip_limited) report("the tip is too blunt");
 
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"

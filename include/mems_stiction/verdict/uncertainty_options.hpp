@@ -3,6 +3,9 @@
 /// @file
 /// How well the constants of a prediction are known: what margin_uncertainty.hpp draws its samples
 /// from.
+///
+///     UncertaintyOptions uncertainty;
+///     uncertainty.work_of_adhesion = 0.1;  // known within 10 %
 
 #include "mems_stiction/settings/option_visitor.hpp"
 
