@@ -198,8 +198,7 @@ def kind_rows(frames, kinds):
 
 
 def coverage_rows(frames):
-    """How many of the frames the deviations of the code cover: by the flag, and in each third of
-    the frames by flattening ratio."""
+    """How many of the frames the deviations of the code cover, by the flag."""
     stated, power = errors_of_code(), error_power()
 
     def reach_of(frame, i):
@@ -230,10 +229,6 @@ def coverage_rows(frames):
             "| %s | %d | %.3g | %.3g | %s | %s |"
             % ((name, len(some)) + stated[name] + covered(some))
         )
-    ordered = sorted(frames, key=lambda frame: frame["separation_curve"]["flattening_ratio"])
-    for i, name in enumerate(("lowest flattening ratios", "middle third", "highest")):
-        some = ordered[i * len(ordered) // 3 : (i + 1) * len(ordered) // 3]
-        lines.append("| %s | %d | | | %s | %s |" % ((name, len(some)) + covered(some)))
     lines.append("| all | %d | | | %s | %s |" % ((len(frames),) + covered(frames)))
     return lines + [""]
 
