@@ -12,7 +12,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,6 +34,9 @@ namespace {
 
 constexpr double kPitch = 10e-9;
 constexpr std::int64_t kSide = 100000;  // 1 mm
+/// With which a process ends that came to nothing.
+constexpr int kNoForce = 3;
+constexpr int kError = 4;
 
 /// C ~ q^-3.6 from waves of 20 um to those of two pixels.
 SurfaceSpectrum selfAffine() {
@@ -77,19 +82,37 @@ double secondsOf(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
+/// Why a process came to nothing; empty where it did its work.
+std::string failureOf(int status) {
+  if (WIFSIGNALED(status))
+    return "the process was ended by signal " + std::to_string(WTERMSIG(status));
+  const int code = WEXITSTATUS(status);
+  if (code == kNoForce) return "there was no force, or the surfaces bond all over";
+  return code == 0 ? "" : "the process ended with an error, which it has said";
+}
+
 /// In a process of its own, so that it has its own peak of memory.
 void measureAlone(benchmark::State& state, const std::function<void()>& work) {
   for (auto _ : state) {
     const pid_t child = fork();
     if (child == 0) {
       cv::setNumThreads(1);
-      work();
+      try {
+        work();
+      } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        std::_Exit(kError);
+      }
       std::_Exit(0);
     }
     int status = 0;
     rusage used{};
-    if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) {
-      state.SkipWithError("the process failed");
+    if (child < 0 || wait4(child, &status, 0, &used) != child) {
+      state.SkipWithError("no process could be made or waited for");
+      return;
+    }
+    if (const std::string failure = failureOf(status); !failure.empty()) {
+      state.SkipWithError(failure.c_str());
       return;
     }
     state.counters["seconds"] = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
@@ -115,7 +138,7 @@ void answer(benchmark::State& state, std::uint64_t scans, int side, double area)
   const double asked = area > 0.0 ? area : 1.01 * side * kPitch * side * kPitch;
   measureAlone(state, [&] {
     const DeviceForce found = deviceForce(surfaces, {asked, 1}, Options(), {}, {});
-    if (!(found.pull_off_force > 0.0) || found.is_conforming) std::_Exit(1);
+    if (!(found.pull_off_force > 0.0) || found.is_conforming) std::_Exit(kNoForce);
   });
 }
 
@@ -130,7 +153,7 @@ void findForce(benchmark::State& state, double pitch) {
     const DeviceLaws laws = lawsOf(surfaces, {}, TailForm::kExponential);
     DeviceSurface surface(laws, pieces, 1);
     const Realisation found = solver.realise(surface);
-    if (!(found.pull_off_force > 0.0) || !solver.warnings().empty()) std::_Exit(1);
+    if (!(found.pull_off_force > 0.0) || !solver.warnings().empty()) std::_Exit(kNoForce);
   });
 }
 
