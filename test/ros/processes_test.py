@@ -473,8 +473,8 @@ class ProcessesTest(unittest.TestCase):
             "approach/max_steps": 10000000,
             "paper/step": 1e-21,
         }
-        # How a scan is sent, what waits, and as what the others count: on a busy machine a scan can be
-        # given up before its scan_info has come, which rejects it.
+        # How a scan is sent, what waits, and as what the others count: on a busy machine a scan can
+        # be given up before its scan_info has come, which rejects it.
         cases = {
             "partner": (
                 {},
