@@ -136,7 +136,7 @@ void ScanAccounting::warn(const std_msgs::Header& header, const std::string& tex
 void ScanAccounting::warnThrottled(const std::string& kind, const std::string& text) {
   if (throttles_.size() > kMostKinds) throttles_.clear();
   Throttle& throttle = throttles_[kindOf(kind)];
-  const ros::WallTime now = ros::WallTime::now();
+  const ros::SteadyTime now = ros::SteadyTime::now();
   if (!throttle.last_shown.isZero() && now - throttle.last_shown < warning_period_) {
     ++throttle.suppressed;
     return;
@@ -156,7 +156,7 @@ ScanCounts ScanAccounting::counts() const {
 
 void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const ros::WallTime now = ros::WallTime::now();
+  const ros::SteadyTime now = ros::SteadyTime::now();
   const double elapsed = last_report_.isZero() ? 0.0 : (now - last_report_).toSec();
   const double rate = elapsed > 0.0 ? (counts_.predicted - reported_.predicted) / elapsed : 0.0;
 

@@ -63,7 +63,7 @@ class ScanAccounting {
  private:
   /// When one kind was shown last, and how many were not since.
   struct Throttle {
-    ros::WallTime last_shown;
+    ros::SteadyTime last_shown;
     std::uint64_t suppressed = 0;
   };
 
@@ -83,7 +83,7 @@ class ScanAccounting {
   mutable std::mutex mutex_;
   ScanCounts counts_;
   ScanCounts reported_;
-  ros::WallTime last_report_;
+  ros::SteadyTime last_report_;
   std::map<std::string, Throttle> throttles_;  ///< by kind
   std::string last_reason_;
   std::deque<Sequence> sequences_;  ///< the latest first

@@ -139,7 +139,7 @@ void ScanPairer::end(const ros::Time& stamp, const Bearers& bearers) {
   infos_.given_up.erase(stamp);
 }
 
-ScanPairer::Bearers& ScanPairer::bearersOf(const ros::Time& stamp, ros::WallTime now) {
+ScanPairer::Bearers& ScanPairer::bearersOf(const ros::Time& stamp, ros::SteadyTime now) {
   Bearers& bearers = bearers_[stamp];
   const bool is_over = now - bearers.last > timeout_ &&
                        countOf(images_.waiting, stamp) + countOf(infos_.waiting, stamp) == 0;
@@ -207,7 +207,7 @@ std::size_t ScanPairer::waitingBytes() const {
 }
 
 template <typename Message, typename Other>
-void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic,
+void ScanPairer::add(const Message& message, ros::SteadyTime now, Topic<Message>& topic,
                      Topic<Other>& other) {
   const ros::Time stamp = message->header.stamp;
   const std::uint64_t arrival = ++topic.arrivals;
@@ -269,11 +269,11 @@ void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoCon
   accept_(image, info);
 }
 
-void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) {
+void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::SteadyTime now) {
   add(image, now, images_, infos_);
 }
 
-void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) {
+void ScanPairer::add(const ScanInfoConstPtr& info, ros::SteadyTime now) {
   add(info, now, infos_, images_);
 }
 
@@ -306,13 +306,13 @@ void ScanPairer::refuseInfo(const std_msgs::Header& header, const std::string& r
 }
 
 template <typename Message>
-bool ScanPairer::isLate(const Waiting<Message>& waiting, ros::WallTime now) const {
+bool ScanPairer::isLate(const Waiting<Message>& waiting, ros::SteadyTime now) const {
   return now - waiting.since > timeout_ && waiting.looks >= kFewestLooks;
 }
 
 /// Those of a stamp that have waited for what comes after them, of both kinds: pairs once nothing
 /// has come, as many of one kind as of the other.
-void ScanPairer::settleLate(ros::WallTime now) {
+void ScanPairer::settleLate(ros::SteadyTime now) {
   std::vector<ros::Time> stamps;
   const auto look = [&](auto& topic) {
     for (auto& waiting : topic.waiting) {
@@ -338,7 +338,7 @@ void ScanPairer::settleLate(ros::WallTime now) {
   }
 }
 
-void ScanPairer::expire(ros::WallTime now) {
+void ScanPairer::expire(ros::SteadyTime now) {
   settleLate(now);
   const std::string after = " within " + numberText(timeout_.toSec()) + " s";
   const std::vector<ros::Time> images = stampsOf(images_.waiting);

@@ -56,8 +56,8 @@ class ScanPairer {
   /// Whether several publishers send on one of the topics: their stamps may cross.
   void setSeveralPublishers(bool several) { several_publishers_ = several; }
 
-  void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);
-  void add(const ScanInfoConstPtr& info, ros::WallTime now);
+  void add(const sensor_msgs::ImageConstPtr& image, ros::SteadyTime now);
+  void add(const ScanInfoConstPtr& info, ros::SteadyTime now);
 
   /// An image or a scan_info that came and cannot be read: rejected. Its partner is no scan of its
   /// own.
@@ -67,7 +67,7 @@ class ScanPairer {
   /// Rejects what has waited for longer than the timeout and was looked at by this call several
   /// times: what a process that stood still finds waiting may have its partner in the queue. To be
   /// called a few times in each timeout.
-  void expire(ros::WallTime now);
+  void expire(ros::SteadyTime now);
 
   std::size_t waiting() const { return images_.waiting.size() + infos_.waiting.size(); }
   std::size_t waitingBytes() const;
@@ -76,7 +76,7 @@ class ScanPairer {
   template <typename Message>
   struct Waiting {
     Message message;
-    ros::WallTime since;
+    ros::SteadyTime since;
     std::uint64_t arrival;  ///< number on its topic
     int looks = 0;          ///< of expire()
   };
@@ -106,20 +106,20 @@ class ScanPairer {
     std::size_t content = 0;  ///< of the latest scan_info, as a hash
     bool differ = false;      ///< two scan_infos do
     bool accepted = false;    ///< a scan
-    ros::WallTime last{};     ///< when the latest came
+    ros::SteadyTime last{};   ///< when the latest came
     std::uint64_t round = 0;
   };
 
   void end(const ros::Time& stamp, const Bearers& bearers);
-  Bearers& bearersOf(const ros::Time& stamp, ros::WallTime now);
+  Bearers& bearersOf(const ros::Time& stamp, ros::SteadyTime now);
   static void count(const sensor_msgs::ImageConstPtr& image, Bearers& bearers);
   static void count(const ScanInfoConstPtr& info, Bearers& bearers);
   void pairAllBut(std::size_t most_waiting, const ros::Time& stamp);
   void rejectAllOf(const ros::Time& stamp);
-  void settleLate(ros::WallTime now);
+  void settleLate(ros::SteadyTime now);
 
   template <typename Message, typename Other>
-  void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other);
+  void add(const Message& message, ros::SteadyTime now, Topic<Message>& topic, Topic<Other>& other);
   void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   template <typename Message, typename Other, typename Predicate>
   void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone,
@@ -130,7 +130,7 @@ class ScanPairer {
   template <typename Message, typename Other>
   void makeRoom(Topic<Message>& topic, Topic<Other>& other);
   template <typename Message>
-  bool isLate(const Waiting<Message>& waiting, ros::WallTime now) const;
+  bool isLate(const Waiting<Message>& waiting, ros::SteadyTime now) const;
 
   ros::WallDuration timeout_;
   std::size_t max_bytes_;
@@ -139,12 +139,12 @@ class ScanPairer {
   Topic<sensor_msgs::ImageConstPtr> images_{"no scan_info with the stamp of the scan came"};
   Topic<ScanInfoConstPtr> infos_{"no scan with the stamp of the scan_info came"};
   bool several_publishers_ = false;
-  bool went_back_ = false;        ///< the stamps of a topic did, in the last kSettling timeouts
-  ros::WallTime went_back_at_{};  ///< when they did last
-  std::uint64_t round_ = 0;       ///< how often they did while there was one publisher
+  bool went_back_ = false;          ///< the stamps of a topic did, in the last kSettling timeouts
+  ros::SteadyTime went_back_at_{};  ///< when they did last
+  std::uint64_t round_ = 0;         ///< how often they did while there was one publisher
   std::map<ros::Time, Bearers> bearers_;
   bool repeats_ = false;  ///< scans that differ bore one stamp, in the last kSettling timeouts
-  ros::WallTime repeated_at_{};  ///< when they did last
+  ros::SteadyTime repeated_at_{};  ///< when they did last
 };
 
 }  // namespace mems_stiction

@@ -32,9 +32,9 @@ class StictionNodelet : public nodelet::Nodelet {
   /// if it stays
   void waitForName() {
     const std::string service = getPrivateNodeHandle().resolveName("set_load");
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(5.0);
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(5.0);
     while (ros::service::exists(service, false)) {
-      if (ros::WallTime::now() > end)
+      if (ros::SteadyTime::now() > end)
         throw Error("another node or nodelet of the name " + getName() + " runs already");
       ros::WallDuration(0.1).sleep();
     }

@@ -171,7 +171,7 @@ void StictionServer::subscribe() {
     const auto addToPairs = [&](const auto& half) {
       pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 ||
                                   info_subscriber.getNumPublishers() > 1);
-      pairer.add(half, ros::WallTime::now());
+      pairer.add(half, ros::SteadyTime::now());
     };
     const bool is_scan = &pairer == &scans_;
     const double most = options_.max_message_size;
@@ -223,18 +223,18 @@ void StictionServer::startTimers() {
   if (device_force_)
     diagnostics_.add("device_force", [this](auto& status) { device_force_->report(status); });
   diagnostic_timer_ =
-      handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
-                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
-  pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout),
-                                           [this](const auto&) {
-                                             scans_.expire(ros::WallTime::now());
-                                             counter_surfaces_.expire(ros::WallTime::now());
-                                           });
+      handle_.createSteadyTimer(ros::WallDuration(options_.diagnostic_period),
+                                [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
+  pairing_timer_ = handle_.createSteadyTimer(ros::WallDuration(0.2 * options_.pairing_timeout),
+                                             [this](const auto&) {
+                                               scans_.expire(ros::SteadyTime::now());
+                                               counter_surfaces_.expire(ros::SteadyTime::now());
+                                             });
   publisher_timer_ =
-      handle_.createWallTimer(ros::WallDuration(1.0), [this](const auto&) { watchPublishers(); });
+      handle_.createSteadyTimer(ros::WallDuration(1.0), [this](const auto&) { watchPublishers(); });
   if (counter_surface_frame_) {
-    gate_timer_ = handle_.createWallTimer(
-        kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
+    gate_timer_ = handle_.createSteadyTimer(
+        kGatePeriod, [this](const auto&) { gate_.poll(ros::SteadyTime::now()); });
   }
 }
 
@@ -278,7 +278,7 @@ void StictionServer::rejectLone(const std_msgs::Header& header, const std::strin
 
 void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
   accounting_.received();
-  const ros::WallTime arrival = ros::WallTime::now();
+  const ros::SteadyTime arrival = ros::SteadyTime::now();
   if (!counter_surface_frame_) {
     queueScan(image, info, arrival, std::nullopt);
     return;
@@ -296,7 +296,7 @@ void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanI
 }
 
 void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image,
-                               const ScanInfoConstPtr& info, ros::WallTime arrival,
+                               const ScanInfoConstPtr& info, ros::SteadyTime arrival,
                                const std::optional<SurfacePose>& pose) {
   worker_.pushScan(
       [this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
@@ -322,7 +322,7 @@ void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image,
                                bytes);
   };
   if (counter_surface_frame_) {
-    gate_.addCounterSurface(queue, drop, bytes, ros::WallTime::now());
+    gate_.addCounterSurface(queue, drop, bytes, ros::SteadyTime::now());
   } else {
     queue();
   }
@@ -341,14 +341,14 @@ ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanI
   ReceivedScan scan =
       receive(boost::make_shared<const sensor_msgs::Image>(std::move(image)), &info);
   if (!counter_surface_frame_) return scan;
-  const ros::WallTime deadline =
-      ros::WallTime::now() + ros::WallDuration(options_.transform.timeout);
+  const ros::SteadyTime deadline =
+      ros::SteadyTime::now() + ros::WallDuration(options_.transform.timeout);
   for (;;) {
     try {
       scan.counter_surface_pose = counter_surface_frame_->poseAt(scan.header);
       return scan;
     } catch (const NoTransform&) {
-      if (stopping_ || ros::WallTime::now() >= deadline) throw;
+      if (stopping_ || ros::SteadyTime::now() >= deadline) throw;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -379,7 +379,7 @@ void StictionServer::change(const RunningSettings& settings) {
 }
 
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image,
-                                       const ScanInfoConstPtr& info, ros::WallTime arrival,
+                                       const ScanInfoConstPtr& info, ros::SteadyTime arrival,
                                        const std::optional<SurfacePose>& pose) {
   const SolutionPause::Request request(half_space_pause_);
   try {
@@ -399,7 +399,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image,
     }
     if (publisher_.isPreviewWanted())
       publisher_.publishPreview(predictor_.lastSurface(), scan.header);
-    accounting_.predicted((ros::WallTime::now() - arrival).toSec(),
+    accounting_.predicted((ros::SteadyTime::now() - arrival).toSec(),
                           predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {

@@ -74,9 +74,9 @@ class StictionServer {
   void onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   /// @param pose of the counter-surface at the scan's stamp, when counter_surface/frame is set
   void queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
-                 ros::WallTime arrival, const std::optional<SurfacePose>& pose);
+                 ros::SteadyTime arrival, const std::optional<SurfacePose>& pose);
   void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
-                         ros::WallTime arrival, const std::optional<SurfacePose>& pose);
+                         ros::SteadyTime arrival, const std::optional<SurfacePose>& pose);
   /// What is said of a scan and its part once the half-space has judged it, or cannot.
   void takeHalfSpaceVerdict(const ScanOfPart& scan, const std::optional<Verdict>& verdict);
   /// The last scan to the stream that solves it as a half-space, if it is to be.
@@ -155,11 +155,11 @@ class StictionServer {
   Diagnostics diagnostics_;
   RememberedParameters parameters_;
   std::shared_ptr<MasterWatch> master_;
-  ros::WallTimer diagnostic_timer_;
-  ros::WallTimer pairing_timer_;
-  ros::WallTimer publisher_timer_;
+  ros::SteadyTimer diagnostic_timer_;
+  ros::SteadyTimer pairing_timer_;
+  ros::SteadyTimer publisher_timer_;
   int seconds_without_publisher_ = 0;  ///< of height; on the topic thread
-  ros::WallTimer gate_timer_;
+  ros::SteadyTimer gate_timer_;
 
   ros::AsyncSpinner topic_spinner_;
 };

@@ -11,25 +11,25 @@ TransformGate::TransformGate(ros::WallDuration timeout, Lookup lookup, std::size
     : timeout_(timeout), lookup_(std::move(lookup)), line_({0, max_bytes, true}) {}
 
 void TransformGate::push(Waiting waiting, LineMember member, std::size_t bytes) {
-  const ros::WallTime now = waiting.since;
+  const ros::SteadyTime now = waiting.since;
   for (const Waiting& dropped : line_.push(std::move(waiting), member, bytes)) dropped.drop();
   poll(now);
 }
 
 void TransformGate::add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop,
-                        std::size_t bytes, ros::WallTime now) {
+                        std::size_t bytes, ros::SteadyTime now) {
   push({header, std::move(accept), std::move(reject), std::move(drop), now}, LineMember::kScan,
        bytes);
 }
 
 void TransformGate::addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes,
-                                      ros::WallTime now) {
+                                      ros::SteadyTime now) {
   push({std_msgs::Header(), [run = std::move(run)](const SurfacePose&) { run(); }, nullptr,
         std::move(drop), now},
        LineMember::kCounterSurface, bytes);
 }
 
-void TransformGate::poll(ros::WallTime now) {
+void TransformGate::poll(ros::SteadyTime now) {
   while (!line_.empty()) {
     const Waiting& first = line_.front();
     SurfacePose pose;

@@ -34,15 +34,15 @@ class TransformGate {
   /// Exactly one of the three is called, here or by a later call.
   /// - @p bytes that the scan takes
   void add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop,
-           std::size_t bytes, ros::WallTime now);
+           std::size_t bytes, ros::SteadyTime now);
 
   /// It needs no transform, but must keep its place behind the scans.
   void addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes,
-                         ros::WallTime now);
+                         ros::SteadyTime now);
 
   /// Lets through, from the first in line on, what has its transform; rejects what has waited for
   /// too long.
-  void poll(ros::WallTime now);
+  void poll(ros::SteadyTime now);
 
   std::size_t waiting() const { return line_.size(); }
   std::size_t waitingBytes() const { return line_.bytes(); }
@@ -53,7 +53,7 @@ class TransformGate {
     Accept accept;
     Reject reject;  ///< empty for what needs no transform
     Drop drop;
-    ros::WallTime since;
+    ros::SteadyTime since;
   };
 
   void push(Waiting waiting, LineMember member, std::size_t bytes);

@@ -106,8 +106,8 @@ LineSource::LineSource(const SourceOptions& options, ros::NodeHandle& handle,
       [this](Request&, Response& response) { return answer(Event::kBegin, response); });
   end_service_ = private_handle.advertiseService<Request, Response>(
       "end_scan", [this](Request&, Response& response) { return answer(Event::kEnd, response); });
-  timer_ = handle.createWallTimer(ros::WallDuration(kPollPeriod),
-                                  [this](const ros::WallTimerEvent&) { poll(); });
+  timer_ = handle.createSteadyTimer(ros::WallDuration(kPollPeriod),
+                                    [this](const ros::SteadyTimerEvent&) { poll(); });
 }
 
 bool LineSource::isContinuous() const {

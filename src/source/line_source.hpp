@@ -113,7 +113,7 @@ class LineSource {
   LineCounts counts_;
   ros::Subscriber points_, joints_, trigger_;
   ros::ServiceServer begin_service_, end_service_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace mems_stiction

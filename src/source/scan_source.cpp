@@ -37,8 +37,8 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   prepareLog();
   diagnostics_.add("scan_source", [this](auto& status) { accounting_.report(status); });
   diagnostics_timer_ =
-      handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
-                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
+      handle_.createSteadyTimer(ros::WallDuration(options_.diagnostic_period),
+                                [this](const ros::SteadyTimerEvent&) { diagnostics_.publish(); });
   if (options_.source == SourceKind::kFolder) {
     folder_ = std::make_unique<FolderSource>(options_, name, publisher_, accounting_);
   } else if (options_.source == SourceKind::kLines) {

@@ -43,7 +43,7 @@ class ScanSource {
   SourceAccounting accounting_;
   ScanPublisher publisher_;
   Diagnostics diagnostics_;
-  ros::WallTimer diagnostics_timer_;
+  ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<FolderSource> folder_;
   std::unique_ptr<CloudSource> cloud_;
   std::unique_ptr<LineSource> lines_;

@@ -1,5 +1,6 @@
 """The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, only
-one file knows a solver. Numbers as text do not follow the locale."""
+one file knows a solver. Numbers as text do not follow the locale, and waits not the system's
+clock."""
 
 import pathlib
 import re
@@ -122,6 +123,15 @@ class ArchitectureTest(unittest.TestCase):
             if not path.startswith("errors/plain_format.")
         ]
         self.assertEqual([one for one in found if one[1]], [])
+
+    def test_no_wait_follows_a_clock_that_somebody_sets(self):
+        found = [
+            "%s:%d: %s" % (path, number, line.strip())
+            for _, path, lines in sources()
+            for number, line in enumerate(lines, 1)
+            if re.search(r"\bWallTim(?:e|er)\b|\bsystem_clock\b", line.partition("//")[0])
+        ]
+        self.assertEqual(found, [])
 
     def test_the_check_sees_what_follows_the_locale(self):
         for wrong in (

@@ -49,7 +49,7 @@ class ScanPairerTest : public ::testing::Test {
   }
 
   using Stamps = std::vector<std::uint32_t>;
-  ros::WallTime now_{100, 0};
+  ros::SteadyTime now_{100, 0};
   std::uint32_t next_ = 0;
   Stamps paired_;
   Stamps rejected_;
@@ -114,7 +114,7 @@ TEST(ScanPairer, RejectsTheOldestBeyondItsMemoryButNeverTheNewestAndCountsEachSc
         last_reason = reason;
       },
       10000);
-  const ros::WallTime now(100, 0);
+  const ros::SteadyTime now(100, 0);
   const auto image = [&](std::uint32_t stamp, std::size_t bytes) {
     auto message = boost::make_shared<sensor_msgs::Image>();
     message->header.stamp = ros::Time(stamp, 0);

@@ -98,7 +98,7 @@ class TransformGateTest : public testing::Test {
   static constexpr std::uint32_t kWild = 4294967295U;
 
   double known_until_ = 0.0;
-  ros::WallTime now_{100.0};
+  ros::SteadyTime now_{100.0};
   std::vector<std::string> log_;
   TransformGate gate_{ros::WallDuration(1.0),
                       [this](const std_msgs::Header& header) {
