@@ -12,6 +12,7 @@
 #include <ros/ros.h>
 
 #include "command_line.hpp"
+#include "files/open_files.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
 
@@ -80,6 +81,8 @@ int run(int argc, char** argv, const NodeProgram& program) {
     complain(program.name, parseFailure(app, error));
     return kBadInput;
   }
+  const std::string lack = lackOfOpenFiles();
+  if (!lack.empty()) complain(program.name, lack);
   ros::init(argc, argv, program.name, ros::init_options::NoSigintHandler);
   end_text = std::string(program.what) +
              " ends without having finished: a master that does not answer, or work that takes "

@@ -475,7 +475,7 @@ class SlipTest(unittest.TestCase):
         )
 
     def test_too_few_open_files_are_said_at_the_start(self):
-        for name in ("station_page",):
+        for name in ("stiction_node", "scan_source", "station_page"):
             process = subprocess.Popen(
                 ["sh", "-c", 'ulimit -n 64; exec "$0"', find_node("mems_stiction", name)[0]],
                 env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),
