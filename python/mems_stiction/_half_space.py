@@ -18,7 +18,7 @@ from mems_stiction._arrays import (
     plain_value,
     records_of,
 )
-from mems_stiction._inputs import inputs_of
+from mems_stiction._inputs import inputs_of, warn_about
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
 from mems_stiction._types import Heights, Upper
@@ -156,7 +156,9 @@ def half_space(
     processors, for the same bits.
     Raises OptionsError for a work of adhesion, Hamaker constant, material or load that has no
     solution; SurfaceError for a frame without a valid pixel, or with more than
-    half_space/max_pixels.
+    half_space/max_pixels. Warns (ScanWarning) of pixels that are too large for the edges of
+    contacts.
     """
     checked, surface, prepared = inputs_of(heights, pitch, config, upper, settings)
+    warn_about(surface, _core.half_space_warnings(prepared, checked._configuration))
     return HalfSpace(_core.half_space(prepared, surface.identity, checked._configuration), surface)

@@ -396,21 +396,10 @@ def half_space_of(solution):
         "in": thinned_points(ways["in"]),
         "out": thinned_points(ways["out"]),
         "notes": []
-        if not is_solved
+        if not is_solved or solution.is_resolved
         else [
-            text
-            for text, is_so in (
-                (
-                    "pixels are too large for the edge of a contact: the force comes out too large "
-                    "as a rule",
-                    not solution.is_resolved,
-                ),
-                (
-                    "a state is no equilibrium: there is no answer to rely on",
-                    not solution.is_converged,
-                ),
-            )
-            if is_so
+            "pixels are too large for the edge of a contact: the force comes out too large as a "
+            "rule"
         ],
     }
 

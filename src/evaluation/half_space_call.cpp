@@ -1,8 +1,10 @@
 #include "evaluation/half_space_call.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 
+#include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/verdict/evidence.hpp"
@@ -104,6 +106,22 @@ HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& pr
   if (call.is_made)
     call.objection = objectionTo(halfSpaceProblem(prepared, options), configuration.half_space);
   return call;
+}
+
+std::string coarsePixelsWarning(const PreparedScan& prepared, const Options& options,
+                                const HalfSpaceOptions& half_space) {
+  const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
+  const HeightMap& frame = problem.surfaces.lower;
+  try {
+    if (isResolved(problem, half_space)) return "";
+    return "half-space: pixels of " + shortNumber(std::max(frame.pitchX(), frame.pitchY())) +
+           " m are too large for the edges of the contacts: forces come out too large as a rule, "
+           "and soft bodies may take minutes and end TOO_MANY_STATES; scan a smaller area with "
+           "pixels of " +
+           shortNumber(resolvingPitch(problem, half_space)) + " m or less";
+  } catch (const OptionsError&) {  // the solution says so
+    return "";
+  }
 }
 
 SolvedHalfSpace answerOf(const HalfSpaceCall& call, const HalfSpaceSolver& solver,

@@ -39,6 +39,13 @@ struct HalfSpaceCall {
 HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& prepared,
                             const Options& options, const Configuration& configuration);
 
+/// Said before minutes of work: of pixels that are too large for the edges of contacts what follows
+/// from that, and which ones to scan with. Empty if they are small enough, or the problem has no
+/// solution.
+/// - @p options the model's, with the load of the frame
+std::string coarsePixelsWarning(const PreparedScan& prepared, const Options& options,
+                                const HalfSpaceOptions& half_space);
+
 /// Of a call that is made. What flags ask for and cannot be solved is an unsolved one with the
 /// reason.
 /// - @p control, throws as of HalfSpaceSolver::solve()

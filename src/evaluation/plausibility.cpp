@@ -6,6 +6,7 @@
 #include "configuration/idle_settings.hpp"
 #include "configuration/usual_values.hpp"
 #include "evaluation/breakdown.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
@@ -91,6 +92,10 @@ std::vector<std::string> predictionWarnings(const PreparedScan& prepared,
   std::vector<std::string> lines = warningsOf(prepared);
   const std::string missing = whatIsMissing(prediction.short_waves, kTheScan);
   if (!missing.empty()) lines.push_back(missing);
+  if (configuration.half_space.enabled == HalfSpaceUse::kAlways) {
+    const std::string coarse = coarsePixelsWarning(prepared, options, configuration.half_space);
+    if (!coarse.empty()) lines.push_back(coarse);
+  }
   for (const std::vector<std::string>& more :
        {settingsWarnings(configuration),
         frameWarnings(prediction, options, configuration.device)}) {

@@ -56,7 +56,8 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
          "what a whole cycle costs, by jumps and by flow, per area of the frame"},
         solution.hysteresis);
   visit({"is_converged", "",
-         "every state is an equilibrium, to half_space/tolerance where it counts"},
+         "status is SOLVED: the path came to its end, and every state of it is an equilibrium, to "
+         "half_space/tolerance where it counts"},
         solution.is_converged);
   visit({"is_resolved", "",
          "pixels are small enough for the edge of a contact: at least two per cohesive_length"},

@@ -8,6 +8,7 @@
 
 #include "approach/gap_field.hpp"
 #include "deformation/modified_topography.hpp"
+#include "errors/short_number.hpp"
 #include "half_space/cell_influence.hpp"
 #include "half_space/contact_groups.hpp"
 #include "half_space/contact_minimiser.hpp"
@@ -130,8 +131,22 @@ HeightMap deformed(const HeightMap& surface, const LargePageVector<float>& flowe
   return HeightMap(heights, surface.pitchX(), surface.pitchY());
 }
 
+double largestPitch(const HalfSpaceProblem& problem) {
+  return std::max(problem.surfaces.lower.pitchX(), problem.surfaces.lower.pitchY());
+}
+
+/// What to do about a path of too many states.
+std::string adviceOn(const HalfSpaceProblem& problem, const SolvedHalfSpace& solution) {
+  if (solution.is_resolved) return "raise it";
+  return "pixels of " + shortNumber(largestPitch(problem)) +
+         " m do not resolve the edges of the contacts, which jump from pixel to pixel: scan a "
+         "smaller area with pixels of " +
+         shortNumber(solution.cohesive_length / kPixelsPerCohesiveLength) + " m or less";
+}
+
 std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem,
-                       const HalfSpaceOptions& options, const ContactPath& path) {
+                       const HalfSpaceOptions& options, const ContactPath& path,
+                       const SolvedHalfSpace& solution) {
   const std::string where = "at height " + numberText(path.present().height) + " m";
   switch (status) {
     case PathStatus::kDone:
@@ -147,7 +162,7 @@ std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem,
              std::to_string(options.max_newton_steps) + " next to the one " + where;
     case PathStatus::kTooManyStates:
       return "half_space/max_states = " + std::to_string(options.max_states) +
-             " did not suffice; the path ends " + where;
+             " did not suffice; the path ends " + where + "; " + adviceOn(problem, solution);
     case PathStatus::kCancelled:
       break;
   }
@@ -198,7 +213,6 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   const double both_ways = retraction.work - retraction.points.back().energy + approach.work +
                            approach.points.front().energy + path.changedEnergy();
   solution.hysteresis = both_ways / area;
-  solution.is_converged = true;
 }
 
 /// The unloading branch from rest, when the voltage has gone; and, where there was one, a second
@@ -237,8 +251,7 @@ PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser,
   const PathStatus status = path.leaveRest();
   flowed = minimiser.flowed();
   solution.contact_stiffness = path.stiffness();
-  solution.is_converged = status != PathStatus::kCancelled;
-  return solution.is_converged ? PathStatus::kDone : status;
+  return status == PathStatus::kCancelled ? status : PathStatus::kDone;
 }
 
 /// Every state that was solved, and what it took.
@@ -278,12 +291,14 @@ void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>&
 
 }  // namespace
 
-bool isResolved(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
+double resolvingPitch(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const TractionLawOptions law_options = lawOptions(options, problem);
   check(problem, options, law_options);
-  const HeightMap& lower = problem.surfaces.lower;
-  return cohesiveLength(problem, TractionLaw(law_options)) >=
-         kPixelsPerCohesiveLength * std::max(lower.pitchX(), lower.pitchY());
+  return cohesiveLength(problem, TractionLaw(law_options)) / kPixelsPerCohesiveLength;
+}
+
+bool isResolved(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
+  return largestPitch(problem) <= resolvingPitch(problem, options);
 }
 
 HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(options) {
@@ -328,7 +343,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
   solution.range = law.range();
   solution.cohesive_length = cohesiveLength(problem, law);
   solution.is_resolved =
-      solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
+      solution.cohesive_length >= kPixelsPerCohesiveLength * largestPitch(problem);
   path_settings.is_resolved = solution.is_resolved;
   LargePageVector<float> flowed;
   {
@@ -344,7 +359,8 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
                    : partFromRest(path, minimiser, law_options, problem.load, flowed, solution);
     }
     solution.status = statusOf(status);
-    solution.message = sentenceOf(status, problem, options_, path);
+    solution.is_converged = solution.status == HalfSpaceStatus::kSolved;
+    solution.message = sentenceOf(status, problem, options_, path, solution);
     takeRecord(path, options_.path, solution);
   }  // its memory is not needed for the surfaces
   if (solution.status == HalfSpaceStatus::kSolved) takeSurfaces(problem, flowed, solution);

@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "figures.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
@@ -106,6 +107,14 @@ void bindHalfSpace(py::module& module) {
       .def_property_readonly("deformed_upper", [](const SolvedScan& solved) {
         return solved.solution.deformed_upper;
       });
+  module.def(
+      "half_space_warnings",
+      [](const PreparedScan& prepared, const Configuration& configuration) {
+        const std::string coarse =
+            coarsePixelsWarning(prepared, configuration.model, configuration.half_space);
+        return coarse.empty() ? std::vector<std::string>() : std::vector<std::string>{coarse};
+      },
+      "prepared"_a, "configuration"_a);
   module.def("half_space", &solve, "prepared"_a, "identity"_a, "configuration"_a);
 }
 

@@ -70,7 +70,7 @@ struct SolvedHalfSpace {
   double range = kNone;            ///< z0 [m]
   double cohesive_length = kNone;  ///< E z0^2/Gamma: over which contacts part [m]
   bool is_converged =
-      false;  ///< every state is an equilibrium, to half_space/tolerance where it counts
+      false;  ///< kSolved: all of the path, each state to half_space/tolerance where it counts
   bool is_resolved = false;        ///< pixels are small enough for the cohesive length
   bool is_step_converged = false;  ///< finer steps change the pull-off force by less than 2 %
   double residual = kNone;         ///< the largest at rest and near the largest force [-]

@@ -70,8 +70,11 @@ class HalfSpaceSolver {
   HalfSpaceOptions options_;
 };
 
-/// Whether the pixels of the frame are small enough for the edges of contacts
-/// (SolvedHalfSpace::is_resolved): known before it is solved.
+/// The largest pixels [m] that are small enough for the edges of contacts: two per cohesive length.
+/// @throw OptionsError as solve()
+double resolvingPitch(const HalfSpaceProblem& problem, const HalfSpaceOptions& options);
+
+/// Whether those of the frame are (SolvedHalfSpace::is_resolved): known before it is solved.
 /// @throw OptionsError as solve()
 bool isResolved(const HalfSpaceProblem& problem, const HalfSpaceOptions& options);
 

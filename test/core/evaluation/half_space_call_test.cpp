@@ -2,12 +2,14 @@
 
 #include "evaluation/half_space_call.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "evaluation/frame_load.hpp"
+#include "evaluation/plausibility.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/verdict/evidence.hpp"
@@ -168,6 +170,23 @@ TEST(HalfSpaceCall, WhatCouldNotJudgeIsNotBegun) {
   ASSERT_TRUE(refused.call().is_made);
   EXPECT_NE(refused.call().objection.find("lower/backing free is not allowed"), std::string::npos)
       << refused.call().objection;
+}
+
+TEST(HalfSpaceCall, WhoAsksIsWarnedOfPixelsThatAreTooLarge) {
+  const auto isWarned = [](HalfSpaceUse use, double modulus) {
+    Configuration settings;
+    settings.half_space.enabled = use;
+    settings.model.lower.youngs_modulus = settings.model.upper.youngs_modulus = modulus;
+    const Case one(settings, kRough);
+    const std::vector<std::string> lines =
+        predictionWarnings(one.prepared, settings, one.prediction, one.options);
+    return std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+             return line.find("half-space: pixels of 5e-09 m are too large for the edges") == 0;
+           }) == 1;
+  };
+  EXPECT_TRUE(isWarned(HalfSpaceUse::kAlways, 1e9));
+  EXPECT_FALSE(isWarned(HalfSpaceUse::kAlways, 169e9));
+  EXPECT_FALSE(isWarned(HalfSpaceUse::kFlagged, 1e9));
 }
 
 TEST(HalfSpaceCall, ASolutionThatTakesTooMuchIsGivenUpWithAReason) {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "errors/short_number.hpp"
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
@@ -546,6 +547,7 @@ TEST(HalfSpaceSolver, LoadBeyondTheHardnessIsNotReached) {
   EXPECT_NE(solution.message.find("load/mechanical_load"), std::string::npos);
   EXPECT_TRUE(std::isnan(solution.pull_off_force));
   EXPECT_TRUE(std::isnan(solution.contact_area));
+  EXPECT_FALSE(solution.is_converged);
 }
 
 TEST(HalfSpaceSolver, LimitsOfTheSearchAreStatuses) {
@@ -554,8 +556,24 @@ TEST(HalfSpaceSolver, LimitsOfTheSearchAreStatuses) {
   const SolvedHalfSpace few = solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), options);
   EXPECT_EQ(few.status, HalfSpaceStatus::kTooManyStates);
   EXPECT_NE(few.message.find("half_space/max_states = 10"), std::string::npos);
+  EXPECT_NE(few.message.find("; raise it"), std::string::npos) << few.message;
   EXPECT_TRUE(std::isnan(few.pull_off_force));
   EXPECT_FALSE(few.is_converged);
+}
+
+TEST(HalfSpaceSolver, PixelsThatTakeTooManyStatesAreNamedWithThoseThatWouldDo) {
+  HalfSpaceOptions options = elastic();
+  options.max_states = 10;
+  const HalfSpaceProblem soft = problemOf(waves(16, 16, 5e-9, 4e-9, 1e-9), 1e9);
+  const SolvedHalfSpace few = solve(soft, options);
+  ASSERT_EQ(few.status, HalfSpaceStatus::kTooManyStates);
+  EXPECT_FALSE(isResolved(soft, options));
+  EXPECT_EQ(resolvingPitch(soft, options), 0.5 * few.cohesive_length);
+  const std::string advice =
+      "pixels of 5e-09 m do not resolve the edges of the contacts, which jump from pixel to pixel: "
+      "scan a smaller area with pixels of " +
+      shortNumber(resolvingPitch(soft, options)) + " m or less";
+  EXPECT_NE(few.message.find(advice), std::string::npos) << few.message;
 }
 
 TEST(HalfSpaceSolver, CancelEndsTheSearchWithWhatItHas) {
