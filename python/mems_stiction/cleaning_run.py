@@ -65,13 +65,13 @@ def _predicted(batch, configuration, arguments, number, total, place):
     )
     has_rows = done.returncode in (0, 1)  # 1: no scan of them could be predicted
     row = (
-        {"reason": done.stderr}
+        {"message": done.stderr}
         if not has_rows
         else json.loads((place / "rows.jsonl").read_text(encoding="utf-8"))
     )
-    if row["reason"]:
+    if row["message"]:
         raise CannotShow(
             "with the first steps alone the scan is not predicted: %s"
-            % " ".join(row["reason"].split())
+            % " ".join(row["message"].split())
         )
     return np.load(str(place / "scans" / ("%06d" % number) / "heights.npy")), row

@@ -107,8 +107,8 @@ def contact_groups(is_contact):
 def half_space_words(result):
     """What the page says of the solution, in sentences."""
     sentences = []
-    if result["half_space_reason"]:
-        sentences.append("Not solved: %s." % result["half_space_reason"].rstrip("."))
+    if result["half_space_message"]:
+        sentences.append("Not solved: %s." % result["half_space_message"].rstrip("."))
     if "half_space_status" in result:
         sentences.append(
             "Converged: every state is an equilibrium."

@@ -319,7 +319,7 @@ def device_of(device):
     return {
         "is_found": is_found,
         "message": sentence(device.message),
-        "verdict": {"level": level, "word": word, "reason": sentence(device.verdict_reason)}
+        "verdict": {"level": level, "word": word, "reason": sentence(device.reason)}
         if is_found
         else None,
         "ratio": ratio_of(device) if is_found else None,
@@ -371,7 +371,7 @@ def half_space_verdict(solution):
         "word": word,
         "by": judge_words(solution.verdict_by),
         "ratio": ratio_of(solution),
-        "reason": sentence(solution.verdict_reason),
+        "reason": sentence(solution.reason),
     }
 
 

@@ -98,7 +98,7 @@ HALF_SPACE_FIGURES = (
     ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis"),
     ("time of the solution", "half_space_processing_time"),
 )
-#: half_space_reason of a row whose scan was not to be solved
+#: half_space_message of a row whose scan was not to be solved
 NOT_FLAGGED = "no flag asks for it"
 DECLARED = dict(
     {"half_space_" + name: figure for name, figure in _core.figures["HalfSpaceFigures"].items()},
@@ -282,7 +282,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
         "warnings": [row["warnings"]] if row["warnings"] else [],
         "sticks": result.get("sticks"),
         "releases": verdict_word(result.get("sticks")),
-        "verdict": _sentence(result.get("verdict_reason", "")),
+        "verdict": _sentence(result.get("reason", "")),
         "flags": _flags(result),
     }
 
@@ -361,7 +361,7 @@ def _half_space(picture, result, folder):
 
 def _is_half_space_asked(row):
     """Whether the scan was to be solved as a half-space."""
-    return row.get("half_space_reason", NOT_FLAGGED) != NOT_FLAGGED
+    return row.get("half_space_message", NOT_FLAGGED) != NOT_FLAGGED
 
 
 def _half_space_ratio(row):
@@ -400,11 +400,11 @@ def table_row(row, drawn):
     entry = {
         "number": row["number"],
         "name": scan_name(row),
-        "reason": row["reason"],
+        "message": row["message"],
         "anchor": row["number"] in drawn,
         "measured": ", ".join(str(row[name]) for name in TOLD_OF_SCANS if row.get(name)),
     }
-    if not row["reason"]:
+    if not row["message"]:
         bound = "≥ " if is_lower_bound(row) else ""
         entry.update(
             status=STATES[row["status"]][1],
@@ -452,7 +452,7 @@ def _ratio_with_interval(row):
 
 
 def summary(rows, drawn):
-    predicted = [row for row in rows if not row["reason"]]
+    predicted = [row for row in rows if not row["message"]]
     parts = ["%d scans, %d of them predicted." % (len(rows), len(predicted))]
     for word, status in (("bonded", "BONDED"), ("without equilibrium", "NO_EQUILIBRIUM")):
         count = sum(row["status"] == status for row in predicted)
@@ -512,7 +512,7 @@ def page(
 ):
     """The HTML. `settings_text` is the settings file beside the rows; parts: the rows of
     stiction_batch --parts; settings_name: of the file beside the page that has the settings."""
-    predicted = [row for row in rows if not row["reason"]]
+    predicted = [row for row in rows if not row["message"]]
     settings = yaml.safe_load(settings_text)
     given = (
         pathlib.Path(configuration_path).read_text(encoding="utf-8") if configuration_path else ""

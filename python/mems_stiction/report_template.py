@@ -69,7 +69,7 @@ PAGE = """<!DOCTYPE html>
 {% set columns = (8 if has_device else 6) + (1 if has_half_space else 0) + (1 if has_measurements else 0) %}<div class="wide"><table class="overview" id="scans">
 <thead><tr><th class="n">number</th><th>scan</th>{% if has_measurements %}<th>measured</th>{% endif %}<th>state</th>{% if has_device %}<th>verdict</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
 {% for row in table %}<tbody><tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>{% if has_measurements %}<td>{{ row.measured }}</td>{% endif %}
-{%- if row.reason %}<td colspan="{{ columns - (1 if has_measurements else 0) }}">not predicted: {{ row.reason }}</td></tr>
+{%- if row.message %}<td colspan="{{ columns - (1 if has_measurements else 0) }}">not predicted: {{ row.message }}</td></tr>
 {%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.releases }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td></tr>
 {%- if row.limits %}<tr class="limits"><td></td><td colspan="{{ columns + 1 }}">{{ row.limits }}</td></tr>{% endif %}{% endif %}</tbody>
 {% endfor %}</table></div>

@@ -91,10 +91,7 @@ class Trend:
             return
         for name in TAKEN:
             setattr(prediction, name, getattr(device, name))
-        prediction.reason, prediction.device_pull_off_force = (
-            device.verdict_reason,
-            device.pull_off_force,
-        )
+        prediction.reason, prediction.device_pull_off_force = (device.reason, device.pull_off_force)
 
     def _lose(self, scans):
         """A later one is predicted already."""

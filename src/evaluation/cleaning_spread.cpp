@@ -61,7 +61,7 @@ CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan,
     row.margin_upper = verdict.margin_upper;
     row.sticks = verdict.sticks;
   } catch (const SurfaceError& error) {
-    row.reason = error.what();
+    row.message = error.what();
   }
   return row;
 }
@@ -139,7 +139,7 @@ std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::strin
                      "margin     from       to  sticks\n";
   for (const CleaningRow& row : rows) {
     char line[240];
-    if (row.reason.empty()) {
+    if (row.message.empty()) {
       const std::string note = row.is_reasonable ? "" : "  tilted: does not count";
       const std::string status =
           row.status == Status::kEquilibrium ? "" : std::string("  ") + word(row.status);
@@ -153,7 +153,7 @@ std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::strin
                     status.c_str(), note.c_str());
       text += indent + line;
     } else {
-      text += indent + row.cleaning + ": " + row.reason + "\n";
+      text += indent + row.cleaning + ": " + row.message + "\n";
     }
   }
   const CleaningSpread spread = spreadOf(rows);

@@ -27,7 +27,7 @@ struct CleaningRow {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   std::string cleaning;  ///< "as configured", "plane, without spikes"
-  std::string reason;    ///< why there is no prediction; empty if there is one
+  std::string message;   ///< why there is no prediction; empty if there is one
   bool is_reasonable =
       false;  ///< counts for the spread; the others are of scans that are tilted and were left so
   Status status = Status::kNoEquilibrium;
@@ -56,7 +56,7 @@ struct CleaningSpread {
 template <typename Row, typename Visitor>
 void visitCleaningFields(Row& row, Visitor&& visit) {
   visit({"cleaning"}, row.cleaning);
-  visit({"reason"}, row.reason);
+  visit({"message"}, row.message);
   visit({"is_reasonable"}, row.is_reasonable);
   visit({"status"}, row.status);
   visit({"rms_height", "m"}, row.rms_height);

@@ -30,7 +30,7 @@ inline std::vector<std::string> withoutCommas(std::vector<std::string> texts) {
 template <typename Message>
 void fillVerdict(const Verdict& verdict, Message& message) {
   message.sticks = static_cast<decltype(message.sticks)>(verdict.sticks);
-  message.verdict_reason = withoutCommas(oneLine(verdict.reason));
+  message.reason = withoutCommas(oneLine(verdict.reason));
   message.verdict_by = judgeText(verdict.judge);
   message.margin = verdict.margin;
   message.margin_lower = verdict.margin_lower;

@@ -24,7 +24,7 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       "with the field names\n"
       "of mems_stiction/StictionPrediction. Called again after an interruption it goes on where it "
       "was. A scan that\n"
-      "cannot be predicted is a row with its reason.");
+      "cannot be predicted is a row whose message says why.");
   app.add_option("INPUT", arguments.inputs,
                  "bags, and scan files of every kind that predict_scan reads")
       ->type_name("");
@@ -42,7 +42,7 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       "--half-space", arguments.half_space,
       "columns half_space_... too: each scan as one elastic half-space, as half_space/enabled true "
       "does, "
-      "seconds to minutes each, doc/half_space.md; half_space_reason says what has no solution, "
+      "seconds to minutes each, doc/half_space.md; half_space_message says what has no solution, "
       "and why. Without "
       "it the columns are there where a device is stated, for scans whose flags ask for it");
   auto* const own_force = app.add_flag(

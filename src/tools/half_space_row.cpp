@@ -23,7 +23,7 @@ void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
 }  // namespace
 
 RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict) {
-  RowFields fields = {{kPrefix + "reason", oneLine(answer.reason)}};
+  RowFields fields = {{kPrefix + "message", oneLine(answer.message)}};
   if (verdict) fields.emplace_back("verdict_by", judgeText(verdict->judge));
   if (answer.solution) {
     visitFigures(*answer.solution, [&](const std::string& name, const auto& value, const char*) {

@@ -18,10 +18,10 @@ namespace mems_stiction {
 struct HalfSpaceAnswer {
   bool is_called = false;                   ///< the scan was to be solved
   std::optional<SolvedHalfSpace> solution;  ///< nothing if it could not be asked
-  std::string reason;                       ///< empty if it is solved
+  std::string message;                      ///< empty if it is solved
 };
 
-/// half_space_reason, verdict_by of a verdict, then the figures by the names of the record's
+/// half_space_message, verdict_by of a verdict, then the figures by the names of the record's
 /// half_space with half_space_ before them; those that were not reached are NaN, and without a
 /// solution there are none. No wall time: the same scan gives the same row.
 RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict);

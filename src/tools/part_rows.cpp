@@ -64,8 +64,7 @@ ScanStatement statementOf(const Row& row) {
   ScanStatement scan;
   scan.scan_name = nameOf(row);
   scan.sticks = sticksOf(row.text("sticks"));
-  scan.reason =
-      row.text("sticks").empty() ? "the device is not stated" : row.text("verdict_reason");
+  scan.reason = row.text("sticks").empty() ? "the device is not stated" : row.text("reason");
   scan.judge = row.text("verdict_by") == judgeText(Judge::kHalfSpace) ? Judge::kHalfSpace
                                                                       : Judge::kPrediction;
   const std::string governed_by = row.text("governed_by");
@@ -121,7 +120,7 @@ std::size_t scansWithoutPart(const std::string& rows_path) {
   std::size_t count = 0;
   for (RowTexts& texts : rowTextsOf(rows_path)) {
     const Row row(std::move(texts));
-    if (row.text("reason").empty() && row.text("part_id").empty() && row.text("serial_id").empty())
+    if (row.text("message").empty() && row.text("part_id").empty() && row.text("serial_id").empty())
       ++count;
   }
   return count;
@@ -134,7 +133,7 @@ std::size_t writeParts(const std::string& rows_path, const std::string& path,
   std::map<PartKey, ScansOfPart> scans_of;
   for (RowTexts& texts : rowTextsOf(rows_path)) {
     const Row row(std::move(texts));
-    if (!row.text("reason").empty()) continue;
+    if (!row.text("message").empty()) continue;
     const PartKey key{row.text("part_id"), row.text("serial_id"), row.text("settings_hash")};
     if (!parts.add(key, row.count("number"), statementOf(row))) continue;
     scans_of[key].rows.push_back(rowOfPart(row));

@@ -71,7 +71,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
   }
   BatchRow row;
   row.is_predicted = reason.empty();
-  row.reason = reason;
+  row.message = reason;
   row.fields = originFields(origin, reason);
   if (!row.is_predicted) {
     append(stateFields(state), row.fields);
@@ -89,7 +89,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
   const bool has_half_space = mayCallHalfSpace(configuration_);
   if (has_half_space) {
     half_space = solve(tell);
-    row.is_unsolved = half_space.is_called && !half_space.reason.empty();
+    row.is_unsolved = half_space.is_called && !half_space.message.empty();
   }
   const std::optional<Verdict> verdict = judge(half_space);
   append(figureFields(surface_, subject.warnings, prediction_, verdict,
@@ -130,7 +130,7 @@ RowMaker::Subject RowMaker::predict(const BatchScan& scan, ScanOrigin& origin, S
 
 std::optional<Verdict> RowMaker::judge(const HalfSpaceAnswer& half_space) const {
   if (!hasDevice()) return std::nullopt;
-  const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
+  const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.message);
   Evidence evidence = beside_;
   if (half_space.is_called)
     evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
@@ -147,7 +147,7 @@ HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& t
     answer.is_called = call.is_made;
     beside_.why_half_space = call.why;
     if (!call.is_made || !call.objection.empty()) {
-      answer.reason = call.is_made ? call.objection : kNotFlagged;
+      answer.message = call.is_made ? call.objection : kNotFlagged;
       return answer;
     }
     HalfSpaceText text;
@@ -155,9 +155,9 @@ HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& t
     control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
     answer.solution = answerOf(call, half_space_, halfSpaceProblem(prepared_, options), control);
     if (answer.solution->status != HalfSpaceStatus::kSolved)
-      answer.reason = answer.solution->message;
+      answer.message = answer.solution->message;
   } catch (const std::exception& error) {
-    answer.reason = reasonOf(error);
+    answer.message = reasonOf(error);
   }
   return answer;
 }

@@ -24,7 +24,7 @@ namespace mems_stiction {
 /// One row, and what it lacks.
 struct BatchRow {
   RowFields fields;
-  std::string reason;  ///< why it is not predicted; empty if it is
+  std::string message;  ///< why it is not predicted; empty if it is
   bool is_predicted = false;
   bool is_unsolved = false;  ///< the half-space was asked and has no solution
   bool is_warned = false;

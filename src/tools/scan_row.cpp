@@ -38,11 +38,7 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visitSpatialRoughnessFields(prediction.spatial_roughness, visit);
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   if (verdict) {
-    visitVerdictFields(*verdict, [&](const Figure& figure, const auto& value) {
-      // The reason of a row is that of its failure.
-      const bool is_reason = std::strcmp(figure.name, "reason") == 0;
-      visit(is_reason ? Figure{"verdict_reason", figure.unit, figure.meaning} : figure, value);
-    });
+    visitVerdictFields(*verdict, visit);
     visit({"place_deviation"}, verdict->place_deviation);
   } else {
     visit({"regime_flags"}, flags);
@@ -95,7 +91,7 @@ nlohmann::json curveColumns(const std::vector<CurvePoint>& curve) {
   return columns;
 }
 
-RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
+RowFields originFields(const ScanOrigin& origin, const std::string& message) {
   nlohmann::json scan;
   if (origin.scan > 0) scan = origin.scan;
   return {{"number", origin.number},
@@ -104,7 +100,7 @@ RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
           {"name", oneLine(origin.name)},
           {"stamp", origin.stamp},
           {"channel", oneLine(origin.channel)},
-          {"reason", oneLine(reason)}};
+          {"message", oneLine(message)}};
 }
 
 RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings,

@@ -29,9 +29,9 @@ struct ScanOrigin {
   std::string channel;   ///< of an instrument maker's file
 };
 
-/// number, file, scan, name, stamp, channel, reason; the reason is empty for a scan that was
-/// predicted.
-RowFields originFields(const ScanOrigin& origin, const std::string& reason);
+/// number, file, scan, name, stamp, channel, message; the message says why the scan was not
+/// predicted, and is empty if it was.
+RowFields originFields(const ScanOrigin& origin, const std::string& message);
 
 /// The figures of the prediction, by the names of StictionPrediction, and of the verdict if there
 /// is one. No wall time: the same scan gives the same row. Flags of the model's range are there

@@ -178,7 +178,7 @@ int run(const BatchArguments& arguments) {
   queue.expect(wanted_numbers);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;
-  std::string first_reason;
+  std::string first_message;
   {
     ProgressBar progress(numbers.size(), before);
     std::size_t made = 0;
@@ -195,7 +195,7 @@ int run(const BatchArguments& arguments) {
       } else {
         rows.append(line);
       }
-      if (!row.is_predicted && ++failed_count == 1) first_reason = row.reason;
+      if (!row.is_predicted && ++failed_count == 1) first_message = row.message;
       if (row.is_unsolved) ++unsolved_count;
       if (row.is_warned) ++warningCount();
     }
@@ -210,7 +210,7 @@ int run(const BatchArguments& arguments) {
   if (failed_count > 0) {
     complain("stiction_batch",
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") +
-                 first_reason);
+                 first_message);
   }
   askForPart(arguments, stated);
   pool(arguments, scans.inputs(), stated);

@@ -136,7 +136,7 @@ class ParquetTest(InFolder):
                     table["is_conforming"].to_pylist(),
                     [row["is_conforming"] == "true" for row in rows[:-1]] + [None],
                 )
-                self.assertIn("no such file", table["reason"].to_pylist()[-1])
+                self.assertIn("no such file", table["message"].to_pylist()[-1])
                 self.assertEqual(
                     [
                         Stamp(stamp) if stamp is not None else None

@@ -106,7 +106,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
                 {name: row["half_space_" + name] for name in FIGURES},
                 {name: record["half_space"][name] for name in FIGURES},
             )
-            self.assertEqual((row["half_space_status"], row["half_space_reason"]), ("SOLVED", ""))
+            self.assertEqual((row["half_space_status"], row["half_space_message"]), ("SOLVED", ""))
             self.assertEqual(row["pull_off_force"], record["pull_off_force"])
             self.assertNotIn("half_space_processing_time", row)
         self.assertEqual(len(rows), 2)
@@ -129,13 +129,15 @@ class HalfSpaceBatchTest(unittest.TestCase):
             "rows.csv", "--half-space", inputs=[self.small, self.large, self.folder / "none.txt"]
         )
         solved, refused, missing = self.rows("rows.csv")
-        self.assertEqual((solved["half_space_status"], solved["half_space_reason"]), ("SOLVED", ""))
-        self.assertIn("half_space/max_pixels = 1500", refused["half_space_reason"])
-        self.assertEqual(refused["reason"], "")
+        self.assertEqual(
+            (solved["half_space_status"], solved["half_space_message"]), ("SOLVED", "")
+        )
+        self.assertIn("half_space/max_pixels = 1500", refused["half_space_message"])
+        self.assertEqual(refused["message"], "")
         self.assertGreater(float(refused["pull_off_force"]), 0.0)
         self.assertEqual({refused["half_space_" + name] for name in FIGURES}, {""})
-        self.assertIn("no such file", missing["reason"])
-        self.assertEqual({missing["half_space_" + name] for name in FIGURES + ("reason",)}, {""})
+        self.assertIn("no such file", missing["message"])
+        self.assertEqual({missing["half_space_" + name] for name in FIGURES + ("message",)}, {""})
         self.assertIn("1 scans failed in this run, half-space not solved for 1 others", done.stdout)
 
     def test_a_path_that_is_given_up_is_nan_never_a_number(self):
@@ -146,7 +148,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
             (row["half_space_status"], row["half_space_is_converged"]), ("TOO_MANY_STATES", "false")
         )
         self.assertEqual({row["half_space_" + name] for name in FIGURES[1:7]}, {"nan"})
-        self.assertIn("half_space/max_states = 10", row["half_space_reason"])
+        self.assertIn("half_space/max_states = 10", row["half_space_message"])
 
     def test_rows_with_and_without_it_do_not_mix_and_shards_join(self):
         self.batch("one.csv", "--half-space")
@@ -252,23 +254,21 @@ class HalfSpaceBatchTest(unittest.TestCase):
         )
         record = json.loads(done.stdout)
         self.assertEqual((solved["verdict_by"], record["verdict_by"]), ("half_space", "half_space"))
-        self.assertEqual(
-            (solved["sticks"], solved["verdict_reason"]), (record["sticks"], record["reason"])
-        )
+        self.assertEqual((solved["sticks"], solved["reason"]), (record["sticks"], record["reason"]))
         self.assertEqual(
             [float(solved[name]) for name in ("margin", "margin_lower", "margin_upper")],
             [record[name] for name in ("margin", "margin_lower", "margin_upper")],
         )
-        self.assertTrue(solved["verdict_reason"].startswith("by the half-space: "))
+        self.assertTrue(solved["reason"].startswith("by the half-space: "))
         self.assertEqual(refused["verdict_by"], "prediction")
         self.assertEqual(
             {name: refused[name] for name in ("sticks", "margin", "margin_lower")},
             {name: plain[1][name] for name in ("sticks", "margin", "margin_lower")},
         )
-        self.assertIn("the half-space does not count: ", refused["verdict_reason"])
-        self.assertIn("half_space/max_pixels = 1500", refused["verdict_reason"])
+        self.assertIn("the half-space does not count: ", refused["reason"])
+        self.assertIn("half_space/max_pixels = 1500", refused["reason"])
         self.assertEqual(
-            (plain[0]["verdict_by"], plain[0]["half_space_reason"]),
+            (plain[0]["verdict_by"], plain[0]["half_space_message"]),
             ("prediction", "no flag asks for it"),
         )
         done = run(
@@ -314,34 +314,33 @@ class HalfSpaceBatchTest(unittest.TestCase):
         done = run([program("predict_scan"), "--json", "-c", self.config] + inputs[:1])
         record = json.loads(done.stdout)
         self.assertEqual(
-            (smooth["half_space_status"], smooth["half_space_reason"], smooth["verdict_by"]),
+            (smooth["half_space_status"], smooth["half_space_message"], smooth["verdict_by"]),
             ("SOLVED", "", "half_space"),
         )
         self.assertTrue(
-            smooth["verdict_reason"].startswith("by the half-space, as near_bonding asks for it: "),
-            smooth["verdict_reason"],
+            smooth["reason"].startswith("by the half-space, as near_bonding asks for it: "),
+            smooth["reason"],
         )
         self.assertEqual(
-            (float(smooth["margin"]), smooth["verdict_reason"]),
-            (record["margin"], record["reason"]),
+            (float(smooth["margin"]), smooth["reason"]), (record["margin"], record["reason"])
         )
         self.assertEqual(
             (
                 unflagged["half_space_status"],
-                unflagged["half_space_reason"],
+                unflagged["half_space_message"],
                 unflagged["verdict_by"],
             ),
             ("", "no flag asks for it", "prediction"),
         )
-        self.assertNotIn("half-space", unflagged["verdict_reason"])
+        self.assertNotIn("half-space", unflagged["reason"])
         self.assertEqual((large["half_space_status"], large["verdict_by"]), ("", "prediction"))
         self.assertIn(
             "a frame of 72 x 72 pixels is larger than half_space/max_flagged_pixels = 4096",
-            large["half_space_reason"],
+            large["half_space_message"],
         )
         self.assertIn(
             "near_bonding asks for the half-space, which does not count: a frame of 72 x 72",
-            large["verdict_reason"],
+            large["reason"],
         )
         # the setting is one of those that rows are made with
         self.config.write_text(

@@ -93,20 +93,17 @@ class ArchiveTest(unittest.TestCase):
     def test_rows_are_the_records_of_predict_scan(self):
         rows = rows_in(self.expected)
         self.assertEqual([row["number"] for row in rows], list(range(1, COUNT + 2)))
-        self.assertEqual([row["number"] for row in rows if row["reason"]], [4])
-        self.assertIn("broken.npy", rows[3]["reason"])
+        self.assertEqual([row["number"] for row in rows if row["message"]], [4])
+        self.assertIn("broken.npy", rows[3]["message"])
         done = run(program(), "--json", "--config", self.folder / "part.yaml", *self.scans)
         records = [json.loads(line) for line in done.stdout.splitlines()]
-        for row, record in zip([row for row in rows if not row["reason"]], records):
-            common = set(row) & set(record) - {"reason", "warnings"}
+        for row, record in zip([row for row in rows if not row["message"]], records):
+            common = set(row) & set(record) - {"warnings"}
             self.assertGreater(len(common), 50)
             self.assertEqual(
                 {name: row[name] for name in common}, {name: record[name] for name in common}
             )
-            self.assertEqual(
-                (row["verdict_reason"], row["warnings"]),
-                (record["reason"], "; ".join(record.get("warnings", []))),
-            )
+            self.assertEqual(row["warnings"], "; ".join(record.get("warnings", [])))
 
     def test_several_workers_go_on_behind_half_a_line_and_write_the_rows_of_one(self):
         path = self.folder / "torn.jsonl"

@@ -34,7 +34,7 @@ def device(margin, sticks, **changes):
     message = DeviceAdhesion(
         scan_count=1,
         sticks=sticks,
-        verdict_reason="why",
+        reason="why",
         pull_off_force=2e-6,
         restoring_force=1e-5,
         margin=margin,

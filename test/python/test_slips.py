@@ -232,7 +232,8 @@ class SlipTest(unittest.TestCase):
             self.assertEqual(done.stderr, "stiction_batch: %s: %s\n" % (name, expected))
             with (self.folder / (name + ".csv")).open(newline="") as stream:
                 self.assertEqual(
-                    [row["reason"] for row in csv.DictReader(stream)], ["%s: %s" % (name, expected)]
+                    [row["message"] for row in csv.DictReader(stream)],
+                    ["%s: %s" % (name, expected)],
                 )
         done = self.run_it(
             "stiction_batch", "-o", "many.csv", "nowhere.bag", "scan.npy", "empty.bag"

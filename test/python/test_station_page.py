@@ -129,7 +129,7 @@ def device_message(**changes):
         scan_count=3,
         part_id="lot 3",
         sticks=StictionPrediction.STICKS_NO,
-        verdict_reason="above 1",
+        reason="above 1",
         verdict_by="prediction",
         pull_off_force=2e-7,
         pull_off_force_lower=1e-7,
@@ -968,7 +968,7 @@ class WordsTest(unittest.TestCase):
         solution = HalfSpaceSolution(
             sticks=0,
             verdict_by="half_space",
-            verdict_reason="by it",
+            reason="by it",
             margin=3.0,
             margin_lower=2.0,
             margin_upper=4.0,

@@ -42,14 +42,14 @@ TEST(DeviceMessage, HoldsEveryFigure) {
   EXPECT_EQ(message.warnings,
             std::vector<std::string>{"measure a field of 40 um; pixels of 100 nm will do"});
   EXPECT_EQ(message.sticks, static_cast<int>(Sticks::kUnknown));
-  EXPECT_EQ(message.verdict_reason + message.verdict_by, "");
+  EXPECT_EQ(message.reason + message.verdict_by, "");
 }
 
 TEST(DeviceMessage, HoldsTheVerdict) {
   DeviceAdhesion message = deviceMessage(DeviceForce(), someLoad(), {});
   fillVerdict(someVerdict(), message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason, "two; lines; 95 %");
+  EXPECT_EQ(message.reason, "two; lines; 95 %");
   EXPECT_EQ(message.verdict_by, "prediction");
   EXPECT_EQ((std::vector<double>{message.restoring_force, message.margin, message.margin_lower,
                                  message.margin_upper}),

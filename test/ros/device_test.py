@@ -180,13 +180,13 @@ class DeviceTest(unittest.TestCase):
         for end, other in (("_lower", "_upper"), ("_upper", "_lower")):
             product = getattr(device, "margin" + end) * getattr(device, "pull_off_force" + other)
             self.assertAlmostEqual(product / device.restoring_force, 1.0, places=12)
-        self.assertNotEqual(device.verdict_reason, "")
+        self.assertNotEqual(device.reason, "")
 
     def assert_refused(self, device):
         self.assertEqual(device.status, DeviceAdhesion.REFUSED)
         self.assertNotEqual(device.message, "")
         self.assertEqual(
-            (device.sticks, device.verdict_reason, device.verdict_by),
+            (device.sticks, device.reason, device.verdict_by),
             (StictionPrediction.STICKS_UNKNOWN, "", ""),
         )
         self.assertTrue(math.isnan(device.pull_off_force) and math.isnan(device.margin))

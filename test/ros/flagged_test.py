@@ -31,7 +31,7 @@ from stiction_client import (
 SMALL = 64  # pixels of a side, as many as the launch file allows
 # a comma would end a field of rostopic echo -p
 BY_HALF_SPACE = "by the half-space; as near_bonding asks for it: "
-VERDICT = ("sticks", "margin", "margin_lower", "margin_upper", "verdict_reason", "verdict_by")
+VERDICT = ("sticks", "margin", "margin_lower", "margin_upper", "reason", "verdict_by")
 
 
 def smooth(seed, rows=SMALL):
@@ -98,7 +98,7 @@ class FlaggedTest(unittest.TestCase):
         for name in ("version", "settings_hash", "part_id", "serial_id"):
             self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
         device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
-        self.assertTrue(device.verdict_reason.startswith(BY_HALF_SPACE), device.verdict_reason)
+        self.assertTrue(device.reason.startswith(BY_HALF_SPACE), device.reason)
         for end, other in (("", ""), ("_lower", "_upper"), ("_upper", "_lower")):
             product = getattr(device, "margin" + end) * getattr(device, "pull_off_force" + other)
             self.assertAlmostEqual(product / device.restoring_force, 1.0, places=12, msg=end)
@@ -178,7 +178,7 @@ class FlaggedTest(unittest.TestCase):
         self.assertEqual(
             (other.sticks, math.isnan(other.margin)), (StictionPrediction.STICKS_UNKNOWN, True)
         )
-        self.assertIn("device_force", other.verdict_reason)
+        self.assertIn("device_force", other.reason)
 
     def test_6_after_another_load_the_last_scan_is_solved_again(self):
         stamp, prediction = self.send(smooth(10))

@@ -82,11 +82,11 @@ TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
   verdict.judge = Judge::kHalfSpace;
   HalfSpaceSolution message = halfSpaceMessage(solvedWithCurve(10), someLoad(), {});
   EXPECT_EQ(message.sticks, 3);
-  EXPECT_EQ(message.verdict_reason + message.verdict_by, "");
+  EXPECT_EQ(message.reason + message.verdict_by, "");
   EXPECT_TRUE(std::isnan(message.margin) && std::isnan(message.peel_number_upper));
   fillVerdict(verdict, message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason,
+  EXPECT_EQ(message.reason,
             "two; lines; 95 %");  // commas would be fields for rostopic echo -p
   EXPECT_EQ(message.verdict_by, "half_space");
   EXPECT_EQ((std::vector<double>{message.margin, message.margin_lower, message.margin_upper}),

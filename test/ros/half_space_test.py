@@ -178,10 +178,10 @@ class HalfSpaceTest(unittest.TestCase):
         for name in VERDICT:
             self.assertEqual(getattr(solution, name), verdict[name], name)
         self.assertEqual(
-            (solution.sticks, solution.verdict_reason, solution.verdict_by),
+            (solution.sticks, solution.reason, solution.verdict_by),
             (STICKS[verdict["sticks"]], verdict["reason"].replace(",", ";"), verdict["verdict_by"]),
         )  # for rostopic echo -p
-        self.assertIn("half-space", solution.verdict_reason)
+        self.assertIn("half-space", solution.reason)
         self.assertEqual(
             [(point.height, point.force, WAYS[point.direction]) for point in solution.curve],
             [(point["height"], point["force"], point["direction"]) for point in record["curve"]],
@@ -196,7 +196,7 @@ class HalfSpaceTest(unittest.TestCase):
             self.assertTrue(math.isnan(getattr(solution, name)), name)
         self.assertEqual((solution.contact_count, len(solution.curve)), (-1, 0))
         self.assertEqual(
-            (solution.sticks, solution.verdict_reason, solution.verdict_by),
+            (solution.sticks, solution.reason, solution.verdict_by),
             (StictionPrediction.STICKS_UNKNOWN, "", ""),
         )
 

@@ -194,7 +194,7 @@ void expectSameInMessages(const Judged& judged) {
               "upper end of DeviceAdhesion");
   expectRatio(of_device.margin_upper * of_device.pull_off_force_lower, verdict.restoring_force,
               "lower end of DeviceAdhesion");
-  EXPECT_EQ(of_device.verdict_reason, withoutCommas(oneLine(verdict.reason)));
+  EXPECT_EQ(of_device.reason, withoutCommas(oneLine(verdict.reason)));
 
   DeviceAnswer answer{{}, verdict, std::nullopt, true};
   const DeviceVerdict said = deviceVerdictMessage(answer, {});
