@@ -27,7 +27,7 @@ class LoadSweep(ReadOnly):
     marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin, margin_upper [-],
     pull_off_force_lower, pull_off_force_upper [N], lands (0 no, 1 yes, 2 unknown), peel_number,
     peel_number_lower, peel_number_upper [-], is_peeled (of a beam: the peel number decides, not the
-    margin).
+    margin), is_lower_bound (of pull_off_force).
     summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage,
     lowest_sticking_voltage, opening_voltage, lowest_safe_voltage [V], as in msg/SweepSummary.msg;
     NaN: none of the sweep. pull_in_voltage [V]: at which the electrodes close; NaN where
@@ -71,7 +71,8 @@ class ContactCycles(ReadOnly):
     contact_area_jkr [m^2], contact_fraction, asperity_count, plastic_count, rms_height,
     largest_change [m], sticks (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower,
     margin_upper [-], pull_off_force_lower, pull_off_force_upper [N], peel_number,
-    peel_number_lower, peel_number_upper [-], is_peeled.
+    peel_number_lower, peel_number_upper [-], is_peeled, is_lower_bound (of
+    pull_off_force).
     first_sticking_cycle: 0 if none surely sticks, or neither a spring nor a beam is stated.
     lower, upper: both surfaces after the last contact [m], refined as preprocessing/refine says.
     """

@@ -30,10 +30,8 @@ _VERDICT = " %9s  %-8s"
 
 
 def bound_of(result, mark=">= "):
-    """The mark before a pull-off force that is a lower bound: the paper's search of bonded
-    surfaces, which knows a JKR area, ends before the contacts stop growing; the curve of a
-    formulation that follows the force does not."""
-    return mark if result.status == 1 and not math.isnan(result.contact_area_jkr) else ""
+    """The mark before a pull-off force that is a lower bound."""
+    return mark if result.is_lower_bound else ""
 
 
 def flag_names(flags):

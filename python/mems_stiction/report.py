@@ -29,7 +29,7 @@ from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import digits_of, flag_words, judge_words, ratio_name
 from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
 from mems_stiction.report_device import area, device_lines, measurements_of
-from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
+from mems_stiction.report_figures import number, scan_figure, trend_figure
 from mems_stiction.report_lots import lots_section
 from mems_stiction.report_template import PAGE
 from mems_stiction.surface_figures import surface_figure, surface_figures_of
@@ -322,7 +322,7 @@ def unit_of(name):
 
 def _figures(result, wanted):
     """Pairs of label and text of those that the result has."""
-    bound = "≥ " if is_lower_bound(result) else ""
+    bound = "≥ " if result["is_lower_bound"] else ""
     known = digits_of_row(result)
     texts = [
         (
@@ -366,7 +366,7 @@ def _is_half_space_asked(row):
 
 def _half_space_ratio(row):
     value = pull_off_ratio(row)
-    return "" if math.isnan(value) else ("≥ " if is_lower_bound(row) else "") + ratio(value)
+    return "" if math.isnan(value) else ("≥ " if row["is_lower_bound"] else "") + ratio(value)
 
 
 def _half_space_cell(row):
@@ -405,7 +405,7 @@ def table_row(row, drawn):
         "measured": ", ".join(str(row[name]) for name in TOLD_OF_SCANS if row.get(name)),
     }
     if not row["message"]:
-        bound = "≥ " if is_lower_bound(row) else ""
+        bound = "≥ " if row["is_lower_bound"] else ""
         entry.update(
             status=STATES[row["status"]][1],
             pull_off=bound + text_of(row["pull_off_force"], "N", digits_of_row(row)),
@@ -542,7 +542,7 @@ def page(
         parts=[part_row(part) for part in parts]
         if any("sticks" in row for row in predicted)
         else [],
-        bounded=any(is_lower_bound(row) for row in predicted),
+        bounded=any(row["is_lower_bound"] for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "",
         scans=sections,
         device=device_lines(settings["configuration"]),

@@ -56,12 +56,6 @@ def number(value):
     return math.nan if value is None else float(value)
 
 
-def is_lower_bound(result):
-    """Whether the pull-off force is one: the paper's search of bonded surfaces, which knows a JKR
-    area, ends before the contacts stop growing."""
-    return result["status"] == "BONDED" and math.isfinite(number(result["contact_area_jkr"]))
-
-
 def curves_of(result):
     """The curves that a result has: that of its formulation, and that of the half-space."""
     named = (
@@ -256,7 +250,7 @@ def _factor(values):
 
 def _draw_forces(axes, result):
     axes.set_title("Forces on the scanned area", fontsize=11)
-    bound = "at least " if is_lower_bound(result) else ""
+    bound = "at least " if result["is_lower_bound"] else ""
     rows = [(label, number(result[name]), colour) for label, name, colour in PRESSING]
     if result["force_curve"]:
         rows[0] = ("adhesion at rest",) + rows[0][1:]
@@ -412,7 +406,9 @@ def trend_figure(rows):
         hspace=0.42,
         wspace=0.2,
     )
-    bonded_text = "bonded" + (": a lower bound" if any(is_lower_bound(row) for row in rows) else "")
+    bonded_text = "bonded" + (
+        ": a lower bound" if any(row["is_lower_bound"] for row in rows) else ""
+    )
     for axes, (name, label, unit) in zip(all_axes.flat, trends):
         numbers = np.array([row["number"] for row in rows])
         values, shown_unit = scaled([row.get(name) for row in rows], unit)

@@ -194,6 +194,9 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit(
       {"needed_pitch", "m", "pixels of a scan that would show what holds; NaN where this one does"},
       prediction.short_waves.needed_pitch);
+  visit({"is_lower_bound", "",
+         "pull_off_force is a lower bound: the search ended before the contacts stopped growing"},
+        prediction.isLowerBound());
 }
 
 /// The figures of one contact.

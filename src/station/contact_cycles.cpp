@@ -65,6 +65,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     ContactCycle row;
     row.cycle = cycle;
     row.status = prediction.status;
+    row.is_lower_bound = prediction.isLowerBound();
     row.pull_off_force = prediction.pull_off_force;
     row.van_der_waals_force = prediction.van_der_waals_force;
     row.contact_area = prediction.contact_area;

@@ -28,6 +28,8 @@ namespace mems_stiction {
 struct ContactCycle {
   int cycle = 0;  ///< from 1
   Status status = Status::kNoEquilibrium;
+  bool is_lower_bound =
+      false;  ///< the pull-off force: the search ended before contacts stopped growing
   double pull_off_force = 0.0;       ///< [N]
   double van_der_waals_force = 0.0;  ///< [N]
   double contact_area = 0.0;         ///< cells in contact [m^2]

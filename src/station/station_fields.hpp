@@ -45,6 +45,7 @@ void visitSweepFields(const LoadSweepRow& row, Visitor&& visit) {
   visit({"peel_number_lower", "", "2.5 % quantile"}, row.peel_number_lower);
   visit({"peel_number_upper", "", "97.5 % quantile"}, row.peel_number_upper);
   visit({"is_peeled", "", "the peel number decides, not the margin"}, row.is_peeled);
+  visit({"is_lower_bound", "", "pull_off_force is a lower bound"}, row.is_lower_bound);
 }
 
 /// @param summary of one mechanical load @param visit called with (Figure, value) for each
@@ -89,6 +90,7 @@ void visitCycleFields(const ContactCycle& cycle, Visitor&& visit) {
   visit({"peel_number_lower", "", "2.5 % quantile"}, cycle.peel_number_lower);
   visit({"peel_number_upper", "", "97.5 % quantile"}, cycle.peel_number_upper);
   visit({"is_peeled", "", "the peel number decides, not the margin"}, cycle.is_peeled);
+  visit({"is_lower_bound", "", "pull_off_force is a lower bound"}, cycle.is_lower_bound);
 }
 
 }  // namespace mems_stiction

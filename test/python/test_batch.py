@@ -1474,6 +1474,7 @@ class TableRowTest(unittest.TestCase):
             elastic_count=1,
             elasto_plastic_count=1,
             plastic_count=1,
+            is_lower_bound=False,
             rms_height=1e-9,
             sticks="no",
         )
@@ -1487,7 +1488,7 @@ class TableRowTest(unittest.TestCase):
     def test_lower_bounds_and_limits_are_said_with_the_words_of_the_model_that_has_them(self):
         row = {
             "status": "BONDED",
-            "contact_area_jkr": 1e-15,
+            "is_lower_bound": True,
             "pull_off_force": 2e-7,
             "contact_fraction": 0.1,
             "asperity_count": 3,
@@ -1505,7 +1506,7 @@ class TableRowTest(unittest.TestCase):
             "warnings": "odd",
         }
         self.assertEqual(report.table_row(row, set())["pull_off"], "≥ 200 nN")
-        followed = report.table_row(dict(row, contact_area_jkr=None), set())
+        followed = report.table_row(dict(row, is_lower_bound=False), set())
         self.assertEqual(followed["pull_off"], "200 nN")
         self.assertEqual(
             followed["limits"],

@@ -119,6 +119,18 @@ class WrongInputTest(unittest.TestCase):
         self.assertIsInstance(failed, mems_stiction.SurfaceError)
         self.assertEqual(first.pull_off_force, last.pull_off_force)
 
+    def test_a_force_that_is_a_lower_bound_says_so(self):
+        smooth = rough(20, 30, 1e-12)
+        for formulation, is_bound in (("paper", True), ("separation_curve", False)):
+            settings = {"approach": {"formulation": formulation}}
+            prediction = mems_stiction.predict(smooth, PITCH, **settings)
+            self.assertEqual((prediction.status, prediction.is_lower_bound), ("BONDED", is_bound))
+            points = mems_stiction.sweep_loads(smooth, PITCH, voltages=[0], **settings).points
+            cycles = mems_stiction.cycle_contact(smooth, PITCH, count=1, **settings)
+            self.assertEqual([bool(point.is_lower_bound) for point in points], [is_bound] * 2)
+            self.assertEqual(bool(cycles.cycles[0].is_lower_bound), is_bound)
+            self.assertEqual(">=" in repr(cycles), is_bound)
+
 
 BEAM = {
     "beam_type": "cantilever",

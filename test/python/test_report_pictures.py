@@ -43,7 +43,7 @@ def result(**changes):
         force_curve=None,
         pull_off_force=4e-7,
         pull_off_force_jkr=1e-7,
-        contact_area_jkr=1e-15,
+        is_lower_bound=False,
         van_der_waals_force=3e-7,
         electrostatic_force=0.0,
         mechanical_load=1e-6,
@@ -199,7 +199,7 @@ class PictureTest(unittest.TestCase):
                 margin=60.0 * number,
                 margin_lower=20.0 * number,
                 margin_upper=200.0,
-                contact_area_jkr=1e-15,
+                is_lower_bound=False,
             )
             for number in (1, 2, 3)
         ]
@@ -288,7 +288,7 @@ class PictureTest(unittest.TestCase):
         prediction = SimpleNamespace(
             status=0,
             pull_off_force=4e-7,
-            contact_area_jkr=math.nan,
+            is_lower_bound=False,
             contact_fraction=1e-5,
             rms_height=3e-9,
             normal_load=1e-6,

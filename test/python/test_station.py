@@ -28,6 +28,7 @@ def point(voltage, direction=0, **changes):
         pull_off_force=2e-7,
         electrostatic_force=3e-6,
         contact_fraction=1e-4,
+        is_lower_bound=False,
         contact_area_jkr=2e-15,
         contact_area=4e-15,
         margin=12.0,
@@ -67,6 +68,7 @@ def cycle(number, **changes):
         status=0,
         pull_off_force=1e-7 * number,
         contact_fraction=1e-4,
+        is_lower_bound=False,
         contact_area_jkr=2e-15,
         asperity_count=3,
         plastic_count=1,
@@ -115,7 +117,7 @@ class SweepTextTest(unittest.TestCase):
             sweep_line(point(5.0, **PEELED)),
         ):
             self.assertEqual(line.index(line.split()[-1]), header.index("sticks"), line)
-        self.assertIn(">= 200 nN", sweep_line(point(0.0, status=1)))
+        self.assertIn(">= 200 nN", sweep_line(point(0.0, status=1, is_lower_bound=True)))
         self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[6] == "open")
 
     def test_what_is_not_among_the_voltages_is_said(self):

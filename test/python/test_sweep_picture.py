@@ -32,6 +32,7 @@ def point(voltage, direction=0, **changes):
         pull_off_force=2e-7,
         pull_off_force_lower=1e-7,
         pull_off_force_upper=4e-7,
+        is_lower_bound=False,
         contact_area_jkr=NAN,
         contact_area=1e-15 * (1 + voltage**2),
         asperity_count=4,

@@ -34,6 +34,7 @@ def prediction(**changes):
         contact_area=1e-14,
         contact_fraction=0.00123,
         contact_area_jkr=1e-15,
+        is_lower_bound=False,
         regime_flags=0,
         warnings=[],
         elastic_count=2,
@@ -124,7 +125,8 @@ class PredictionTextTest(unittest.TestCase):
     def test_columns_stay_aligned(self):
         plain = table_line("a", prediction())
         bonded = table_line(
-            "/a/very/long/path/to/some/scan.tiff", prediction(status=1, voltage=12.5)
+            "/a/very/long/path/to/some/scan.tiff",
+            prediction(status=1, voltage=12.5, is_lower_bound=True),
         )
         self.assertEqual(len(plain), len(bonded))
         self.assertEqual(len(plain), len(table_header().splitlines()[1]))
@@ -182,8 +184,8 @@ class PredictionTextTest(unittest.TestCase):
             "7 scan              device: no force: too\\x1b few",
         )
 
-    def test_the_force_of_a_bonded_surface_is_marked_as_a_lower_bound(self):
-        self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1)))
+    def test_a_force_that_is_a_lower_bound_is_marked_so(self):
+        self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1, is_lower_bound=True)))
 
     def test_a_force_that_was_followed_is_no_lower_bound_and_has_no_shares(self):
         line = table_line("a", prediction(status=1, contact_area_jkr=math.nan))

@@ -28,7 +28,7 @@ def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
         peel_number=NAN,
         peel_number_lower=NAN,
         peel_number_upper=NAN,
-        contact_area_jkr=1e-15,
+        is_lower_bound=False,
         regime_flags=0,
         model_doubt="",
         warnings=[],
@@ -323,7 +323,9 @@ class TrendPictureTest(unittest.TestCase):
         self.assertEqual([place[0] for place in marks.get_offsets()], [2, 3])
 
     def test_lower_bounds_lost_scans_and_an_empty_station_say_so(self):
-        self.assertIn("at least 200 nN", self.texts(self.picture(prediction(2e-7, status=1))))
+        self.assertIn(
+            "at least 200 nN", self.texts(self.picture(prediction(2e-7, is_lower_bound=True)))
+        )
         self.assertIn(
             "Scan 1: no equilibrium", self.texts(self.picture(prediction(2e-7, status=2)))
         )

@@ -74,6 +74,7 @@ struct Fill {
   void operator()(const Figure&, int& value) { value = static_cast<int>(++next_count); }
   void operator()(const Figure&, std::uint32_t& value) { value = ++next_count; }
   void operator()(const Figure&, bool& value) { value = true; }
+  void operator()(const Figure&, const bool& /*value*/) {}  // follows from other fields
   void operator()(const Figure& figure, std::string& value) {
     value = std::string("text of ") + figure.name;
   }

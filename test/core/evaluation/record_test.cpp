@@ -99,6 +99,7 @@ TEST(Record, YamlHoldsEveryFieldToTheLastBit) {
   EXPECT_EQ(record["rows"].as<int>(), 3);
   EXPECT_EQ(record["pitch_y"].as<double>(), 3e-9);
   EXPECT_EQ(record["status"].as<std::string>(), "BONDED");
+  EXPECT_TRUE(record["is_lower_bound"].as<bool>());
   EXPECT_EQ(record["bonding_regime"].as<std::string>(), "ADHERENCE");
   EXPECT_EQ(record["contact_theory"].as<std::string>(), "JKR");
   EXPECT_EQ(record["pull_off_force"].as<double>(), example().pull_off_force);
