@@ -10,6 +10,7 @@
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
 #include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcDispatch.h>
 
 namespace mems_stiction {
 namespace {
@@ -22,22 +23,21 @@ constexpr std::chrono::seconds kCallPatience{5};
 /// Between looks at whether to give up [s].
 constexpr double kLook = 0.05;
 
-/// One call. execute() of its base waits for ever.
-class EndingClient : public XmlRpc::XmlRpcClient {
- public:
-  using XmlRpc::XmlRpcClient::XmlRpcClient;
-
-  bool call(const char* method, const XmlRpcValue& request, XmlRpcValue& response,
-            const std::atomic<int>& give_up) {
-    if (!executeNonBlock(method, request)) return false;
-    const Clock::time_point end = Clock::now() + kCallPatience;
-    while (_connectionState != IDLE && !_disp._sources.empty()) {
-      if (give_up > 0 || Clock::now() > end) return false;
-      _disp.work(kLook);
-    }
-    return _connectionState == IDLE && executeCheckDone(response) && response.valid();
+/// One call. execute() of the client waits for ever.
+bool callOnce(const std::string& host, std::uint32_t port, const char* method,
+              const XmlRpcValue& request, XmlRpcValue& response, const std::atomic<int>& give_up) {
+  using XmlRpc::XmlRpcDispatch;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  if (!client.executeNonBlock(method, request)) return false;
+  XmlRpcDispatch dispatch;
+  dispatch.addSource(&client, XmlRpcDispatch::WritableEvent | XmlRpcDispatch::Exception);
+  const Clock::time_point end = Clock::now() + kCallPatience;
+  while (!client.executeCheckDone(response)) {
+    if (give_up > 0 || Clock::now() > end || dispatch._sources.empty()) return false;
+    dispatch.work(kLook);
   }
-};
+  return response.valid();
+}
 
 /// The payload of [code, status message, payload] if the code says success.
 bool payloadOf(XmlRpcValue& response, XmlRpcValue& payload) {
@@ -62,9 +62,9 @@ bool MasterCalls::hears(const char* method, const XmlRpcValue& request,
                         XmlRpcValue& payload) const {
   payload.clear();
   XmlRpcValue response;
-  EndingClient client(ros::master::getHost().c_str(), static_cast<int>(ros::master::getPort()),
-                      "/");
-  if (ros::isShuttingDown() || !client.call(method, request, response, give_up)) return false;
+  if (ros::isShuttingDown() ||
+      !callOnce(ros::master::getHost(), ros::master::getPort(), method, request, response, give_up))
+    return false;
   payloadOf(response, payload);
   return true;
 }
@@ -78,9 +78,8 @@ bool MasterCalls::askProcess(const std::string& address, const char* method,
   std::string host;
   std::uint32_t port = 0;
   if (ros::isShuttingDown() || !ros::network::splitURI(address, host, port)) return false;
-  EndingClient client(host.c_str(), static_cast<int>(port), "/");
   XmlRpcValue response;
-  return client.call(method, request, response, give_up) && payloadOf(response, payload);
+  return callOnce(host, port, method, request, response, give_up) && payloadOf(response, payload);
 }
 
 bool MasterCalls::askOurselves(const char* method, const XmlRpcValue& request,
