@@ -38,9 +38,9 @@ def _scale(values, unit):
     return 10.0**-exponent, letter.replace("u", "µ") + unit
 
 
-def draw_curves(axes, curves):
+def draw_curves(axes, curves, over="height over first touch"):
     """Retraction as a line over a broad, pale one for the approach, a dot for each state, jumps
-    dotted, the pull-off force with its value."""
+    dotted, the pull-off force with its value. over: what the heights are."""
     ways = [way for curve in curves for way in (curve.approach, curve.retraction) if len(way)]
     heights = np.concatenate([way.heights for way in ways])
     forces = np.concatenate([way.forces for way in ways])
@@ -84,7 +84,7 @@ def draw_curves(axes, curves):
     room = 0.03 * np.ptp(shown) or 0.03 * abs(shown[0]) or 0.03
     axes.set_xlim(shown.min() - room, shown.max() + room)
     axes.set_ylim((low - 0.05 * (high - low)) * y_scale, (high + 0.08 * (high - low)) * y_scale)
-    axes.set_xlabel("height over first touch [%s]; below 0 pressed in" % x_unit)
+    axes.set_xlabel("%s [%s]; below 0 pressed in" % (over, x_unit))
     axes.set_ylabel("force [%s]; above 0 attraction" % y_unit)
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)

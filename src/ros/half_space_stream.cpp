@@ -4,14 +4,12 @@
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
-#include <sensor_msgs/Image.h>
 
 #include "errors/error_text.hpp"
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
-#include "ros/half_space_pictures.hpp"
 #include "ros/image_conversion.hpp"
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
@@ -37,8 +35,6 @@ HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceO
   ros::NodeHandle node(handle);
   solution_publisher_ = node.advertise<HalfSpaceSolution>(kHalfSpaceTopic, kPredictionQueue);
   contact_map_publisher_ = transport_.advertise(kHalfSpaceContactMapTopic, kMapQueue);
-  contact_maps_publisher_ = node.advertise<sensor_msgs::Image>(kContactMapsTopic, kDisplayQueue);
-  curve_publisher_ = node.advertise<sensor_msgs::Image>(kHalfSpaceCurveTopic, kDisplayQueue);
 }
 
 void HalfSpaceStream::start() {
@@ -55,10 +51,8 @@ void HalfSpaceStream::stop() {
 }
 
 void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predicted,
-                            const ScanOfPart& scan, const cv::Mat& model_map,
-                            const DrawnCurve& model_curve) {
-  Task task{call, predicted, scan, model_map.clone(),
-            model_curve};  // the model uses its map's memory again
+                            const ScanOfPart& scan) {
+  Task task{call, predicted, scan};
   const std::size_t most = call.why.empty() ? 1 : kMostCallsWaiting;
   std::vector<Task> gone;
   {
@@ -141,7 +135,7 @@ std::optional<Verdict> HalfSpaceStream::solve(const Task& task) {
   if (stopping_) return std::nullopt;
   fillProvenance(task.scan.provenance, message);
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
-  publish(message, task, map);
+  publish(message, map);
   if (verdict) solved_(scan, solved, task.call.why);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -160,17 +154,10 @@ bool HalfSpaceStream::isExpected(std::uint64_t scan_id) const {
                      [&](const Task& task) { return task.scan.id == scan_id; });
 }
 
-void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const Task& task,
-                              const cv::Mat& half_space_map) const {
-  if (!half_space_map.empty() && contact_map_publisher_.getNumSubscribers() > 0) {
-    contact_map_publisher_.publish(contactMapImage(half_space_map, solution.header));
-  }
-  if (isModelMapWanted()) {
-    contact_maps_publisher_.publish(contactMapsPicture(task.model_map, half_space_map, solution));
-  }
-  if (curve_publisher_.getNumSubscribers() > 0)
-    curve_publisher_.publish(curvePicture(solution, task.model_curve));
-  // Last, so that whoever waits for the solution finds the maps sent.
+void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const cv::Mat& map) const {
+  if (!map.empty() && contact_map_publisher_.getNumSubscribers() > 0)
+    contact_map_publisher_.publish(contactMapImage(map, solution.header));
+  // Last, so that whoever waits for the solution finds the map sent.
   solution_publisher_.publish(solution);
 }
 

@@ -25,7 +25,6 @@
 #include "half_space/solution_pause.hpp"
 #include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "ros/curve_drawing.hpp"
 #include "ros/live_predictor.hpp"
 
 namespace mems_stiction {
@@ -59,17 +58,10 @@ class HalfSpaceStream {
   /// Gives up what is being solved, which is not published, and joins the thread.
   void stop();
 
-  /// Whether offer() wants the model's contact map.
-  bool isModelMapWanted() const { return contact_maps_publisher_.getNumSubscribers() > 0; }
-
-  /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels but the
-  /// map's.
+  /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels.
   /// - @p call that is made
   /// - @p scan where its prediction comes from
-  /// - @p model_map contact map of the prediction; may be empty
-  /// - @p model_curve that the prediction has followed; may have no point
-  void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan,
-             const cv::Mat& model_map, const DrawnCurve& model_curve);
+  void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan);
 
   /// Whether a scan waits for its solution, or is at hand. @param scan_id ScanOfPart::id
   bool isExpected(std::uint64_t scan_id) const;
@@ -82,8 +74,6 @@ class HalfSpaceStream {
     HalfSpaceCall call;
     StationCase predicted;
     ScanOfPart scan;
-    cv::Mat model_map;
-    DrawnCurve model_curve;
   };
   /// Since start.
   struct Counts {
@@ -96,17 +86,14 @@ class HalfSpaceStream {
   void loop();
   /// @return the verdict on the scan's device; nothing if it could not be judged
   std::optional<Verdict> solve(const Task& task);
-  /// The message always, maps and pictures while somebody listens.
-  void publish(const HalfSpaceSolution& solution, const Task& task,
-               const cv::Mat& half_space_map) const;
+  /// The message always, the contact map while somebody listens.
+  void publish(const HalfSpaceSolution& solution, const cv::Mat& map) const;
 
   const HalfSpaceSolver solver_;
   SolutionPause& pause_;
   image_transport::ImageTransport transport_;
   ros::Publisher solution_publisher_;
   image_transport::Publisher contact_map_publisher_;
-  ros::Publisher contact_maps_publisher_;
-  ros::Publisher curve_publisher_;
   Warn warn_;
   Judged judged_;
   Solved solved_;

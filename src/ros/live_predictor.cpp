@@ -7,7 +7,6 @@
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "prediction/asked_output.hpp"
-#include "prediction/force_curve.hpp"
 #include "surface/wear.hpp"
 
 namespace mems_stiction {
@@ -95,7 +94,6 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   predicted.provenance = provenanceOf(identity, used);
   predicted.pool_settings_hash =
       settingsHash(settings);  // without the pose that came with this scan
-  predicted.curve = curveOf(predicted.prediction, predictor_.options());
   return predicted;
 }
 

@@ -10,7 +10,6 @@
 
 #include <std_msgs/Header.h>
 
-#include "contact/curve_point.hpp"
 #include "evaluation/half_space_call.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
@@ -47,8 +46,6 @@ struct PredictedScan {
   std::string pool_settings_hash;  ///< of the settings that those scans share
   std::uint64_t scan_id = 0;       ///< ScanOfPart::id; 0: not from the topic
   HalfSpaceCall half_space;        ///< whether it is to be solved as a half-space
-  std::vector<CurvePoint>
-      curve;  ///< force over height; empty if the formulation does not follow it
 };
 
 }  // namespace mems_stiction

@@ -5,7 +5,6 @@
 #include <std_msgs/String.h>
 
 #include "ros/display_conversion.hpp"
-#include "ros/force_curve_picture.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/topic_names.hpp"
 
@@ -34,7 +33,6 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
   surface_points_ = node.advertise<sensor_msgs::PointCloud2>(kSurfacePointsTopic, kDisplayQueue);
   asperity_markers_ =
       node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
-  force_curve_ = node.advertise<sensor_msgs::Image>(kForceCurveTopic, kDisplayQueue);
   // Latched for who looks for it, and made anew for whoever comes, since the latched one may be
   // old.
   preview_ = node.advertise<sensor_msgs::Image>(
@@ -78,7 +76,6 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
   if (has_surfaces && hasListener(asperity_markers_)) {
     asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
-  if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
   if (predicted.part)
     publishPart(*predicted.part, {header, predicted.provenance, predicted.pool_settings_hash});
   if (hasListener(summary_)) {

@@ -47,7 +47,6 @@ class ResultPublisher {
   ros::Publisher asperities_;
   ros::Publisher surface_points_;
   ros::Publisher asperity_markers_;
-  ros::Publisher force_curve_;
   ros::Publisher preview_;
 };
 

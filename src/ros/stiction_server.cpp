@@ -11,7 +11,6 @@
 #include "errors/one_line.hpp"
 #include "evaluation/plausibility.hpp"
 #include "ros/checked_messages.hpp"
-#include "ros/force_curve_picture.hpp"
 #include "ros/message_bytes.hpp"
 #include "ros/own_log.hpp"
 #include "ros/scan_folders.hpp"
@@ -385,9 +384,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image,
   try {
     ReceivedScan scan = receive(image, info.get());
     scan.counter_surface_pose = pose;
-    OutputOptions demanded = publisher_.demanded();
-    if (half_space_ && half_space_->isModelMapWanted()) demanded.contact_map = true;
-    const PredictedScan predicted = predictor_.predictScan(scan, demanded);
+    const PredictedScan predicted = predictor_.predictScan(scan, publisher_.demanded());
     publisher_.publish(predicted, scan);
     offerToHalfSpace(predicted);
     offerToDevice(predicted);
@@ -430,8 +427,7 @@ void StictionServer::offerToHalfSpace(const PredictedScan& predicted) {
   const StationCase scan = predictor_.stationCase(nullptr);
   half_space_->offer(
       predicted.half_space, scan,
-      {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
-      predicted.prediction.contact_map, drawnCurve(predicted));
+      {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id});
 }
 
 void StictionServer::offerAgain(const PredictedScan& predicted) {

@@ -27,12 +27,9 @@ inline constexpr char kAsperitiesTopic[] = "asperities";
 inline constexpr char kSurfacePointsTopic[] = "surface_points";
 inline constexpr char kAsperityMarkersTopic[] = "asperity_markers";
 inline constexpr char kPreviewTopic[] = "preview";
-inline constexpr char kForceCurveTopic[] = "force_curve";
 inline constexpr char kDeviceForceTopic[] = "device_force";
 inline constexpr char kHalfSpaceTopic[] = "half_space";
 inline constexpr char kHalfSpaceContactMapTopic[] = "half_space_contact_map";
-inline constexpr char kHalfSpaceCurveTopic[] = "half_space_curve";
-inline constexpr char kContactMapsTopic[] = "contact_maps";
 
 /// Those that carry heights or maps by image_transport.
 inline constexpr std::array<const char*, 6> kImageTopics = {

@@ -1,4 +1,4 @@
-/// The half-space's message and pictures hold what was solved, and no figure where nothing was.
+/// The half-space's message holds what was solved, and no figure where nothing was.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include "../support/message_cases.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "ros/half_space_conversion.hpp"
-#include "ros/half_space_pictures.hpp"
 #include "ros/message_parts.hpp"
 
 namespace mems_stiction {
@@ -126,77 +125,6 @@ TEST(HalfSpaceMessage, ARefusalHasNoFigures) {
   EXPECT_EQ(message.contact_count, -1);
   EXPECT_FALSE(message.is_converged || message.is_resolved || message.is_step_converged);
   EXPECT_TRUE(message.curve.empty());
-}
-
-/// How many pixels of a bgr8 picture have this colour.
-int pixelsOf(const sensor_msgs::Image& image, int red, int green, int blue) {
-  int count = 0;
-  for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
-    count +=
-        image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
-  }
-  return count;
-}
-
-TEST(HalfSpacePictures, EachWayOfTheCurveHasItsColour) {
-  const HalfSpaceSolution message = halfSpaceMessage(solvedWithCurve(400), someLoad(), {});
-  const sensor_msgs::ImagePtr picture = curvePicture(message);
-  EXPECT_EQ(picture->encoding, "bgr8");
-  // Lines two pixels wide across a plot of 860 pixels; where they cross one hides the other.
-  EXPECT_GT(pixelsOf(*picture, 127, 178, 255), 400);
-  EXPECT_GT(pixelsOf(*picture, 242, 183, 5), 400);
-  const sensor_msgs::ImagePtr refused =
-      curvePicture(refusedMessage("no valid pixel", someLoad(), {}));
-  EXPECT_EQ(pixelsOf(*refused, 127, 178, 255) + pixelsOf(*refused, 242, 183, 5), 0);
-  EXPECT_EQ(refused->data.size(), picture->data.size());
-}
-
-TEST(HalfSpacePictures, SayWhereTheyComeFrom) {
-  // letters are light on the dark of the lowest 25 rows
-  const auto lettersOf = [](const sensor_msgs::ImagePtr& image) {
-    const auto from = static_cast<std::ptrdiff_t>(image->step * (image->height - 25));
-    return std::count_if(image->data.begin() + from, image->data.end(),
-                         [](std::uint8_t value) { return value > 100; });
-  };
-  HalfSpaceSolution solution = halfSpaceMessage(solvedWithCurve(400), someLoad(), {});
-  const cv::Mat map = cv::Mat::zeros(80, 80, CV_8UC1);
-  EXPECT_EQ(lettersOf(curvePicture(solution)), 0);
-  EXPECT_EQ(lettersOf(contactMapsPicture(map, map, solution)), 0);
-  Provenance provenance;
-  provenance.scan_name = "wafer";
-  provenance.version = "1.2.3";
-  fillProvenance(provenance, solution);
-  EXPECT_GT(lettersOf(curvePicture(solution)), 100);
-  EXPECT_GT(lettersOf(contactMapsPicture(map, map, solution)), 100);
-}
-
-TEST(HalfSpacePictures, CurvesWithoutExtentAreDrawn) {
-  SolvedHalfSpace solved;
-  solved.approach.resize(1);
-  EXPECT_FALSE(curvePicture(halfSpaceMessage(solved, someLoad(), {}))->data.empty());
-  solved.approach.resize(3);
-  solved.approach[1].force = 1e-30;
-  EXPECT_FALSE(curvePicture(halfSpaceMessage(solved, someLoad(), {}))->data.empty());
-}
-
-TEST(HalfSpacePictures, BothMapsStandSideBySide) {
-  cv::Mat model = cv::Mat::zeros(40, 80, CV_8UC1);
-  model.colRange(0, 20).setTo(2);
-  cv::Mat half_space = cv::Mat::zeros(40, 80, CV_8UC1);
-  half_space.colRange(0, 40).setTo(1);
-  const sensor_msgs::ImagePtr both = contactMapsPicture(model, half_space, {});
-  // 480 x 240 pixels each: a quarter of the one is yellow, half of the other is blue.
-  EXPECT_EQ(pixelsOf(*both, 242, 183, 5), 120 * 240);
-  EXPECT_EQ(pixelsOf(*both, 47, 127, 209), 240 * 240);
-  const sensor_msgs::ImagePtr one = contactMapsPicture(cv::Mat(), half_space, {});
-  EXPECT_EQ(pixelsOf(*one, 242, 183, 5), 0);
-  EXPECT_EQ(pixelsOf(*one, 47, 127, 209), 240 * 240);
-}
-
-TEST(HalfSpacePictures, AContactOfOnePixelOfALargeScanIsSeen) {
-  cv::Mat map = cv::Mat::zeros(2048, 2047, CV_8UC1);
-  map.at<std::uint8_t>(1023, 701) = 3;
-  EXPECT_GE(pixelsOf(*contactMapsPicture(map, cv::Mat(), {}), 209, 50, 47), 1);
 }
 
 }  // namespace
