@@ -116,10 +116,10 @@ TEST(CleaningSpread, ACleaningThatTheScanCannotTakeSaysWhyAndDoesNotCount) {
       std::nan(""));  // more is missing than preprocessing/fill/max_fraction
   const std::vector<CleaningRow> rows = cleaningSpread({heights, kPitch, kPitch}, configuration);
   const CleaningRow& filled = rowNamed(rows, "plane, spikes filled");
-  EXPECT_FALSE(filled.reason.empty());
+  EXPECT_FALSE(filled.message.empty());
   EXPECT_FALSE(filled.is_reasonable);
   EXPECT_TRUE(std::isnan(filled.pull_off_force));
-  EXPECT_TRUE(rowNamed(rows, "plane").reason.empty());
+  EXPECT_TRUE(rowNamed(rows, "plane").message.empty());
   EXPECT_EQ(spreadOf(rows).count, 5);
 }
 
