@@ -21,9 +21,14 @@ using Numbers = std::vector<int>;
 TEST(WorkQueue, RunsScansInOrderAndCallsBeforeThem) {
   Numbers ran;
   WorkQueue queue(0);
+  std::promise<void> is_at_gate;  // else a worker that starts late takes the call first
   std::promise<void> gate;
-  queue.push([&] { gate.get_future().wait(); });
+  queue.push([&] {
+    is_at_gate.set_value();
+    gate.get_future().wait();
+  });
   queue.start();
+  is_at_gate.get_future().wait();
   for (int scan = 0; scan < 3; ++scan) {
     queue.pushScan([&ran, scan] { ran.push_back(scan); },
                    [] { ADD_FAILURE() << "an unlimited queue drops nothing"; });
