@@ -267,11 +267,12 @@ class WarningTest(unittest.TestCase):
             lambda: mems_stiction.Settings(interface={"work_of_adhesion": 15.0}),
         ):
             _, found = self.caught(call)
-            self.assertEqual(
-                [(one.category, one.filename) for one in found],
-                [(mems_stiction.SettingsWarning, __file__)],
-            )
-            self.assertIn("probably 15 mJ/m^2", str(found[0].message))
+            self.assertEqual({one.filename for one in found}, {__file__})
+            of_settings = [  # so much work asks for smaller pixels, too
+                one for one in found if one.category is mems_stiction.SettingsWarning
+            ]
+            self.assertEqual(len(of_settings), 1)
+            self.assertIn("probably 15 mJ/m^2", str(of_settings[0].message))
         settings, _ = self.caught(
             lambda: mems_stiction.Settings(interface={"work_of_adhesion": 15.0})
         )

@@ -107,13 +107,11 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
   unresolved.is_resolved = false;
   SolvedHalfSpace coarse = solved(6.0);
   coarse.is_step_converged = false;
-  SolvedHalfSpace unbalanced = solved(6.0);
-  unbalanced.is_converged = false;
   const Verdict by_curve = verdictWith(Evidence(), predicted(), 3.0);
   for (const auto& [solution, why] :
        {std::make_pair(unsolved, "half_space/max_states did not suffice"),
         std::make_pair(unresolved, "its pixels are too large"),
-        std::make_pair(coarse, "half_space/step"), std::make_pair(unbalanced, "equilibrium"),
+        std::make_pair(coarse, "half_space/step"),
         std::make_pair(unsolvedHalfSpace("no valid pixel"), "no valid pixel")}) {
     const Verdict verdict = verdictWith(solution, predicted(), 3.0);
     EXPECT_EQ(verdict.sticks, by_curve.sticks);
