@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 from roslib.packages import find_node
@@ -288,25 +289,22 @@ class InterruptedTest(unittest.TestCase):
         np.save(str(scan), np.load(str(self.scans[0]))[:128, :128])
         larger = self.inputs / "larger.npy"
         np.save(str(larger), np.load(str(self.scans[1]))[:512, :512])
-        before = set(os.listdir(tempfile.gettempdir()))
-        errors = self.try_all_over(
-            [
-                SCRIPTS / "stiction_report",
-                "-c",
-                self.config,
-                "-o",
-                self.folder / "report.html",
-                scan,
-                larger,
-            ],
-            same_bytes=False,
-        )
-        left = {
-            name
-            for name in set(os.listdir(tempfile.gettempdir())) - before
-            if name.startswith("stiction_report_")
-        }
-        self.assertEqual(left, set())
+        with tempfile.TemporaryDirectory() as own:  # other tests make reports beside this one
+            with unittest.mock.patch.dict(os.environ, TMPDIR=own):
+                errors = self.try_all_over(
+                    [
+                        SCRIPTS / "stiction_report",
+                        "-c",
+                        self.config,
+                        "-o",
+                        self.folder / "report.html",
+                        scan,
+                        larger,
+                    ],
+                    same_bytes=False,
+                )
+            left = [name for name in os.listdir(own) if name.startswith("stiction_report_")]
+        self.assertEqual(left, [])
         if errors:
             self.assertEqual(errors.splitlines()[-1], "stiction_report: interrupted")
 
