@@ -89,7 +89,8 @@ def contact_maps_picture(solution, model_map=None, half_space_map=None):
         if cells is None:
             axes.text(0.5, 0.5, without, ha="center", va="center", transform=axes.transAxes)
         else:
-            title = "%s: %d pixels in contact" % (title, np.count_nonzero(cells))
+            count = np.count_nonzero(cells)
+            title = "%s: %d pixel%s in contact" % (title, count, "" if count == 1 else "s")
             axes.imshow(map_colours(cells), interpolation="nearest")
         axes.set_title(title, fontsize=12)
     figure.legend(
