@@ -9,7 +9,8 @@ from matplotlib.colors import to_rgb
 
 from mems_stiction.curve import DIRECTIONS, Curve
 from mems_stiction.curve_figure import draw_curves
-from mems_stiction.page_words import HALF_SPACE_STATES
+from mems_stiction.page_maps import severest
+from mems_stiction.page_words import HALF_SPACE_STATES, finite
 from mems_stiction.plots import REGIMES, Patch, plt, with_unit
 from mems_stiction.prediction_text import flag_names, flag_words
 from mems_stiction.provenance import sign
@@ -39,7 +40,7 @@ def force_curve_picture(prediction):
         flags = flag_words(flag_names(prediction.regime_flags), prediction.model_doubt)
         _headline(figure, textwrap.shorten(flags, 105, placeholder=" ..."), 2, WARNING)
         draw_curves(
-            _axes(figure), [Curve("", points, _finite(prediction.pull_off_force))], over=OVER
+            _axes(figure), [Curve("", points, finite(prediction.pull_off_force))], over=OVER
         )
     sign(figure, prediction)
     return figure
@@ -65,10 +66,10 @@ def half_space_curve_picture(solution, prediction=None):
         _headline(figure, _loads_of(solution), 1, "#555555")
         if is_solved and not solution.is_resolved:
             _headline(figure, "pixels are too coarse for the edges of contacts", 2, WARNING)
-        curves = [Curve("half-space", points, _finite(solution.pull_off_force))]
+        curves = [Curve("half-space", points, finite(solution.pull_off_force))]
         of_prediction = _points_of(prediction) if prediction is not None else []
         if of_prediction:
-            force = _finite(prediction.pull_off_force)
+            force = finite(prediction.pull_off_force)
             curves.append(Curve(prediction.formulation, of_prediction, force))
         draw_curves(_axes(figure), curves, over=OVER)
     sign(figure, solution)
@@ -124,16 +125,8 @@ def pixels_of(figure):
 def map_colours(cells):
     """Rows x columns x RGB, no more than MOST_CELLS along a side, so that a contact of one pixel is
     seen."""
-    factor = max(1, math.ceil(max(cells.shape) / MOST_CELLS))
-    rows, columns = (-side % factor for side in cells.shape)
-    cells = np.pad(cells, ((0, rows), (0, columns)), mode="edge")
-    blocks = cells.reshape(cells.shape[0] // factor, factor, cells.shape[1] // factor, factor)
     colours = np.array([to_rgb(APART)] + [to_rgb(colour) for _, _, colour in REGIMES])
-    return colours[blocks.max(axis=(1, 3))]
-
-
-def _finite(value):
-    return value if math.isfinite(value) else None
+    return colours[severest(cells, MOST_CELLS)]
 
 
 def _points_of(prediction):
