@@ -5,7 +5,6 @@ import collections
 import copy
 import threading
 
-import numpy as np
 import rospy
 from mems_stiction.msg import HalfSpaceSolution
 from mems_stiction.scan_images import pixels
@@ -102,9 +101,7 @@ class ScreenTopics:
         from mems_stiction import screen_pictures  # slow to import: not before the subscriptions
 
         if sources[0] is None:
-            return image_message(
-                screen_pictures.pixels_of(screen_pictures.nothing_yet("%s: none yet" % topic))
-            )
+            return dark_image(topic)
         draw = {
             "force_curve": screen_pictures.force_curve_picture,
             "half_space_curve": screen_pictures.half_space_curve_picture,
@@ -115,6 +112,13 @@ class ScreenTopics:
         return message
 
 
+def dark_image(topic):
+    """Before a topic's first picture: rviz shows a white panel for a topic without any."""
+    from mems_stiction.screen_pictures import nothing_yet, pixels_of
+
+    return image_message(pixels_of(nothing_yet("%s: none yet" % topic)))
+
+
 def image_message(pixels_of_picture):
     """Of rows x columns x RGB."""
     message = Image()
@@ -122,5 +126,5 @@ def image_message(pixels_of_picture):
     message.height, message.width = pixels_of_picture.shape[:2]
     message.encoding = "rgb8"
     message.step = 3 * message.width
-    message.data = np.ascontiguousarray(pixels_of_picture).tobytes()
+    message.data = pixels_of_picture.tobytes()
     return message
