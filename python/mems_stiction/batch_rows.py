@@ -1,10 +1,10 @@
 """Rows of stiction_batch (CSV or JSON lines), read back with their types, units and origin."""
 
 import csv
-import json
 
 from mems_stiction.csv_text import plain_text
 from mems_stiction.input_file import UnfitFile, require_file
+from mems_stiction.json_text import json_records
 from mems_stiction.row_table import STAMP, Stamp
 
 ENDINGS = (".csv", ".jsonl", ".ndjson")
@@ -72,7 +72,7 @@ def batch_rows(path):
                 for row in csv.DictReader(stream, strict=True):
                     rows.append({name: _typed(text, kinds.get(name)) for name, text in row.items()})
             else:
-                rows = [dict(json.loads(line)) for line in stream]
+                rows = list(json_records(stream))
     except UnfitFile as error:
         raise UnfitRows("%s cannot be read: %s" % (path, error))
     except (ValueError, TypeError, KeyError, AttributeError, csv.Error) as error:

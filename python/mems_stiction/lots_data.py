@@ -27,7 +27,7 @@ import numpy as np
 
 from mems_stiction._settings import FileError, OptionsError
 from mems_stiction.input_file import UnfitFile, require_file
-from mems_stiction.json_text import read_json
+from mems_stiction.json_text import json_records
 from mems_stiction.row_table import PARQUET
 
 RELEASING = ("margin", "peel_number")  # the device sticks below 1
@@ -198,7 +198,7 @@ def _read(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
             yield from _parquet_rows(path, columns)
             return
         with open(str(path), encoding="utf-8-sig", newline="") as stream:
-            yield from _csv_rows(stream, columns) if path.suffix == ".csv" else _json_rows(stream)
+            yield from _csv_rows(stream, columns) if path.suffix == ".csv" else json_records(stream)
     except (UnfitFile, OSError) as error:
         raise FileError("%s: %s" % (path, getattr(error, "strerror", None) or error)) from None
     except (ValueError, csv.Error) as error:
@@ -211,15 +211,6 @@ def _csv_rows(stream: IO[str], columns: Set[str]) -> Iterator[Mapping[str, Any]]
     for cells in reader:
         if cells:
             yield {name: cells[place] for place, name in chosen if place < len(cells)}
-
-
-def _json_rows(stream: IO[str]) -> Iterator[Mapping[str, Any]]:
-    for line in stream:
-        if line.strip():
-            row = read_json(line)
-            if not isinstance(row, dict):
-                raise ValueError("a line is no record")
-            yield row
 
 
 def _parquet_rows(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:

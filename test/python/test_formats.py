@@ -353,6 +353,7 @@ class ParquetTest(InFolder):
         self.assertEqual(len(both), 2 + len(table))
         for name, text, told in (
             ("torn.jsonl", '{"number":1,"fi', "holds no rows"),
+            ("deep.jsonl", '{"a":' * 200000 + "1" + "}" * 200000, "holds no rows: too many levels"),
             ("other.csv", "a,b\n1,2\n", "holds no rows of stiction_batch"),
             ("none.csv", None, "No such file"),
         ):
