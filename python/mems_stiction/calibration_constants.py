@@ -21,6 +21,7 @@ WORK, HAMAKER, ANGLE, POTENTIAL, FILM = (
     "film_thickness",  # of each body that has a film
 )
 FILMS = ("lower/" + FILM, "upper/" + FILM)
+SECOND = (POTENTIAL, ANGLE, FILM, HAMAKER)  # of which one is fitted beside the work of adhesion
 RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18), FILM: (0.2e-9, 20e-9)}  # that is searched
 UNITS = {WORK: "J/m^2", HAMAKER: "J", ANGLE: "rad", POTENTIAL: "V", FILM: "m"}
 WIDEST_COSINES = (0.01, 1.0)

@@ -23,12 +23,12 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from mems_stiction import calibration_places  # noqa: E402
-from mems_stiction._calibration import _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
 from mems_stiction.calibration_constants import WORK, Axis  # noqa: E402
 from mems_stiction.calibration_data import measurements_of, pooled, shared_scans  # noqa: E402
 from mems_stiction.calibration_fit import Likelihood  # noqa: E402
 from mems_stiction.calibration_grid import between_nodes  # noqa: E402
+from mems_stiction.calibration_search import Search  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 from tiers import evidence, times  # noqa: E402
 
@@ -97,7 +97,7 @@ def calibrated(data, config=None, **settings):
 class MadeDataTest(unittest.TestCase):
     def test_intervals_of_200_draws_hold_the_truth_and_there_is_no_bias(self):
         data = measurements_of(exact(), None, {})
-        search = _Search(data, [Axis(WORK, values_of(mems_stiction.Settings()))], lambda: None)
+        search = Search(data, [Axis(WORK, values_of(mems_stiction.Settings()))], lambda: None)
         search.run()
         truth = np.array([datum.value for datum in data])
         covered, logs = 0, []
