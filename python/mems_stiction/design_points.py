@@ -43,7 +43,7 @@ MOST_VALUES = 10000  # of an axis
 MOST_WHOLE = 1e9  # that a setting counts
 # A spring that opens whatever holds: the verdict on it tells whether anything but the margin stands
 # against a "no".
-SURE_SPRING = {
+SURE_SPRING: Dict[str, Any] = {
     STIFFNESS: 1e6,
     TRAVEL: 1e-2,
     "device/beam_type": "none",
@@ -256,11 +256,10 @@ class Holding:
             if point.get(POLISH):
                 stated[LOW_PASS] = max(point[POLISH], float(values_of(self.settings)[LOW_PASS]))
             settings = Settings(self.settings, **stated)
+            values = values_of(settings)
             scans = [self._changed(scan, point) for scan in self.scans]
             found = mems_stiction.predict_device(
-                scans,
-                config=Settings(settings, **sure_spring(values_of(settings))),
-                upper=self.upper or None,
+                scans, config=Settings(settings, **sure_spring(values)), upper=self.upper or None
             )
         verdict = found.verdict
         assert verdict is not None
@@ -268,7 +267,6 @@ class Holding:
             value / verdict.margin
             for value in (verdict.margin_lower, verdict.margin_upper, verdict.margin_transition)
         )
-        values = values_of(settings)
         if values["device/electrode_area"] > 0 and values[POTENTIAL] != 0:
             # the device's own interval is of its surfaces alone
             ends = verdict.device_pull_off_force_lower, verdict.device_pull_off_force_upper
