@@ -9,16 +9,10 @@ frame that the half-space has solved, and is gone on with. Predictions are made 
 to the standard output, and into its section of the page. Progress goes to the standard error.
 """
 
-import argparse
-import json
-import pathlib
-import sys
-import warnings
-
 import mems_stiction
 import numpy as np
 
-import half_space_steps
+import section_study
 import trust_frames
 import trust_run
 from flow_map import within
@@ -115,27 +109,17 @@ def predicted(line, heights):
 
 
 def study(arguments):
-    path = arguments.folder / "effects.jsonl"
-    known = {line["frame"]["number"]: line for line in trust_run.lines_of(path)}
-    with open(path, "a") as file:
-        for number in range(arguments.count):
-            frame, heights = drawn(number, arguments.pixels, arguments.seed)
-            if number in known:
-                if known[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit(
-                        "%s holds other frames than these: give another folder, or the same pixels "
-                        "and seed" % path
-                    )
-                continue
-            found = {name: of_half_space(frame, heights, name, arguments.limit) for name in EFFECTS}
-            known[number] = {"frame": frame, "found": found}
-            file.write(json.dumps(known[number]) + "\n")
-            file.flush()
-            print("solved %d of %d" % (number + 1, arguments.count), file=sys.stderr, flush=True)
-    return [
-        predicted(known[number], drawn(number, arguments.pixels, arguments.seed)[1])
-        for number in range(arguments.count)
-    ]
+    def drawn_here(number):
+        return drawn(number, arguments.pixels, arguments.seed)
+
+    def line_of(frame, heights):
+        found = {name: of_half_space(frame, heights, name, arguments.limit) for name in EFFECTS}
+        return {"frame": frame, "found": found}
+
+    lines = trust_run.solved_lines(
+        arguments.folder / "effects.jsonl", arguments.count, drawn_here, line_of, "pixels and seed"
+    )
+    return [predicted(line, drawn_here(line["frame"]["number"])[1]) for line in lines]
 
 
 def holds(line, effect):
@@ -148,21 +132,20 @@ def holds(line, effect):
     )
 
 
-def logs_of(lines, effect, figure, of="curve", over="half_space", beside=None):
-    """ln of one solver's figure over the other's, or over its own without the effect."""
-    return np.log(
-        [
-            line["found"][effect][of][figure] / line["found"][beside or effect][over][figure]
-            for line in lines
-        ]
-    )
+def figures_of(lines, effect, solver, figure):
+    """Of half_space or curve; figure: its place in FIGURES."""
+    return np.array([line["found"][effect][solver][figure] for line in lines])
 
 
 def row_of(effect, lines):
     of_effect = [line for line in lines if holds(line, effect)]
     if not of_effect:
         return "| %s | 0 |%s" % (effect, " |" * 11)
-    force, work = (np.exp(logs_of(of_effect, effect, figure)) for figure in (0, 1))
+    force, work = (
+        figures_of(of_effect, effect, "curve", figure)
+        / figures_of(of_effect, effect, "half_space", figure)
+        for figure in range(len(FIGURES))
+    )
     is_sure = np.array([not line["found"][effect]["doubt"] for line in of_effect])
     cells = [
         effect,
@@ -191,7 +174,8 @@ def changes_of(effect, lines):
     if effect == PLAIN or not both:
         return [""] * 3
     by_half_space, by_curve = (
-        logs_of(both, effect, 1, solver, solver, PLAIN) for solver in ("half_space", "curve")
+        np.log(figures_of(both, effect, solver, 1) / figures_of(both, PLAIN, solver, 1))
+        for solver in ("half_space", "curve")
     )
     differences = np.abs(by_curve - by_half_space)
     return [
@@ -236,29 +220,9 @@ def section_of(lines, arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("count", type=int)
-    parser.add_argument("--pixels", type=int, default=64)
+    parser = section_study.parser_of(__doc__.splitlines()[0], 64, 10.0, "a half-space may take")
     parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument(
-        "--limit",
-        type=float,
-        default=10.0,
-        help="seconds of processor time that a half-space may take",
-    )
-    parser.add_argument("--page", type=pathlib.Path, help="whose section is written anew")
-    arguments = parser.parse_args()
-    for of_draws in (
-        mems_stiction.ScanWarning,
-        mems_stiction.SettingsWarning,
-    ):  # of heights and materials that are as drawn
-        warnings.simplefilter("ignore", of_draws)
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    section = section_of(study(arguments), arguments)
-    print(section, end="")
-    if arguments.page:
-        half_space_steps.put(section, arguments.page, HEADING)
+    section_study.run(parser.parse_args(), study, section_of, HEADING)
 
 
 if __name__ == "__main__":

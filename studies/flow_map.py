@@ -9,16 +9,10 @@ is gone on with. Predictions are made anew. The table goes to the standard outpu
 section of the page. Progress goes to the standard error.
 """
 
-import argparse
-import json
-import pathlib
-import sys
-import warnings
-
 import mems_stiction
 import numpy as np
 
-import half_space_steps
+import section_study
 import trust_kinds
 import trust_run
 
@@ -113,26 +107,17 @@ def drawn(number, arguments):
 
 
 def study(arguments):
-    path = arguments.folder / "pressed.jsonl"
-    known = {line["frame"]["number"]: line for line in trust_run.lines_of(path)}
-    with open(path, "a") as file:
-        for number in range(arguments.count):
-            frame, heights = drawn(number, arguments)
-            if number in known:
-                if known[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit(
-                        "%s holds other frames than these: give another folder, or the same pixels "
-                        "and seeds" % path
-                    )
-            else:
-                known[number] = line_of(frame, heights, arguments.limit)
-                file.write(json.dumps(known[number]) + "\n")
-                file.flush()
-            print("solved %d of %d" % (number + 1, arguments.count), file=sys.stderr, flush=True)
+    lines = trust_run.solved_lines(
+        arguments.folder / "pressed.jsonl",
+        arguments.count,
+        lambda number: drawn(number, arguments),
+        lambda frame, heights: line_of(frame, heights, arguments.limit),
+        "pixels and seeds",
+    )
     return [
-        predicted(known[number], drawn(number, arguments)[1])
-        for number in range(arguments.count)
-        if known[number]["half_space"].get("is_resolved")
+        predicted(line, drawn(line["frame"]["number"], arguments)[1])
+        for line in lines
+        if line["half_space"].get("is_resolved")
     ]
 
 
@@ -209,29 +194,11 @@ def section_of(lines, arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("count", type=int)
-    parser.add_argument("--pixels", type=int, default=96)
-    parser.add_argument("--seeds", default=SEEDS, help="sets of frames, in turn")
-    parser.add_argument(
-        "--limit",
-        type=float,
-        default=60.0,
-        help="seconds of processor time that the half-spaces of a frame may take",
+    parser = section_study.parser_of(
+        __doc__.splitlines()[0], 96, 60.0, "the half-spaces of a frame may take"
     )
-    parser.add_argument("--page", type=pathlib.Path, help="whose section is written anew")
-    arguments = parser.parse_args()
-    for of_draws in (
-        mems_stiction.ScanWarning,
-        mems_stiction.SettingsWarning,
-    ):  # of heights and materials that are as drawn
-        warnings.simplefilter("ignore", of_draws)
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    section = section_of(study(arguments), arguments)
-    print(section, end="")
-    if arguments.page:
-        half_space_steps.put(section, arguments.page, HEADING)
+    parser.add_argument("--seeds", default=SEEDS, help="sets of frames, in turn")
+    section_study.run(parser.parse_args(), study, section_of, HEADING)
 
 
 if __name__ == "__main__":

@@ -10,20 +10,15 @@ be removed. The table goes to the standard output, and into its section of the p
 to the standard error.
 """
 
-import argparse
-import json
 import math
-import pathlib
-import re
-import sys
 import time
-import warnings
 
 import mems_stiction
 import numpy as np
 import yaml
 from mems_stiction.curve import Way, steep_steps
 
+import section_study
 import trust_frames
 import trust_kinds
 import trust_run
@@ -157,23 +152,13 @@ def line_of(frame, heights, limit):
 
 
 def study(arguments):
-    path = arguments.folder / "steps.jsonl"
-    known = {line["frame"]["number"]: line for line in trust_run.lines_of(path)}
-    with open(path, "a") as file:
-        for number in range(arguments.count):
-            frame, heights = drawn(number, arguments.pixels, arguments.seed)
-            if number in known:
-                if known[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit(
-                        "%s holds other frames than these: give another folder, or the same pixels "
-                        "and seed" % path
-                    )
-                continue
-            known[number] = line_of(frame, heights, arguments.limit)
-            file.write(json.dumps(known[number]) + "\n")
-            file.flush()
-            print("solved %d of %d" % (number + 1, arguments.count), file=sys.stderr, flush=True)
-    return [known[number] for number in range(arguments.count)]
+    return trust_run.solved_lines(
+        arguments.folder / "steps.jsonl",
+        arguments.count,
+        lambda number: drawn(number, arguments.pixels, arguments.seed),
+        lambda frame, heights: line_of(frame, heights, arguments.limit),
+        "pixels and seed",
+    )
 
 
 def deviation(line, name):
@@ -271,45 +256,15 @@ def section_of(lines, arguments):
     return "\n".join(text) + "\n"
 
 
-def put(section, page, heading=HEADING):
-    """In place of the section of this heading, which is not the last one of the page."""
-    text = page.read_text(encoding="utf-8")
-    changed, count = re.subn(
-        r"^%s\n.*?(?=^## )" % re.escape(heading),
-        lambda _: section + "\n",
-        text,
-        flags=re.MULTILINE | re.DOTALL,
-    )
-    if count != 1:
-        sys.exit("%s has no section '%s'" % (page, heading))
-    page.write_text(changed, encoding="utf-8")
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("count", type=int)
-    parser.add_argument("--pixels", type=int, default=96)
-    parser.add_argument("--seed", type=int, default=SEED)
-    parser.add_argument(
-        "--limit",
-        type=float,
-        default=30.0,
-        help="seconds of processor time that the usual steps may take; the fine ones four times as "
-        "many",
+    parser = section_study.parser_of(
+        __doc__.splitlines()[0],
+        96,
+        30.0,
+        "the usual steps may take; the fine ones four times as many",
     )
-    parser.add_argument("--page", type=pathlib.Path, help="whose section is written anew")
-    arguments = parser.parse_args()
-    for of_draws in (
-        mems_stiction.ScanWarning,
-        mems_stiction.SettingsWarning,
-    ):  # of heights that are as drawn, and bodies without a hardness
-        warnings.simplefilter("ignore", of_draws)
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    section = section_of(study(arguments), arguments)
-    print(section, end="")
-    if arguments.page:
-        put(section, arguments.page)
+    parser.add_argument("--seed", type=int, default=SEED)
+    section_study.run(parser.parse_args(), study, section_of, HEADING)
 
 
 if __name__ == "__main__":

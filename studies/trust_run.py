@@ -101,6 +101,30 @@ def lines_of(path):
     return [json.loads(line) for line in whole.splitlines()]
 
 
+def solved_lines(path, count, drawn, line_of, same):
+    """A line for each frame, by its number: as the file has it, else found now and added to it.
+
+    drawn(number): (what the frame is, heights). line_of(frame, heights). same: what frames depend
+    on, in words.
+    """
+    known = {line["frame"]["number"]: line for line in lines_of(path)}
+    with open(path, "a") as file:
+        for number in range(count):
+            frame, heights = drawn(number)
+            if number in known:
+                if known[number]["frame"] != json.loads(json.dumps(frame)):
+                    sys.exit(
+                        "%s holds other frames than these: give another folder, or the same %s"
+                        % (path, same)
+                    )
+                continue
+            known[number] = line_of(frame, heights)
+            file.write(json.dumps(known[number]) + "\n")
+            file.flush()
+            print("solved %d of %d" % (number + 1, count), file=sys.stderr, flush=True)
+    return [known[number] for number in range(count)]
+
+
 def chosen(record, names):
     return {name: record.get(name) for name in names}
 
@@ -112,29 +136,17 @@ def drawn(number, arguments, scans):
 
 
 def solve(arguments, scans):
-    path = arguments.folder / "half_space.jsonl"
-    solved = {line["frame"]["number"]: line for line in lines_of(path)}
-    with open(path, "a") as file:
-        for number in range(arguments.count):
-            frame, heights = drawn(number, arguments, scans)
-            if number in solved:
-                if solved[number]["frame"] != json.loads(json.dumps(frame)):
-                    sys.exit(
-                        "%s holds other frames than these: give another --output, or the same "
-                        "scans, pixels and seed" % path
-                    )
-                continue
-            line = {
-                "frame": frame,
-                "half_space": chosen(
-                    half_space_of(frame, heights, arguments.limit), HALF_SPACE_FIGURES
-                ),
-            }
-            file.write(json.dumps(line) + "\n")
-            file.flush()
-            solved[number] = line
-            print("solved %d of %d" % (number + 1, arguments.count), file=sys.stderr, flush=True)
-    return [solved[number] for number in range(arguments.count)]
+    def line_of(frame, heights):
+        solved = half_space_of(frame, heights, arguments.limit)
+        return {"frame": frame, "half_space": chosen(solved, HALF_SPACE_FIGURES)}
+
+    return solved_lines(
+        arguments.folder / "half_space.jsonl",
+        arguments.count,
+        lambda number: drawn(number, arguments, scans),
+        line_of,
+        "scans, pixels and seed",
+    )
 
 
 def main():
