@@ -110,15 +110,16 @@ HalfSpaceCall halfSpaceCall(const Prediction& prediction, const PreparedScan& pr
 
 std::string coarsePixelsWarning(const PreparedScan& prepared, const Options& options,
                                 const HalfSpaceOptions& half_space) {
-  const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
-  const HeightMap& frame = problem.surfaces.lower;
+  const HeightMap& frame = prepared.model_surfaces.lower;
+  const double pitch = std::max(frame.pitchX(), frame.pitchY());
   try {
-    if (isResolved(problem, half_space)) return "";
-    return "half-space: pixels of " + shortNumber(std::max(frame.pitchX(), frame.pitchY())) +
+    const double largest = resolvingPitch(halfSpaceProblem(prepared, options), half_space);
+    if (pitch <= largest) return "";
+    return "half-space: pixels of " + shortNumber(pitch) +
            " m are too large for the edges of the contacts: forces come out too large as a rule, "
            "and soft bodies may take minutes and end TOO_MANY_STATES; scan a smaller area with "
            "pixels of " +
-           shortNumber(resolvingPitch(problem, half_space)) + " m or less";
+           shortNumber(largest) + " m or less";
   } catch (const OptionsError&) {  // the solution says so
     return "";
   }
