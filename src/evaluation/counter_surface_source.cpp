@@ -103,7 +103,7 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
     placed_ = tiltedFlat(scan, pose.tilt_x, pose.tilt_y);
     return placed_;
   }
-  const HeightMap& surface = unplaced(scan);
+  const HeightMap surface = unplaced(scan);
   const bool is_on_the_grid = haveSameGrid(surface, scan);
   if (is_measured && !is_on_the_grid) return surface;
   const Beyond beyond =
@@ -132,16 +132,17 @@ std::vector<std::string> CounterSurfaceSource::warnings(const HeightMap& scan) c
   return lines;
 }
 
-const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
+HeightMap CounterSurfaceSource::unplaced(const HeightMap& scan) {
   if (!measured_.empty()) {
     if (mounted_measured_.empty()) mounted_measured_ = mounted(measured_);
     return mounted_measured_;
   }
   load();
   if (!options_.isGenerated()) return surface_;
-  if (drawn_.empty() || !haveSameGrid(drawn_, scan)) drawn_ = drawnCounterSurface(scan, options_);
-  surface_ = fittedCounterSurface(scan, drawn_, options_);
-  return surface_;
+  if (surface_.empty() || !haveSameGrid(surface_, scan)) {
+    surface_ = drawnCounterSurface(scan, options_);
+  }
+  return fittedCounterSurface(scan, surface_, options_);
 }
 
 HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {

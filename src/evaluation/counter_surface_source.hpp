@@ -64,7 +64,7 @@ class CounterSurfaceSource {
   /// The measured surface or that of the file, cleaned and turned over, before its pose.
   HeightMap mounted(const HeightMap& measured);
   /// What lies over the scan before its pose, on whatever grid it has.
-  const HeightMap& unplaced(const HeightMap& scan);
+  HeightMap unplaced(const HeightMap& scan);
 
   CounterSurfaceOptions options_;
   ScanOptions scan_;
@@ -72,8 +72,7 @@ class CounterSurfaceSource {
   ScanLimits limits_;
   HeightMap measured_;          ///< beside the scans, as it came
   HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
-  HeightMap drawn_;             ///< by itself, on the latest grid; of generated types
-  HeightMap surface_;  ///< mounted, before its pose; of type file, or as drawn for the scan
+  HeightMap surface_;  ///< mounted, before its pose; of type file, or as drawn on the latest grid
   HeightMap placed_;   ///< in its pose, on the latest grid
   std::vector<std::string> warnings_;           ///< about the surface of the file
   std::vector<std::string> measured_warnings_;  ///< about the measured one
