@@ -46,12 +46,8 @@ void addListViolations(const std::string& name, const std::vector<double>& value
 double holdingField(const DeviceOptions& device, const InterfaceOptions& interface,
                     const RemainingState& state, const Prediction& contact,
                     const LoadOptions& load) {
-  if (device.electrode_area <= 0.0)
-    return state.voltageForce() * device.contact_area / contact.nominal_area;
-  const auto forceAt = [&](double volts) {
-    return plateForce(device, interface, volts, contact.mean_gap);
-  };
-  return forceAt(load.fieldVoltage()) - forceAt(load.contact_potential);
+  const auto hold = voltageHold(device, interface, load, contact.mean_gap);
+  return hold ? hold->force : state.voltageForce() * device.contact_area / contact.nominal_area;
 }
 
 /// What opens a beam that is held, over all that holds it [-]; NaN where a share is not known.
@@ -68,11 +64,8 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
     return has_force ? force * area_ratio / beamForce(beam) : Verdict::kNotStated;
   };
   double shares = 1.0 / row.ratio() + shareOfForce(state.mechanical_load);
-  if (const auto electrode = electrodeOf(device, interface)) {
-    const FieldHold field = fieldHold(beam, *electrode, load.fieldVoltage(), contact.mean_gap);
-    const FieldHold lasting = fieldHold(beam, *electrode, load.contact_potential, contact.mean_gap);
-    shares += row.is_peeled ? (field.work - lasting.work) / peelNumber(beam, 1.0)
-                            : (field.force - lasting.force) / beamForce(beam);
+  if (const auto hold = voltageHold(device, interface, load, contact.mean_gap)) {
+    shares += row.is_peeled ? hold->work / peelNumber(beam, 1.0) : hold->force / beamForce(beam);
   } else {
     shares += shareOfForce(state.voltageForce());
   }

@@ -13,6 +13,20 @@ double closedGap(const DeviceOptions& device) {
   return device.electrode_gap > 0.0 ? device.electrode_gap - device.travel : 0.0;
 }
 
+/// By all of the electrode below a closed device; nothing where none is stated.
+std::optional<FieldHold> electrodeHold(const DeviceOptions& device,
+                                       const InterfaceOptions& interface, double voltage,
+                                       double contact_gap) {
+  if (const auto electrode = electrodeOf(device, interface))
+    return fieldHold(device.beam(), *electrode, voltage, contact_gap);
+  if (!device.hasSpring() || !(device.electrode_area > 0.0)) return std::nullopt;
+  return FieldHold{device.electrode_area * surface_forces::electrostaticPressure(
+                                               closedGap(device) + contact_gap, voltage,
+                                               interface.insulator_thickness,
+                                               interface.insulator_relative_permittivity),
+                   0.0};
+}
+
 }  // namespace
 
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface,
@@ -23,24 +37,23 @@ double closingVoltage(const DeviceOptions& device, const InterfaceOptions& inter
              : std::max(0.0, bare - std::abs(contact_potential));
 }
 
-double plateForce(const DeviceOptions& device, const InterfaceOptions& interface, double voltage,
-                  double contact_gap) {
-  return device.electrode_area *
-         surface_forces::electrostaticPressure(closedGap(device) + contact_gap, voltage,
-                                               interface.insulator_thickness,
-                                               interface.insulator_relative_permittivity);
+std::optional<FieldHold> voltageHold(const DeviceOptions& device, const InterfaceOptions& interface,
+                                     const LoadOptions& load, double contact_gap) {
+  const auto both = electrodeHold(device, interface, load.fieldVoltage(), contact_gap);
+  const auto lasting = electrodeHold(device, interface, load.contact_potential, contact_gap);
+  if (!both || !lasting) return std::nullopt;
+  return FieldHold{both->force - lasting->force, both->work - lasting->work};
 }
 
 FieldHold lastingHold(const DeviceOptions& device, const InterfaceOptions& interface,
                       double contact_potential, double contact_gap) {
   if (contact_potential == 0.0) return {};
   const double gap = std::isnan(contact_gap) ? 0.0 : contact_gap;
-  if (const auto electrode = electrodeOf(device, interface))
-    return fieldHold(device.beam(), *electrode, contact_potential, gap);
-  if (!device.hasSpring() || !(device.electrode_area > 0.0)) return {};
+  const auto hold = electrodeHold(device, interface, contact_potential, gap);
+  if (!hold || !device.hasSpring()) return hold.value_or(FieldHold());
   const double landed = closedGap(device) > 0.0 ? 0.0 : device.contact_area;
   const double share = std::max(0.0, device.electrode_area - landed) / device.electrode_area;
-  return {share * plateForce(device, interface, contact_potential, gap), 0.0};
+  return {share * hold->force, 0.0};
 }
 
 }  // namespace mems_stiction

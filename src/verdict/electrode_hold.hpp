@@ -18,6 +18,8 @@
 ///
 ///     const FieldHold hold = lastingHold(device, interface, contact_potential, mean_gap);
 
+#include <optional>
+
 #include "verdict/beam_field.hpp"
 
 namespace mems_stiction {
@@ -27,14 +29,15 @@ namespace mems_stiction {
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface,
                       double contact_potential);
 
-/// Force of the electrode below the plate of a closed device on a spring [N].
+/// What the voltage adds to what holds the closed device, by all of the electrode; nothing where no
+/// electrode is stated.
 /// - @p contact_gap mean gap of the surfaces where they do not touch [m], >= 0
-double plateForce(const DeviceOptions& device, const InterfaceOptions& interface, double voltage,
-                  double contact_gap);
+std::optional<FieldHold> voltageHold(const DeviceOptions& device, const InterfaceOptions& interface,
+                                     const LoadOptions& load, double contact_gap);
 
 /// What of the electrodes' field holds the closed device when the voltage has gone. Nothing where
 /// no electrode is stated.
-/// - @p contact_gap as of plateForce(); NaN of surfaces that touch everywhere
+/// - @p contact_gap as of voltageHold(); NaN of surfaces that touch everywhere
 FieldHold lastingHold(const DeviceOptions& device, const InterfaceOptions& interface,
                       double contact_potential, double contact_gap);
 
