@@ -77,14 +77,14 @@ class Loop {
  public:
   Loop(const Options& options, const SurfacePair& surfaces, const DeviceOptions& device,
        const UncertaintyOptions& uncertainty, const std::optional<DeviceScale>& scale,
-       const MeasuredScan& scan)
+       const MeasuredScan& scan, double pull_in)
       : options_(options),
         device_(device),
         uncertainty_(uncertainty),
         scale_(scale),
         contact_(options, surfaces, scan),
         cell_area_(scan.cell_area),
-        pull_in_(closingVoltage(device, options.interface, options.load.contact_potential)) {}
+        pull_in_(pull_in) {}
 
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
     LoadSweepRow row;
@@ -247,7 +247,7 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
       closingVoltage(device, options.interface, options.load.contact_potential);
   if (std::isnan(result.pull_in_voltage)) result.pull_in_reason = whatPullInLacks(device);
   for (const double mechanical_load : request.mechanical_loads) {
-    Loop loop(options, surfaces, device, uncertainty, scale, measured);
+    Loop loop(options, surfaces, device, uncertainty, scale, measured, result.pull_in_voltage);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
       const auto up_count = static_cast<int>(voltages.size());
