@@ -105,9 +105,15 @@ struct Holding {
 /// of itself where both are at the same quantile, as if they went together.
 /// - @p deviations standard ones of a normal distribution to that quantile
 double holdingFactor(const Holding& holding, double share, double of_surfaces, double deviations) {
-  if (share == 1.0) return of_surfaces;
   return share * of_surfaces +
          (1.0 - share) * std::exp(2.0 * deviations * holding.potential_deviation);
+}
+
+/// What a quantile of the work of adhesion is of it [-]; 1 where it was measured on beams.
+double workFactor(const Holding& holding, double place) {
+  return holding.device.apparent_work_of_adhesion > 0.0
+             ? 1.0
+             : quantile(holding.spread.apparent_work, place);
 }
 
 /// "; 1.2e-07 N of what holds are of the contact potential between the electrodes", or nothing.
@@ -147,12 +153,11 @@ Finding springFinding(const Holding& holding, Verdict& verdict) {
     verdict.margin_lower = verdict.margin_upper = verdict.margin_transition = verdict.margin;
     return {Sticks::kYes, "the contact potential between the electrodes holds the device"};
   }
-  const double share = of_electrodes == 0.0 ? 1.0 : of_surfaces / verdict.device_pull_off_force;
+  const double share = of_surfaces / verdict.device_pull_off_force;
   verdict.margin_transition = verdict.margin;
-  if (transition > 0.0 && share == 1.0) {
-    verdict.margin_transition *= prediction.pull_off_force / transition;
-  } else if (transition > 0.0) {
-    verdict.margin_transition /= share * transition / prediction.pull_off_force + 1.0 - share;
+  if (transition > 0.0) {
+    const double force = prediction.pull_off_force;
+    verdict.margin_transition *= force / (share * transition + (1.0 - share) * force);
   }
   if (!holding.spread.isKnown()) return withoutContacts("the margin's interval", prediction);
   // the margin falls as the pull-off force grows
@@ -185,7 +190,7 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const double work = verdict.apparent_work_of_adhesion;
   if (std::isnan(work)) return withoutContacts("the beam's adhesion", holding.prediction);
   const double of_electrodes = holding.electrodes.work;
-  const double share = of_electrodes == 0.0 ? 1.0 : work / (work + of_electrodes);
+  const double share = work / (work + of_electrodes);
   verdict.peel_number = peelNumber(beam, work + of_electrodes);
   verdict.detachment_length = detachmentLength(beam, work);
   verdict.unstuck_length = unstuckLength(beam, work);
@@ -194,17 +199,14 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   if (std::isinf(of_electrodes))
     return {Sticks::kYes, "the contact potential of the electrode holds the beam"};
   // the spread is known, as the contacts that the work of adhesion was summed over
-  if (!is_measured || of_electrodes != 0.0) {
-    const auto workAt = [&](double place, double deviations) {
-      const double of_surfaces = is_measured ? 1.0 : quantile(holding.spread.apparent_work, place);
-      return holdingFactor(holding, share, of_surfaces, deviations);
-    };
-    const double at_most = verdict.peel_number / workAt(kLowerShare, -kReach95);
-    const double at_least = verdict.peel_number / workAt(kUpperShare, kReach95);
-    verdict.peel_number_lower =
-        std::min(at_least, at_most);  // compressed beams have peel numbers below 0
-    verdict.peel_number_upper = std::max(at_least, at_most);
-  }
+  const auto workAt = [&](double place, double deviations) {
+    return holdingFactor(holding, share, workFactor(holding, place), deviations);
+  };
+  const double at_most = verdict.peel_number / workAt(kLowerShare, -kReach95);
+  const double at_least = verdict.peel_number / workAt(kUpperShare, kReach95);
+  verdict.peel_number_lower =
+      std::min(at_least, at_most);  // compressed beams have peel numbers below 0
+  verdict.peel_number_upper = std::max(at_least, at_most);
   Finding finding = judgedRatio(
       "peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
       holding.prediction.isLowerBound() && !is_measured, holding.has_cleanings && !is_measured);
@@ -240,10 +242,9 @@ PeelReach peelReach(const Holding& holding, const Verdict& verdict) {
   reach.longest = kDecayLength * reach.length;
   if (!holding.spread.isKnown()) return reach;
   for (const double share : {kLowerShare, kUpperShare}) {
-    const bool is_measured = device.apparent_work_of_adhesion > 0.0;
-    const double work_factor = is_measured ? 1.0 : quantile(holding.spread.apparent_work, share);
-    const double length = peelLength(beam, verdict.apparent_work_of_adhesion * work_factor,
-                                     pressure * quantile(holding.spread.pull_off, share));
+    const double length =
+        peelLength(beam, verdict.apparent_work_of_adhesion * workFactor(holding, share),
+                   pressure * quantile(holding.spread.pull_off, share));
     reach.shortest = std::min(reach.shortest, length);
     reach.longest = std::max(reach.longest, kDecayLength * length);
   }
