@@ -37,6 +37,8 @@
 ///         hamaker_constant));
 ///     const double pull = law.traction(law.range() / gap);
 
+#include <algorithm>
+
 #include "mechanics/layered_attraction.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"
@@ -171,8 +173,12 @@ class WaterLaw {
   double kelvinRadius() const { return kelvin_radius_; }  ///< r_K [m]; 0 without water
   double gapLimit() const { return gap_limit_; }          ///< d_K + 2 t_w [m]; 0 without water
   double pressure() const { return pressure_; }           ///< p [Pa]; 0 without water
-  /// What flat surfaces that it fills gain by it [J/m^2].
-  double energy() const { return pressure_ * gap_limit_; }
+  /// At a gap, counted from contact: p where water fills it [Pa].
+  double pressure(double gap) const { return gap > 0.0 && gap < gap_limit_ ? pressure_ : 0.0; }
+  /// What separation from there to infinity costs [J/m^2].
+  double energy(double gap) const {
+    return pressure_ * std::max(0.0, gap_limit_ - std::max(gap, 0.0));
+  }
 
   /// At a gap that is counted from the outermost atoms: water fills it from `contact` to `contact`
   /// + gapLimit(), both ends smeared over `front` [m].

@@ -85,10 +85,9 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
   unloading.contact_area = rest->contact_fraction * area();
   unloading.force = area() * strengthFrom(rest, branch_);
   const double strongest = law_->strongestGap();
-  const double by_water = strongest < water_.gapLimit() ? water_.pressure() : 0.0;
   unloading.force_exponents =
       lawExponents(field_.isOn() ? area() * field_.pressure(strongest) / unloading.force : 0.0,
-                   std::min(1.0, area() * by_water / unloading.force));
+                   std::min(1.0, area() * water_.pressure(strongest) / unloading.force));
   if (mayTear())
     unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
@@ -114,7 +113,7 @@ bool ConformingContact::mayTear() const {
 void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
   const double flattening = waves_.of(*gap_, contact_modulus_);
   const double by_field = field_.isOn() ? field_.energy(0.0) : 0.0;
-  const double by_water = water_.energy();
+  const double by_water = water_.energy(0.0);
   // the surfaces rest in the state of the least energy, and contacts jump in either
   const double work = std::min(energyGained(springsOf(flattening)) + by_contacts.lost,
                                law_->workOfAdhesion() + by_field + by_water);

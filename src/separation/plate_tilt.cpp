@@ -98,9 +98,8 @@ void PlateTilt::addAttraction(const ContactSettings& settings, Balance& balance)
         adhesion.y += traction * place.y;
         adhesion.largest += traction * std::hypot(place.x, place.y);
       }
-      double pressure = 0.0;
+      double pressure = water.pressure(gap);
       if (field.isOn()) pressure += field.pressure(std::max(gap, 0.0));
-      if (water.isOn() && gap > 0.0 && gap < water.gapLimit()) pressure += water.pressure();
       loads.x += pressure * place.x;
       loads.y += pressure * place.y;
     }

@@ -54,7 +54,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
   solution.model = CurveStatement::of(
-      solution, settings.interface.work_of_adhesion + settings.capillary.law().energy(),
+      solution, settings.interface.work_of_adhesion + settings.capillary.law().energy(0.0),
       areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
 }
 
@@ -81,7 +81,7 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
   const WaterLaw water = problem.settings.capillary.law();
-  const double gained = law.workOfAdhesion() + water.energy();
+  const double gained = law.workOfAdhesion() + water.energy(0.0);
   if (!(solution.flattening_energy / gained < chosen::kConformingRatio)) return std::nullopt;
   const FieldLaw lasting_field =
       fieldLaw(problem.settings.load.contact_potential, problem.settings.interface);

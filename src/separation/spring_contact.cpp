@@ -32,16 +32,13 @@ class Spring {
     const auto pointAt = [&](double gap) {
       double traction = law.traction(gap - law.range());
       double energy = law.energy(gap - law.range());
+      const double apart = std::max(gap - law.range(), 0.0);
       if (field.isOn()) {
-        const double apart = std::max(gap - law.range(), 0.0);
         traction += field.pressure(apart);
         energy += field.energy(apart) + field.pressure(0.0) * (apart - (gap - law.range()));
       }
-      const double filled = water.gapLimit() - std::max(gap - law.range(), 0.0);
-      if (filled > 0.0) {
-        traction += gap > law.range() ? water.pressure() : 0.0;
-        energy += water.pressure() * filled;
-      }
+      traction += water.pressure(apart);
+      energy += water.energy(apart);
       return Point{gap + traction / stiffness, traction,
                    0.5 * traction * traction / stiffness - energy, gap};
     };

@@ -80,6 +80,9 @@ TEST(WaterLaw, isOffWhenDryAndActsOnlyBelowTheKelvinGap) {
   };
   EXPECT_EQ(forceAt(0.999 * water.gapLimit()), water.pressure() * 1e-16);
   EXPECT_EQ(forceAt(1.001 * water.gapLimit()), 0.0);
+  EXPECT_EQ(water.pressure(0.999 * water.gapLimit()), water.pressure());
+  EXPECT_EQ(water.pressure(1.001 * water.gapLimit()), 0.0);
+  EXPECT_EQ(water.energy(1.001 * water.gapLimit()), 0.0);
 }
 
 TEST(CapillarySum, fillsAFlatAroundABumpOrNothing) {

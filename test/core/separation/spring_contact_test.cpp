@@ -36,7 +36,7 @@ TEST(SpringContact, waterAddsItsPressureAndItsEnergy) {
   const WaterLaw water(0.3, 0.072, 0.0, 298.15, 18.07e-6, 0.8e-9);
   const auto branch = springBranch({{0.0, 1.0}}, traction, kNoField, water, kRigid);
   const auto rest = restOf(branch, 0.0);
-  EXPECT_NEAR(rest->energy, -(0.05 + water.energy()), 1e-3 * water.energy());
+  EXPECT_NEAR(rest->energy, -(0.05 + water.energy(0.0)), 1e-3 * water.energy(0.0));
   EXPECT_NEAR(strengthFrom(rest, branch) / (traction.strength() + water.pressure()), 1.0, 1e-3);
   EXPECT_EQ(branch.back().contact_fraction, 0.0);
   // drawn out on springs it holds to the same width, and no less before
