@@ -65,8 +65,6 @@ void ContactCurve::start(const GapField& field, const ContactSettings& settings,
                          const FlowingPlaces* flow) {
   flow_ = flow;
   cell_area_ = field.cellArea();
-  has_voltage_ = settings.load.voltage != 0.0;
-  load_ = settings.load.mechanical_load;
   has_unloading_ = false;
   frame_.start(field, settings, far, flow == nullptr);
   followCurve(frame_, settings, loading_);
@@ -211,11 +209,13 @@ void ContactCurve::part(double force_from_next_rest) {
                           : 0.5 * std::max(0.0, curve.work - loading_.work) / frame_.area();
   const double by_attraction =  // a lasting field pulls as adhesion does
       exponents.pull_off.adhesion + 0.5 * exponents.pull_off.contact_potential;
-  by_contacts_.doubt =
-      doubtOf(curve, by_attraction, force_from_next_rest, isDrawnPastARest(loading_, load_));
+  const LoadOptions& load = frame_.load();
+  by_contacts_.doubt = doubtOf(curve, by_attraction, force_from_next_rest,
+                               isDrawnPastARest(loading_, load.mechanical_load));
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
-  if (!has_unloading_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;
+  const bool has_voltage = load.voltage != 0.0;
+  if (!has_unloading_ && !has_voltage && !has_edges && flow_ == nullptr) return;
   const double lowering = flow_ != nullptr ? flow_->lowering() : 0.0;
   for (auto state = curve.states.rbegin(); state != curve.states.rend(); ++state) {
     by_contacts_.curve.push_back({state->approach + lowering, state->partingForce(), true});

@@ -96,8 +96,6 @@ class ContactCurve {
 
   FrameSums frame_;
   double cell_area_ = 0.0;  ///< [m^2]
-  double load_ = 0.0;       ///< F_m [N]
-  bool has_voltage_ = false;
   SeparationCurve loading_;
   std::vector<Contact> contacts_;
   std::vector<PatchLoad> loads_;  ///< in the same order

@@ -252,7 +252,7 @@ double FrameSums::energyAt(const ContactTraction& law, double approach) {
 }
 
 double FrameSums::lastingFieldEnergy(double approach) {
-  const double share = lastingFieldShare();
+  const double share = load().lastingFieldShare();
   if (share == 0.0) return 0.0;
   const FieldLaw& field = *voltage_;
   const int contact_count = overlappingAt(approach);

@@ -61,8 +61,8 @@ class FrameSums {
   double energy(double approach) { return energyAt(law(), approach); }
   /// What taking the surfaces apart would cost by a contact potential alone [J].
   double lastingFieldEnergy(double approach);
-  /// What of the field's force stays when the voltage has gone [-].
-  double lastingFieldShare() const { return settings_->load.lastingFieldShare(); }
+  /// That presses the surfaces together, and whose field acts between them.
+  const LoadOptions& load() const { return settings_->load; }
   /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger
   /// one widens the law's range, which pulls more over wide gaps and less near contacts.
   double hamakerExponentOfForce(double approach, double hold);

@@ -212,7 +212,7 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.contact_count = sums.contact_count;
   state.carried = sums.carried;
   state.electrostatic = sums.electrostatic;
-  state.lasting_field = frame.lastingFieldShare() * sums.electrostatic;
+  state.lasting_field = frame.load().lastingFieldShare() * sums.electrostatic;
   state.capillary = sums.capillary;
   state.is_in_reach = sums.weight > 0.0;
   if (state.is_in_reach) {
