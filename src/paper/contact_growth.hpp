@@ -16,8 +16,8 @@
 ///             far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
 ///     F_c -> x^2 n F_c
 ///     F_V -> x^2 v^2 F_V, with a factor v of the contact potential, on the way out alone
-///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c' + F_V']/(x^2
-///     A0)
+///     pull-off per nominal area -> P'/(x^2 A0),
+///             P' = n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c' + F_V'
 ///
 /// The growth says that a surface that must carry more, or carries less per contact, brings
 /// proportionally more contacts of the same kind into play (Archard; Greenwood and Williamson's

@@ -1,4 +1,5 @@
 #include "verdict/regime_flags.hpp"
+
 #include "numeric/words.hpp"
 
 namespace mems_stiction {
