@@ -50,12 +50,10 @@ fi
 if hasClangTidy; then
   check 'clang-tidy (scripts/tidy)' "$repository/scripts/tidy"
 else
-  echo 'scripts/setup --developer installs clang-tidy' >"$results/logs/tidy.txt"
-  record skipped 'clang-tidy (scripts/tidy)' "$results/logs/tidy.txt"
+  skip 'clang-tidy (scripts/tidy)' 'scripts/setup --developer installs clang-tidy'
 fi
 if command -v clang++ >/dev/null; then
   check 'fuzzing of each reader for a minute (scripts/fuzz)' "$repository/scripts/fuzz"
 else
-  echo 'scripts/setup --developer installs clang' >"$results/logs/fuzz.txt"
-  record skipped 'fuzzing (scripts/fuzz)' "$results/logs/fuzz.txt"
+  skip 'fuzzing (scripts/fuzz)' 'scripts/setup --developer installs clang'
 fi
