@@ -117,6 +117,22 @@ double finite(const char* field, double value) {
   return value;
 }
 
+/// Pixels in this machine's byte order; cv_bridge would load GDAL and a hundred libraries more into
+/// each program.
+sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding,
+                                   const std_msgs::Header& header) {
+  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
+  const auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  message->encoding = encoding;
+  if (whole.empty()) return message;
+  sensor_msgs::fillImage(*message, encoding, static_cast<std::uint32_t>(whole.rows),
+                         static_cast<std::uint32_t>(whole.cols),
+                         static_cast<std::uint32_t>(whole.step), whole.data);
+  message->is_bigendian = kThisMachineIsBigEndian;
+  return message;
+}
+
 }  // namespace
 
 std::string acceptedEncodings() {
@@ -185,20 +201,6 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
   const PixelOwner message(image.get(), [image](const void* /*message*/) {});
   return {image->header, measuredPart(heightMapFromPixels(shown, options, message)), std::nullopt,
           identityOf(image->header, nullptr)};
-}
-
-sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding,
-                                   const std_msgs::Header& header) {
-  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
-  const auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header = header;
-  message->encoding = encoding;
-  if (whole.empty()) return message;
-  sensor_msgs::fillImage(*message, encoding, static_cast<std::uint32_t>(whole.rows),
-                         static_cast<std::uint32_t>(whole.cols),
-                         static_cast<std::uint32_t>(whole.step), whole.data);
-  message->is_bigendian = kThisMachineIsBigEndian;
-  return message;
 }
 
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header) {

@@ -52,11 +52,6 @@ void fillIdentity(const ScanIdentity& identity, ScanInfo& info);
 ///        not stated.
 ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options);
 
-/// Pixels in this machine's byte order; cv_bridge would load GDAL and a hundred libraries more into
-/// each program.
-sensor_msgs::ImagePtr imageMessage(const cv::Mat& pixels, const std::string& encoding,
-                                   const std_msgs::Header& header);
-
 /// rows x cols CV_32FC1 or CV_64FC1 [m] as 32FC1 [m], NaN where invalid. Float32 keeps 7 digits: a
 /// stage offset should have come off before.
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header);

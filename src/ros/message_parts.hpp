@@ -72,13 +72,4 @@ void fillProvenance(const Provenance& provenance, Message& message) {
   copyIdentity(provenance, message);
 }
 
-template <typename Message>
-Provenance provenanceIn(const Message& message) {
-  Provenance provenance;
-  provenance.version = message.version;
-  provenance.settings_hash = message.settings_hash;
-  copyIdentity(message, provenance);
-  return provenance;
-}
-
 }  // namespace mems_stiction
