@@ -33,11 +33,12 @@ void requestEnd(int /*signal*/) {
   if (is_serving == 0) ros::requestShutdown();  // roscpp waits for a master that is not there
 }
 
-/// What a handler writes, which may not put texts together.
-std::string end_text;
+/// What a handler writes, which may not put texts together. Never freed: it may come while the
+/// process is in exit().
+const std::string* end_text = nullptr;
 
 void endAtOnce(int /*signal*/) {
-  const ssize_t written = write(STDERR_FILENO, end_text.data(), end_text.size());
+  const ssize_t written = write(STDERR_FILENO, end_text->data(), end_text->size());
   _exit(written < 0 ? EXIT_FAILURE : EXIT_SUCCESS);
 }
 
@@ -84,9 +85,9 @@ int run(int argc, char** argv, const NodeProgram& program) {
   const std::string lack = lackOfOpenFiles();
   if (!lack.empty()) complain(program.name, lack);
   ros::init(argc, argv, program.name, ros::init_options::NoSigintHandler);
-  end_text = std::string(program.what) +
-             " ends without having finished: a master that does not answer, or work that takes "
-             "long; the master may still hold its name\n";
+  end_text = new std::string(program.what +
+                             " ends without having finished: a master that does not answer, or "
+                             "work that takes long; the master may still hold its name\n");
   std::signal(SIGALRM, endAtOnce);
   std::signal(SIGINT, requestEnd);
   shutDownOn(SIGTERM);
