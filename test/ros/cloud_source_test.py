@@ -76,7 +76,18 @@ class CloudTest(unittest.TestCase):
         cls.sensor = rospy.Publisher("/gocator_snapshot", PointCloud2, queue_size=100)
         wait_until(cls.sensor.get_num_connections, "the source to listen")
         cls.counts.wait(waiting=0, found=0)
-        wait_until(lambda: not cls.counts["hindered_by"], "the node to listen")
+        cls.counts.wait_for_listeners()
+
+    def own_source(self, name, **parameters):
+        """One in a namespace of its own until the test ends: its process and its books."""
+        for key, value in dict(parameters, diagnostic_period=0.1).items():
+            rospy.set_param("/%s/source/%s" % (name, key), value)
+        process = subprocess.Popen(
+            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
+            env=dict(os.environ, ROS_NAMESPACE="/" + name),
+        )
+        self.addCleanup(process.terminate)
+        return process, source_counts(name + "/source")
 
     @classmethod
     def stop(cls):
@@ -126,18 +137,9 @@ class CloudTest(unittest.TestCase):
         self.assertEqual(self.counts.fresh()["missing_by_sequence"], "0")
 
     def test_4_heights_are_taken_in_a_frame_once_its_transform_is_there(self):
-        for key, value in dict(
-            source="cloud", frame="stage", transform_timeout=3.0, diagnostic_period=0.1
-        ).items():
-            rospy.set_param("/tf/source/" + key, value)
-        source = subprocess.Popen(
-            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
-            env=dict(os.environ, ROS_NAMESPACE="/tf"),
-        )
-        self.addCleanup(source.terminate)
+        _, counts = self.own_source("tf", source="cloud", frame="stage", transform_timeout=3.0)
         heights, infos = Collector("/tf/height", Image), Collector("/tf/scan_info", ScanInfo)
         refused = Collector("/tf/source/refused", String).connect()
-        counts = source_counts("tf/source")
         sensor = rospy.Publisher("/tf/points", PointCloud2, queue_size=10)
         frames = rospy.Publisher("/tf", TFMessage, queue_size=10)
         wait_until(
@@ -170,16 +172,9 @@ class CloudTest(unittest.TestCase):
         counts.wait(found=2, published=1, refused=1, waiting=0)
 
     def test_5_a_layer_of_a_grid_map_becomes_a_scan(self):
-        for key, value in dict(source="grid_map", diagnostic_period=0.1).items():
-            rospy.set_param("/map/source/" + key, value)
-        source = subprocess.Popen(
-            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
-            env=dict(os.environ, ROS_NAMESPACE="/map"),
-        )
-        self.addCleanup(source.terminate)
+        _, counts = self.own_source("map", source="grid_map")
         heights, infos = Collector("/map/height", Image), Collector("/map/scan_info", ScanInfo)
         refused = Collector("/map/source/refused", String).connect()
-        counts = source_counts("map/source")
         maps = rospy.Publisher("/map/grid_map", GridMap, queue_size=10)
         wait_until(maps.get_num_connections, "the source to listen")
         counts.wait_for_listeners()
@@ -198,23 +193,16 @@ class CloudTest(unittest.TestCase):
         counts.wait(found=2, published=1, refused=1, waiting=0)
 
     def test_5b_messages_that_state_more_than_they_hold_take_no_memory(self):
-        for key, value in dict(source="cloud", diagnostic_period=0.1).items():
-            rospy.set_param("/hostile/source/" + key, value)
-        source = subprocess.Popen(
-            [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
-            env=dict(os.environ, ROS_NAMESPACE="/hostile"),
-        )
-        self.addCleanup(source.terminate)
+        process, counts = self.own_source("hostile", source="cloud")
         heights = Collector("/hostile/height", Image)
         Collector("/hostile/scan_info", ScanInfo)
         log = Collector("/rosout", Log).connect()
-        counts = source_counts("hostile/source")
         sensor = rospy.Publisher("/hostile/points", PointCloud2, queue_size=10)
         wait_until(sensor.get_num_connections, "the source to listen")
         counts.wait_for_listeners()
         sensor.publish(snapshot(field(7), rospy.Time(5000)))
         heights.of(rospy.Time(5000))
-        before = peak_memory(source.pid)
+        before = peak_memory(process.pid)
         many = 2**26  # texts, of which each takes 32 bytes once it is made
         empty, one = bytes_of(StictionPrediction()), bytes_of(StictionPrediction(warnings=[""]))
         place = next(at for at, (few, more) in enumerate(zip(empty, one)) if few != more)
@@ -230,7 +218,7 @@ class CloudTest(unittest.TestCase):
         counts.wait(refused=1)
         sensor.publish(snapshot(field(8), rospy.Time(5001)))
         heights.of(rospy.Time(5001))
-        self.assertLess(peak_memory(source.pid) - before, 2**28)
+        self.assertLess(peak_memory(process.pid) - before, 2**28)
         answers.end()
         clouds.end()
 

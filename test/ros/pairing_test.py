@@ -65,7 +65,7 @@ class PairingTest(unittest.TestCase):
                 lambda: (
                     counts["waiting_for_partner"] == "0"
                     and counts["waiting"] == "0"
-                    and int(counts["predicted"] or 0) + int(counts["rejected"] or 0) >= SCANS
+                    and counts.total("predicted", "rejected") >= SCANS
                 ),
                 "the end of the scans",
             )

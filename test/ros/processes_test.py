@@ -514,9 +514,7 @@ class ProcessesTest(unittest.TestCase):
                     send(station, frame)
                     rospy.sleep(0.02)
                 wait_until(
-                    lambda counts=counts, gone=gone: (
-                        sum(int(counts[key] or 0) for key in gone) == sent - 4
-                    ),
+                    lambda: counts.total(*gone) == sent - 4,
                     "%d scans that are gone as %s" % (sent - 4, " or ".join(gone)),
                 )
                 self.assertTrue(most / 2 < int(counts["waiting_memory [bytes]"]) <= most, name)

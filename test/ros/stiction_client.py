@@ -218,6 +218,10 @@ class Counts:
         with self._lock:
             return self._values.get(key, "")
 
+    def total(self, *keys):
+        """Their sum; one that was not reported yet is 0."""
+        return sum(int(self[key] or 0) for key in keys)
+
     def reasons(self):
         with self._lock:
             return [message for level, message in self._reports if level > 0]
