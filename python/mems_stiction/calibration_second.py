@@ -8,7 +8,6 @@ from typing import Any, Callable, Dict, List, Sequence, Tuple
 import numpy as np
 
 from mems_stiction.calibration_constants import (
-    ANGLE,
     FILM,
     HAMAKER,
     NORMAL_95,
@@ -16,7 +15,9 @@ from mems_stiction.calibration_constants import (
     RANGE,
     TELLING,
     WORK,
+    AngleAxis,
     Axis,
+    PotentialAxis,
     configured,
 )
 from mems_stiction.calibration_data import Measurement
@@ -60,13 +61,13 @@ def _second_axes(
     """Constants that measurements of this kind may tell, the first choice first; whether these
     measurements are worth a search for it."""
     voltages = [datum.place.voltage for datum in data]
-    axes = []
+    axes: List[Tuple[Axis, bool]] = []
     if len(set(voltages)) > 1:
-        axes.append((Axis(POTENTIAL, values, max(abs(voltage) for voltage in voltages)), True))
+        axes.append((PotentialAxis(values, max(abs(voltage) for voltage in voltages)), True))
     elif configured(POTENTIAL, values) != 0.0:
-        axes.append((Axis(POTENTIAL, values), False))
+        axes.append((PotentialAxis(values), False))
     if len({datum.place.humidity for datum in data}) > 1:
-        axes.append((Axis(ANGLE, values), True))
+        axes.append((AngleAxis(values), True))
     if any(may_be_told for _, may_be_told in axes):
         return axes
     if configured(FILM, values) > 0.0:
