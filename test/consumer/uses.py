@@ -79,7 +79,7 @@ def uses_of(text):
 
 
 def source_of(folder):
-    headers = sorted(folder.rglob("*.hpp"))
+    headers = sorted((folder / "mems_stiction").rglob("*.hpp"))
     includes = "\n".join('#include "%s"' % path.relative_to(folder) for path in headers)
     text, names = PREAMBLE.format(includes=includes), set()
     for path in headers:
