@@ -133,7 +133,7 @@ def listeners(topic):
             _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo(
                 rospy.get_name()
             )
-        except (OSError, rosgraph.MasterError):  # a node that has gone
+        except (OSError, rosgraph.MasterError, xmlrpc.client.Fault):  # a node that goes or has gone
             continue
         found.update(one[1] for one in connections if one[2] == "o" and one[4] == topic)
     return found
