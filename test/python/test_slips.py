@@ -30,6 +30,22 @@ BAD_INPUT = 2
 WIPED = b"\r\x1b[K"
 LONGEST_SILENCE = 300.0  # of a program [s]; a work that lasts says so each second
 
+ASKING_FOR_VERSIONS = """
+import contextlib, io, json, runpy, sys
+answers = []
+for path in sys.argv[1:]:
+    sys.argv = [path, "--version"]
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            runpy.run_path(path, run_name="__main__")
+            status = 0
+        except SystemExit as end:
+            status = end.code or 0
+    answers.append((status, out.getvalue(), err.getvalue()))
+print(json.dumps(answers))
+"""
+
 
 def rough(size=24):
     waves = np.sin(np.arange(size) / 2.0)
@@ -130,20 +146,33 @@ class SlipTest(unittest.TestCase):
     def test_every_program_says_its_version(self):
         """Those that are installed, by the list of the build."""
         lists = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-        names = re.findall(
+        scripts = re.findall(
             r"scripts/(\w+)(?=[\s)])",
             re.search(r"catkin_install_python\(PROGRAMS(.*?)DESTINATION", lists, re.DOTALL).group(1)
             + " ",
         )
-        names += re.search(r"set\(core_programs ([^)]*)\)", lists).group(1).split() + [
+        programs = re.search(r"set\(core_programs ([^)]*)\)", lists).group(1).split() + [
             "stiction_node",
             "make_scan_bag",
         ]
-        self.assertGreater(len(names), 20)
-        for name in names:
+        self.assertGreater(len(scripts) + len(programs), 20)
+        for name in programs:
             done = self.run_it(name, "--version")
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertRegex(done.stdout, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
+        # in one process, which loads what they share once
+        done = subprocess.run(
+            [sys.executable, "-c", ASKING_FOR_VERSIONS]
+            + [find_node("mems_stiction", name)[0] for name in scripts],
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=300,
+        )
+        answers = json.loads(done.stdout)
+        self.assertEqual(len(answers), len(scripts))
+        for name, (status, out, err) in zip(scripts, answers):
+            self.assertEqual((status, err), (0, ""), name)
+            self.assertRegex(out, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
 
     def test_every_script_says_its_version(self):
         folder = pathlib.Path(__file__).resolve().parents[2] / "scripts"
