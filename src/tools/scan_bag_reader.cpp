@@ -36,6 +36,15 @@ std::string withoutSlash(const std::string& topic) {
   return startsWith(topic, "/") ? topic.substr(1) : topic;
 }
 
+/// All that a scan_info says but its number, as bytes.
+std::vector<std::uint8_t> contentOf(ScanInfo info) {
+  info.header.seq = 0;
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(info));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, info);
+  return bytes;
+}
+
 /// The topic called `name` in the namespace of `topic`.
 std::string sibling(const std::string& topic, const char* name) {
   const std::size_t slash = topic.find_last_of('/');
@@ -194,7 +203,7 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message,
       if (place < 0 || place >= size) continue;
       const auto info = instantiateInfo(infos[static_cast<std::size_t>(place)]);
       if (info->header.stamp != image->header.stamp) continue;
-      if (found && contentOf(*info) != contentOf(*found)) throw SurfaceError(kAmbiguousStamp);
+      if (found && contentOf(*info) != contentOf(*found)) throw SurfaceError(kSharedStamp);
       if (!found) found = info;
     }
   }

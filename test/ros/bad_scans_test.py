@@ -107,7 +107,7 @@ class BadScansTest(unittest.TestCase):
             self.assertIn(reason, counts["last_reason"])
         self.assertTrue(any("rgb8" in text for text in counts.reasons()), counts.reasons())
 
-        # Without a newer pair, the timeout tells.
+        # The timeout tells.
         lone_image()
         counts.wait(rejected=len(cases) + 1, waiting=0)
         self.assertIn("within 3 s", counts["last_reason"])

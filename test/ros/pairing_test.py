@@ -84,9 +84,10 @@ class PairingTest(unittest.TestCase):
             figures, reasons = self.check("lost_" + case, without_stamps, str, lost)
             self.assertTrue(any("header.stamp of its own" in reason for reason in reasons), reasons)
 
-    def test_without_stamps_scans_that_all_say_the_same_are_predicted(self):
-        figures, _ = self.check("same", without_stamps, lambda _: "one")
-        self.assertEqual(figures["predicted"], SCANS)
+    def test_a_stamp_that_was_seen_is_rejected_with_what_to_do(self):
+        figures, reasons = self.check("same", lambda _: rospy.Time(1000), lambda _: "one")
+        self.assertEqual(figures["predicted"], 1)
+        self.assertTrue(any("set use_scan_info to false" in reason for reason in reasons), reasons)
 
     def test_a_stamp_of_its_own_is_enough_whatever_is_lost(self):
         figures, _ = self.check("stamped", lambda number: rospy.Time(1000 + number), str, (10, 20))

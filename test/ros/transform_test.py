@@ -336,7 +336,7 @@ class TransformTest(unittest.TestCase):
             hostile = BytesPublisher("/tf", TFMessage)
             hostile.publish(struct.pack("<I", 20000000))
             place(5003)
-            station.send(surface, rospy.Time(5003))
+            station.send(surface, rospy.Time(5002))
             predictions.wait(3)
             counts.wait(received=4, predicted=3, waiting=0)
             self.assertLess(peak_memory(process) - before, 2**28)
