@@ -9,8 +9,8 @@
 #include "errors/short_number.hpp"
 #include "evaluation/record_fields.hpp"
 #include "numeric/words.hpp"
+#include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
-#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -11,9 +11,9 @@
 #include "prediction/prediction_fields.hpp"
 #include "station/station_fields.hpp"
 #include "station/sweep_table.hpp"
+#include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
-#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {

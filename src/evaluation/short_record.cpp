@@ -5,8 +5,8 @@
 #include "numeric/words.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "station/sweep_table.hpp"
+#include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
-#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {

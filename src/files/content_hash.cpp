@@ -1,8 +1,13 @@
 #include "files/content_hash.hpp"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
+
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -50,6 +55,21 @@ std::string contentHash(std::string_view bytes) {
   ContentHash hash;
   hash.add(bytes);
   return hash.text();
+}
+
+std::string sha256Text(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw FileError("its SHA-256 cannot be computed: OpenSSL does not offer it");
+  }
+  std::string text = "sha256:";
+  for (unsigned int i = 0; i < size; ++i) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", digest.at(i));
+    text += digits;
+  }
+  return text;
 }
 
 }  // namespace mems_stiction

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Is a content the one that was there before?
+/// Is a content the one that was there before? And the checksum by which people and other programs
+/// tell files apart.
 
 #include <cstdint>
 #include <string>
@@ -28,5 +29,9 @@ class ContentHash {
 
 /// Of one piece.
 std::string contentHash(std::string_view bytes);
+
+/// "sha256:" and the 64 hexadecimal digits that the program sha256sum prints.
+/// @throw FileError if this machine's OpenSSL does not offer it
+std::string sha256Text(std::string_view bytes);
 
 }  // namespace mems_stiction

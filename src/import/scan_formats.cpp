@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "files/content_hash.hpp"
 #include "files/interruption.hpp"
 #include "files/output_file.hpp"
-#include "files/sha256.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"

@@ -22,6 +22,15 @@ double meanGapApart(const EquilibriumState& state, const GapField& field, const 
 
 }  // namespace
 
+void PaperOptions::describe(OptionVisitor& visitor) {
+  visitor.formerName("approach/step", "paper/step");
+  visitor.number("paper/step", step, "m", Range::nonNegative(),
+                 "approach per step; 0 = a fiftieth of the composite rms height");
+  visitor.formerName("interface/cutoff_distance", "paper/cutoff_distance");
+  visitor.number("paper/cutoff_distance", cutoff_distance, "m", Range::positive(),
+                 "interatomic cut-off: smaller gaps count as this in van der Waals sums");
+}
+
 void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
   const auto& own = settings.solver.of<PaperOptions>();

@@ -17,6 +17,7 @@
 ///     const HeightMap flat = levelled(scan);
 
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "preprocess/working_surface.hpp"
 
 namespace mems_stiction {
@@ -43,5 +44,10 @@ Plane leastSquaresPlane(WorkingSurface& surface);
 HeightMap levelled(const HeightMap& surface);
 /// The same where the heights lie.
 HeightChange level(WorkingSurface& surface);
+
+/// Takes off the shape that the options name, which is not `none`: the plane without `robust` is
+/// that of level().
+/// @throw SurfaceError if no pixel is valid.
+HeightChange levelBy(WorkingSurface& surface, const LevelOptions& options);
 
 }  // namespace mems_stiction

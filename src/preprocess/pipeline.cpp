@@ -8,7 +8,7 @@
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "preprocess/fill_holes.hpp"
-#include "preprocess/levelling.hpp"
+#include "preprocess/level.hpp"
 #include "preprocess/line_alignment.hpp"
 #include "preprocess/low_pass.hpp"
 #include "preprocess/refine.hpp"

@@ -10,7 +10,6 @@
 #include "errors/one_line.hpp"
 #include "files/content_hash.hpp"
 #include "files/input_file.hpp"
-#include "files/sha256.hpp"
 #include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/own_log.hpp"

@@ -2,7 +2,8 @@
 
 /// @file
 /// The word for a ratio of what opens to what holds, and the sentence that goes with it: the same
-/// for one scan and for the scans of a part.
+/// for one scan and for the scans of a part. And a verdict for people: the word, why, and what
+/// would make it surer.
 
 #include <string>
 
@@ -30,5 +31,8 @@ Finding judgedRatio(const std::string& name, double value, double lowest, double
 /// Whether the peel number is what decides, not the margin: as governed_by says, else the one that
 /// is known; where a spring and a beam are both stated, the smaller.
 bool isPeeled(const Verdict& verdict);
+
+/// "Does it stick? Marginal: margin 1.4, 95 % within 0.7 to 2.9: 1 lies within. Surer by ..."
+std::string verdictSentence(const Verdict& verdict);
 
 }  // namespace mems_stiction

@@ -14,7 +14,7 @@
 /// | spikes   | spike_removal.hpp  | leaves holes                                                 |
 /// | fill     | fill_holes.hpp     | closes missing pixels and those holes                        |
 /// | tip      | tip_correction.hpp | the tip pointed along the instrument's z: before levelling   |
-/// | level    | levelling.hpp      |                                                              |
+/// | level    | level.hpp          |                                                              |
 /// | low_pass | low_pass.hpp       | its border needs a level surface                             |
 /// | refine   | refine.hpp         | last: every step before it is cheaper on fewer pixels        |
 ///

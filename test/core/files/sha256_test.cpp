@@ -1,4 +1,4 @@
-#include "files/sha256.hpp"
+#include "files/content_hash.hpp"
 
 #include <gtest/gtest.h>
 

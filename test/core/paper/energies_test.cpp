@@ -1,4 +1,4 @@
-#include "paper/energies.hpp"
+#include "paper/force_balance.hpp"
 
 #include <cmath>
 
@@ -6,7 +6,6 @@
 
 #include "mechanics/jkr.hpp"
 #include "numeric/constants.hpp"
-#include "paper/force_balance.hpp"
 #include "support/reference_contacts.hpp"
 
 namespace mems_stiction {

@@ -12,7 +12,6 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "preprocess/level.hpp"
-#include "preprocess/levelling.hpp"
 #include "settings/option_yaml.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"

@@ -8,7 +8,6 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "preprocess/level.hpp"
-#include "preprocess/levelling.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"
 

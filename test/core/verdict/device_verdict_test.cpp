@@ -8,10 +8,10 @@
 
 #include "device/device_evidence.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/finding.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 #include "verdict/regime_flags.hpp"
-#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {
