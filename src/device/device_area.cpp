@@ -88,8 +88,7 @@ cv::Mat frameOf(DeviceSurface& surface) {
 /// @throw SurfaceError if it needs cells that lie deeper than those that were
 void checkDepth(const AreaCells& cells, const AreaAdhesion& found) {
   const std::int64_t all = cells.counts().lowestWithin(cells.limits().most_cells);
-  if (cells.levelBucket() <= all || (found.reach == AreaReach::kEnough && !found.took_all_cells))
-    return;
+  if (cells.levelBucket() <= all || (found.is_enough && !found.took_all_cells)) return;
   const double least = cells.highest() - cells.counts().lowerEnd(all);
   throw SurfaceError(
       "the cells of the surface were collected down to " +
@@ -276,7 +275,7 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
                                                          const std::vector<AreaCells>& quarters,
                                                          bool are_all) {
   const auto isEnough = [&](const AreaAdhesion& found) {
-    return found.reach == AreaReach::kEnough && (are_all || !found.took_all_cells);
+    return found.is_enough && (are_all || !found.took_all_cells);
   };
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);

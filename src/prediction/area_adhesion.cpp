@@ -22,28 +22,15 @@ constexpr std::int64_t kMoreCells = 8;
 /// Places of a frame of islands, for each cell that may be kept, and those that are always allowed.
 constexpr std::int64_t kPlacesPerCell = 8;
 constexpr std::int64_t kFewPlaces = 1 << 20;
-/// How much deeper the next attempt goes at least.
-constexpr double kDeeper = 1.5;
-
 /// The bucket down to which cells with gaps up to this are found [m].
 std::int64_t bucketOfGap(const AreaCells& cells, double gap) {
   return cells.counts().bucketOf(cells.highest() - gap) - 1;
 }
 
-AreaAdhesion withoutCells(const AreaCells& cells, double gap) {
-  const HeightCounts& counts = cells.counts();
+AreaAdhesion withoutCells(const AreaCells& cells) {
   AreaAdhesion answer;
+  answer.is_enough = false;
   answer.area = cells.area();
-  std::int64_t bucket = bucketOfGap(cells, gap);
-  const bool is_too_much = counts.countFrom(bucket) > cells.limits().most_cells;
-  answer.reach = is_too_much ? AreaReach::kTooMuch : AreaReach::kLevelTooHigh;
-  if (!is_too_much) {
-    const double deeper = kDeeper * (cells.highest() - cells.level());
-    bucket = std::min(bucket, std::max(bucketOfGap(cells, deeper),
-                                       counts.lowestWithin(cells.limits().most_cells)));
-  }
-  answer.needed_level = counts.lowerEnd(bucket);
-  answer.needed_cells = counts.countFrom(bucket);
   return answer;
 }
 
@@ -120,24 +107,22 @@ AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options) {
   if (cells.counts().empty()) throw SurfaceError("the area has no valid cell");
   const HeightCounts& counts = cells.counts();
   const std::int64_t level = cells.levelBucket();
-  if (level > counts.highest()) return withoutCells(cells, 0.0);
+  if (level > counts.highest()) return withoutCells(cells);
   std::int64_t wanted = kFirstCells;
   std::int64_t bucket = std::clamp(counts.lowestWithin(wanted), level, counts.highest());
   for (;;) {
-    double needed_gap = cells.highest() - counts.lowerEnd(bucket);
+    double needed_gap = 0.0;
     try {
       std::optional<AreaAdhesion> answer = followCells(cells, bucket, options);
       if (answer) {
         answer->took_all_cells = bucket == level;
         return *answer;
       }
-      AreaAdhesion scattered = withoutCells(cells, needed_gap);
-      scattered.reach = AreaReach::kTooMuch;
-      return scattered;
+      return withoutCells(cells);
     } catch (const CellsMissing& missing) {
       needed_gap = missing.gap();
     }
-    if (bucket == level) return withoutCells(cells, needed_gap);
+    if (bucket == level) return withoutCells(cells);
     wanted *= kMoreCells;
     bucket = std::max(std::min(counts.lowestWithin(wanted), bucketOfGap(cells, needed_gap)), level);
   }

@@ -12,9 +12,8 @@
 ///     AreaCells cells(pitch, pitch);
 ///     for (...) cells.add(row, col, relief_of_tile);
 ///     const AreaAdhesion found = areaAdhesion(cells, options);
-///     if (found.reach == AreaReach::kEnough) use(found.pull_off_force);
+///     if (found.is_enough) use(found.pull_off_force);
 
-#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -24,23 +23,13 @@
 
 namespace mems_stiction {
 
-/// Whether the cells that were kept are those that come in reach.
-enum class AreaReach : std::uint8_t {
-  kEnough,        ///< they are
-  kLevelTooHigh,  ///< others do: collect again with a level of needed_level
-  kTooMuch,       ///< so many others do that they cannot be kept: this is no area that rests on few
-                  ///< summits
-};
-
 /// Figures are those of the whole area, and NaN unless its cells were enough.
 struct AreaAdhesion {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  AreaReach reach = AreaReach::kEnough;
-  double needed_level =
-      kUnknown;  ///< relief down to which cells must be kept, for the next attempt at least [m]
-  std::int64_t needed_cells = 0;  ///< so many they are
-  bool took_all_cells = false;    ///< that were kept: more might have been taken
+  bool is_enough = true;  ///< false: cells that were not kept come in reach, or those that do have
+                          ///< no room in a frame: this is no area that rests on few summits
+  bool took_all_cells = false;  ///< that were kept: more might have been taken
 
   Status status = Status::kNoEquilibrium;
   bool is_bonded_by_load =

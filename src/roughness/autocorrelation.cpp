@@ -111,10 +111,7 @@ SpatialParameters parametersOf(const cv::Mat& acf, const HeightMap& surface, dou
     }
     found.decayed = found.decayed && crossed;
     found.longest = std::max(found.longest, lag);
-    if (lag < found.sal) {
-      found.sal = lag;
-      found.sal_direction = angle;
-    }
+    found.sal = std::min(found.sal, lag);
   }
   found.str = found.longest > 0.0 ? found.sal / found.longest : 0.0;
   return found;

@@ -31,11 +31,10 @@ cv::Mat autocorrelation(const HeightMap& surface, FrameBoundary boundary = Frame
 
 /// How far heights are alike.
 struct SpatialParameters {
-  double sal = 0.0;            ///< autocorrelation length [m]; 0 for a constant surface
-  double str = 0.0;            ///< texture aspect ratio [-], in (0, 1]; 0 for a constant surface
-  double longest = 0.0;        ///< the longest lag of decay [m]
-  double sal_direction = 0.0;  ///< of the shortest lag, from +x towards +y [rad], in [0, pi)
-  bool decayed = false;        ///< acf fell to s in every direction
+  double sal = 0.0;      ///< autocorrelation length [m]; 0 for a constant surface
+  double str = 0.0;      ///< texture aspect ratio [-], in (0, 1]; 0 for a constant surface
+  double longest = 0.0;  ///< the longest lag of decay [m]
+  bool decayed = false;  ///< acf fell to s in every direction
 };
 
 /// - @p s in (0, 1)

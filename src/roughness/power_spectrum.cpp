@@ -179,16 +179,9 @@ HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelen
     covariance += ring->count * x * (std::log(ring->density) - mean_y);
   }
   const double slope = covariance / variance;
-  double residuals = 0.0;
-  for (const SpectrumRing* ring : inside) {
-    const double residual =
-        std::log(ring->density) - mean_y - slope * (std::log(ring->wave_number) - mean_x);
-    residuals += ring->count * residual * residual;
-  }
   HurstFit fit;
   fit.rings = static_cast<int>(inside.size());
   fit.hurst_exponent = -0.5 * slope - 1.0;
-  fit.standard_error = 0.5 * std::sqrt(residuals / (fit.rings - 2) / variance);
   return fit;
 }
 

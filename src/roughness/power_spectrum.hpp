@@ -62,7 +62,6 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window);
 /// A power law fitted to the rings, C ~ q^(-2 - 2 H).
 struct HurstFit {
   double hurst_exponent = 0.0;  ///< H [-]; 0 to 1 for self-affine surfaces
-  double standard_error = 0.0;  ///< of H, from the scatter about the line [-]
   int rings = 0;                ///< that the fit runs over
 };
 

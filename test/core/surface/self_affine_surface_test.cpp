@@ -23,7 +23,6 @@ TEST(SelfAffineSurface, hasTheHurstExponentThatWasAskedFor) {
     const PowerSpectrum spectrum = powerSpectrum(selfAffineSurface(options), SpectrumWindow::kNone);
     const HurstFit fit = fitHurstExponent(spectrum, 45e-9, 900e-9);
     EXPECT_NEAR(fit.hurst_exponent, hurst, 0.02);  // 10^4 waves: the fit's own error is 0.005
-    EXPECT_LT(fit.standard_error, 0.02);
   }
 }
 
