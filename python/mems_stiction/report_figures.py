@@ -258,7 +258,7 @@ def _draw_forces(axes, result):
     if result["force_curve"]:  # adhesion is followed as a whole
         rows.append(("pull-off force, the largest", number(result["pull_off_force"]), SUM))
     else:
-        rows += [(label, number(result[name]), colour) for label, name, colour in HOLDING]
+        rows += [(label, number(result.get(name)), colour) for label, name, colour in HOLDING]
         rows.append(("pull-off force, their sum", number(result["pull_off_force"]), SUM))
     places = [place + (place > len(PRESSING)) for place in range(len(rows))]
     widths, unit = scaled([value for _, value, _ in rows], "N")

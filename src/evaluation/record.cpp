@@ -8,6 +8,7 @@
 #include "errors/short_number.hpp"
 #include "evaluation/record_fields.hpp"
 #include "half_space/half_space_fields.hpp"
+#include "prediction/contact_solvers.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "station/station_fields.hpp"
 #include "station/sweep_table.hpp"
@@ -36,7 +37,7 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction,
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
     const bool verdict_has_it =
         extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
-    if (!verdict_has_it) visit(figure, value);
+    if (!verdict_has_it && hasFigure(extras.formulation, figure.name)) visit(figure, value);
   });
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   visit({"regime_flag_names"}, regimeFlagNames(flags));
@@ -77,6 +78,16 @@ const auto kVisitRow = [](const auto& item, auto&& fields) {
   visitConvergenceFields(item, fields);
 };
 
+/// Visits those fields of an item that the formulation has.
+template <typename VisitItem>
+auto known(const std::string& formulation, const VisitItem& visit_item) {
+  return [&formulation, &visit_item](const auto& item, auto&& fields) {
+    visit_item(item, [&](const Figure& figure, const auto& value) {
+      if (hasFigure(formulation, figure.name)) fields(figure, value);
+    });
+  };
+}
+
 /// Pull-off force and verdict for people.
 std::string summaryComment(const Prediction& prediction, const RecordExtras& extras) {
   if (!extras.pull_off_interval) return "";
@@ -115,7 +126,7 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
   if (hasTipStep(extras.preprocessing)) {
     fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);
   }
-  add_list(fields, "convergence", extras.convergence, kVisitRow);
+  add_list(fields, "convergence", extras.convergence, known(extras.formulation, kVisitRow));
   add_list(fields, "cleanings", extras.cleanings, kVisitCleaning);
   if (!extras.cleanings.empty()) {
     fields.map("cleaning_spread",
@@ -136,7 +147,7 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
       if (!extras.sweep->pull_in_reason.empty())
         sweep({"pull_in_reason"}, extras.sweep->pull_in_reason);
       add_list(sweep, "summaries", extras.sweep->summaries, kVisitSummary);
-      add_list(sweep, "points", extras.sweep->rows, kVisitSweepRow);
+      add_list(sweep, "points", extras.sweep->rows, known(extras.formulation, kVisitSweepRow));
     });
   }
 }

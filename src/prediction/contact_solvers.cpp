@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"
@@ -37,19 +38,22 @@ void describeOwn(SolverSettings& settings, OptionVisitor& visitor) {
 
 std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
-constexpr SolverSkills kAllSkills = {true, true, true, true, true};
+constexpr SolverSkills kOfCurve = {true, true, true, true, true, false};
+constexpr SolverSkills kOfCaps = {false, false, false, false, false, true};
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills,
-     nullptr},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, {}, describeOwn<PaperOptions>},
-    {"printed",
-     make<AsperitySolver, Formulation::kPrinted>,
-     usesAll,
-     {},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kOfCurve, nullptr},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, kOfCaps,
+     describeOwn<PaperOptions>},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, kOfCaps,
      describeOwn<PaperOptions>},
 };
+
+/// Figures of solvers with caps alone.
+constexpr const char* kFiguresOfCaps[] = {"pull_off_force_jkr", "pull_off_force_transition",
+                                          "contact_area_jkr",   "mechanical_energy",
+                                          "plastic_work",       "max_tilt"};
 
 /// What only condensed water needs.
 constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle",
@@ -151,6 +155,14 @@ SolverSkills skillsOf(const std::string& formulation) {
     if (formulation == entry.formulation) return entry.skills;
   }
   return {};
+}
+
+bool hasFigure(const std::string& formulation, const std::string& figure) {
+  const bool is_of_caps = std::find(std::begin(kFiguresOfCaps), std::end(kFiguresOfCaps), figure) !=
+                          std::end(kFiguresOfCaps);
+  if (!is_of_caps || skillsOf(formulation).has_caps) return true;
+  const std::vector<std::string>& names = formulationNames();
+  return std::find(names.begin(), names.end(), formulation) == names.end();
 }
 
 std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation,

@@ -30,10 +30,16 @@ struct SolverSkills {
   bool calls_half_space =
       false;  ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
   bool looks_under_films = false;  ///< what lies under native films, and retardation
+  bool has_caps = false;           ///< takes contacts for spherical caps of known tilt and load
 };
 
 /// Of a formulation; none of those if there is no such one.
 SolverSkills skillsOf(const std::string& formulation);
+
+/// Whether a formulation has the figure of this name, which records and rows leave out if not:
+/// JKR's sums over contacts, tilt, mechanical energy and plastic work are of solvers with caps
+/// alone. True if there is no such formulation.
+bool hasFigure(const std::string& formulation, const std::string& figure);
 
 /// A setting without effect, and why.
 struct IgnoredSetting {

@@ -30,8 +30,9 @@ void append(const RowFields& more, RowFields& fields) {
 
 }  // namespace
 
-std::vector<std::string> batchColumns(bool with_verdict, bool with_half_space) {
-  std::vector<std::string> names = columnNames(with_verdict);
+std::vector<std::string> batchColumns(const std::string& formulation, bool with_verdict,
+                                      bool with_half_space) {
+  std::vector<std::string> names = columnNames(formulation, with_verdict);
   if (with_half_space) {
     for (std::string& name : halfSpaceColumnNames(with_verdict)) names.push_back(std::move(name));
   }
@@ -39,8 +40,9 @@ std::vector<std::string> batchColumns(bool with_verdict, bool with_half_space) {
   return names;
 }
 
-std::map<std::string, std::string> batchUnits(bool with_verdict, bool with_half_space) {
-  std::map<std::string, std::string> units = columnUnits(with_verdict);
+std::map<std::string, std::string> batchUnits(const std::string& formulation, bool with_verdict,
+                                              bool with_half_space) {
+  std::map<std::string, std::string> units = columnUnits(formulation, with_verdict);
   if (with_half_space) units.merge(halfSpaceColumnUnits());
   units.merge(stateUnits());
   return units;

@@ -30,11 +30,14 @@ struct BatchRow {
   bool is_warned = false;
 };
 
-/// Every column of a row, in order. @param with_verdict whether a device is stated
-std::vector<std::string> batchColumns(bool with_verdict, bool with_half_space);
+/// Every column of a row that the formulation has, in order.
+/// @param with_verdict whether a device is stated
+std::vector<std::string> batchColumns(const std::string& formulation, bool with_verdict,
+                                      bool with_half_space);
 
 /// The unit of every such column that has one.
-std::map<std::string, std::string> batchUnits(bool with_verdict, bool with_half_space);
+std::map<std::string, std::string> batchUnits(const std::string& formulation, bool with_verdict,
+                                              bool with_half_space);
 
 /// Predicts scans. One object serves one thread at a time.
 class RowMaker {

@@ -9,6 +9,7 @@
 #include "files/output_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "npy_file.hpp"
+#include "prediction/contact_solvers.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
@@ -32,7 +33,8 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
     const bool verdict_has_it =
         verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
-    if (std::strcmp(figure.name, "processing_time") != 0 && !verdict_has_it) visit(figure, value);
+    if (std::strcmp(figure.name, "processing_time") == 0 || verdict_has_it) return;
+    if (hasFigure(formulation, figure.name)) visit(figure, value);
   });
   visitRoughnessFields(prediction.roughness, visit);
   visitSpatialRoughnessFields(prediction.spatial_roughness, visit);
@@ -114,20 +116,21 @@ RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& wa
   return fields;
 }
 
-std::vector<std::string> columnNames(bool with_verdict) {
+std::vector<std::string> columnNames(const std::string& formulation, bool with_verdict) {
   std::vector<std::string> names;
   for (const auto& field : originFields({}, "")) names.push_back(field.first);
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
-  for (const auto& field : figureFields({}, {}, {}, verdict, "", {})) names.push_back(field.first);
+  for (const auto& field : figureFields({}, {}, {}, verdict, formulation, {}))
+    names.push_back(field.first);
   return names;
 }
 
-std::map<std::string, std::string> columnUnits(bool with_verdict) {
+std::map<std::string, std::string> columnUnits(const std::string& formulation, bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::map<std::string, std::string> units;
-  visitFigures({}, {}, {}, verdict, "", {}, [&](const Figure& figure, const auto&) {
+  visitFigures({}, {}, {}, verdict, formulation, {}, [&](const Figure& figure, const auto&) {
     if (*figure.unit != '\0') units[figure.name] = figure.unit;
   });
   return units;

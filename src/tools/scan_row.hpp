@@ -41,11 +41,13 @@ RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& wa
                        const Prediction& prediction, const std::optional<Verdict>& verdict,
                        const std::string& formulation, const Provenance& provenance);
 
-/// Every column in order. @param with_verdict whether a device is stated
-std::vector<std::string> columnNames(bool with_verdict);
+/// Every column in order.
+/// @param formulation those of figures that it has not are left out
+/// @param with_verdict whether a device is stated
+std::vector<std::string> columnNames(const std::string& formulation, bool with_verdict);
 
-/// The unit of every column that has one.
-std::map<std::string, std::string> columnUnits(bool with_verdict);
+/// The unit of every such column that has one.
+std::map<std::string, std::string> columnUnits(const std::string& formulation, bool with_verdict);
 
 /// A curve by its columns height [m], force [N] and direction; no column without a point.
 nlohmann::json curveColumns(const std::vector<CurvePoint>& curve);

@@ -151,9 +151,11 @@ int run(const BatchArguments& arguments) {
   RowQueue queue(arguments, configuration, scans);
   const bool has_device = configuration.device.isStated();
   const bool has_half_space = mayCallHalfSpace(configuration);
-  const std::vector<std::string> columns = batchColumns(has_device, has_half_space);
-  checkSettings(arguments.output, settingsText(scans.size(), inputs, arguments,
-                                               batchUnits(has_device, has_half_space), stated));
+  const std::string& formulation = configuration.model.formulation;
+  const std::vector<std::string> columns = batchColumns(formulation, has_device, has_half_space);
+  checkSettings(arguments.output,
+                settingsText(scans.size(), inputs, arguments,
+                             batchUnits(formulation, has_device, has_half_space), stated));
   std::vector<std::size_t> numbers;
   for (std::size_t number = shard.index; number <= scans.size(); number += shard.count)
     numbers.push_back(number);

@@ -7,8 +7,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
 
+#include "mems_stiction/prediction/adhesion_model.hpp"
+#include "prediction/contact_solvers.hpp"
 #include "prediction/prediction_fields.hpp"
+#include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -167,6 +171,35 @@ TEST(Record, FlagsAndFormulationAreThereWithoutADevice) {
   EXPECT_EQ(yaml["regime_flags"].as<unsigned>() & 1u, 1u) << "bonded";
   EXPECT_EQ(yaml["regime_flag_names"].as<std::string>().substr(0, 6), "bonded");
   EXPECT_FALSE(yaml["sticks"].IsDefined());
+}
+
+TEST(Record, leavesOutWhatTheFormulationDoesNotHave) {
+  const HeightMap surface = analytic::paraboloid(41, 41, 10e-9, 10e-9, 1e-6);
+  const std::set<std::string> of_scan = {"tip_limit", "needed_pitch", "unresolved_height",
+                                         "unresolved_limit"};
+  for (const std::string& formulation : formulationNames()) {
+    Options options;
+    options.formulation = formulation;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    RecordExtras extras;
+    extras.formulation = formulation;
+    extras.convergence.emplace_back();
+    const YAML::Node record = YAML::Load(yamlRecord("a", surface, prediction, extras));
+    const bool has_caps = formulation != kDefaultFormulation;
+    EXPECT_EQ(record["convergence"][0]["contact_area_jkr"].IsDefined(), has_caps) << formulation;
+    visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
+      const std::string name = figure.name;
+      const bool has_it = hasFigure(formulation, name);
+      EXPECT_EQ(record[name].IsDefined(), has_it) << formulation << ": " << name;
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+        const bool may_be_nan = has_caps || of_scan.count(name) > 0;
+        EXPECT_TRUE(has_it ? may_be_nan || !std::isnan(value) : !(value > 0.0))
+            << formulation << ": " << name << " " << value;
+      }
+    });
+    EXPECT_EQ(record["pull_off_force_jkr"].IsDefined(), has_caps) << formulation;
+    EXPECT_EQ(has_caps, prediction.pull_off_force_jkr > 0.0) << formulation;
+  }
 }
 
 TEST(Record, VerdictHasItsFieldsOnce) {
