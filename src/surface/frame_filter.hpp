@@ -21,7 +21,6 @@ namespace mems_stiction {
 /// at a time.
 class FrameFilter {
  public:
-  /// - @p frame of an even width
   /// - @p rows that are wanted back, from the first one on
   FrameFilter(const cv::Size& frame, int rows);
   ~FrameFilter();

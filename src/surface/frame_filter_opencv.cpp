@@ -29,9 +29,9 @@ void FrameFilter::apply(const cv::Mat& gains) {
   for (int row = 0; row < waves.rows; ++row) {
     float* line = waves.ptr<float>(row);
     for (int col = 0; col < waves.cols; ++col) {
-      // the first and the last column hold the waves along y, packed; all others hold theirs at
-      // their rows
-      const bool is_along_y = col == 0 || col == waves.cols - 1;
+      // the first column, and the last one of an even count, hold the waves along y, packed; all
+      // others hold theirs at their rows
+      const bool is_along_y = col == 0 || (col == waves.cols - 1 && waves.cols % 2 == 0);
       line[col] *= gains.at<float>(packedNumber(col), is_along_y ? packedNumber(row) : row);
     }
   }
