@@ -138,12 +138,13 @@ constexpr int kLagsPerLine = 4;
 constexpr double kMoreCarried = 1.1;
 constexpr int kFlowRounds = 2;
 
-/// Share of a cell's own stiffness with which the search for places that flow begins, its steps,
-/// and cells along a side of its blocks, (S15). So 86 and 96 percent of 139 pressed frames are
-/// within 1.15 and 1.3. Five steps by cells: 87 and 96; blocks of two cells in (S16), too: 84 and
-/// 96.
+/// Share of a cell's own stiffness with which the search for places that flow begins, (S15). It
+/// takes so many steps on blocks of cells and one by cells, and so many by cells where a frame has
+/// no more of them along its sides than this. Blocks have sides of so many cells at most.
 constexpr double kFirstStiffness = 0.3;
 constexpr int kFlowSteps = 4;
+constexpr int kFlowStepsByCells = 8;
+constexpr int kFlowBlocks = 128;
 constexpr int kFlowBlock = 4;
 
 }  // namespace chosen

@@ -20,35 +20,6 @@ constexpr double kLoadBalance = 1e-9;
 /// Of the search for it, each step of which halves what is left at least.
 constexpr int kMostHalvings = 60;
 
-/// So many blocks that a transform is quick.
-int blocksOf(int cells, int cells_per_side) {
-  const int wanted = (cells + cells_per_side - 1) / cells_per_side;
-  for (int count = std::min(wanted, chosen::kParts); count > 1; --count) {
-    if (cv::getOptimalDFTSize(count) == count) return count;
-  }
-  return 1;
-}
-
-/// 2/(E q) of each number of a transform of blocks as cv::dft packs it: real and imaginary parts
-/// side by side along rows, but one above the other in columns without a partner.
-void packedCompliance(const cv::Size& blocks, double width, double height, double contact_modulus,
-                      cv::Mat1d& compliance) {
-  const auto waveOf = [](int index, double length) { return 2.0 * kPi * index / length; };
-  compliance.create(blocks);
-  for (int row = 0; row < blocks.height; ++row) {
-    const double along_column = waveOf(std::min(row, blocks.height - row), height);
-    const double alone = waveOf((row + 1) / 2, height);
-    double* const line = compliance[row];
-    for (int col = 0; col < blocks.width; ++col) {
-      const bool is_alone = col == 0 || (col == blocks.width - 1 && blocks.width % 2 == 0);
-      const double q_x = waveOf((col + 1) / 2, width);
-      const double q_y = is_alone ? alone : along_column;
-      line[col] = 2.0 / (contact_modulus * std::sqrt(q_x * q_x + q_y * q_y));
-    }
-  }
-  compliance(0, 0) = 0.0;
-}
-
 /// Sum of stiffness (displacement - x) between 0 and the hardness, and how many cells are in
 /// between.
 struct Borne {
@@ -73,90 +44,40 @@ MEMS_STICTION_VECTORIZED Borne borneAt(double displacement, double stiffness, do
 void FlowingPlaces::takeCells(const GapField& field, double approach) {
   const int cols = field.cols();
   line_.resize(static_cast<std::size_t>(cols));
-  row_begin_.assign(1, 0);
-  columns_.clear();
+  cells_.row_begin.assign(1, 0);
+  cells_.columns.clear();
   gaps_.clear();
   std::vector<std::int32_t> columns(static_cast<std::size_t>(cols));
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, line_.data());
     const int count = columnsBetween(0.0, approach, line_.data(), cols, columns.data());
-    columns_.insert(columns_.end(), columns.begin(), columns.begin() + count);
+    cells_.columns.insert(cells_.columns.end(), columns.begin(), columns.begin() + count);
     for (int i = 0; i < count; ++i)
       gaps_.push_back(line_[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])]);
-    row_begin_.push_back(static_cast<int>(columns_.size()));
+    cells_.row_begin.push_back(static_cast<int>(cells_.columns.size()));
   }
 }
 
-std::vector<FlowingPlaces::Between> FlowingPlaces::betweenBlocks(int cells, int blocks) {
-  std::vector<Between> between(static_cast<std::size_t>(cells));
-  for (int cell = 0; cell < cells; ++cell) {
-    const double place = (cell + 0.5) * blocks / cells - 0.5;
-    const double before = std::floor(place);
-    const int block = static_cast<int>(before);
-    between[static_cast<std::size_t>(cell)] = {(block + blocks) % blocks, (block + 1) % blocks,
-                                               place - before};
-  }
-  return between;
+void FlowingPlaces::takeLayer(const ContactTraction& law) {
+  layer_.resize(chosen::kParts + 1);
+  for (std::size_t i = 0; i < layer_.size(); ++i)
+    layer_[i] = law.closingUnder(hardness_ * static_cast<double>(i) / chosen::kParts);
 }
 
-void FlowingPlaces::takeBlocks(const GapField& field, double contact_modulus, int cells_per_side) {
-  const cv::Size blocks(blocksOf(field.cols(), cells_per_side),
-                        blocksOf(field.rows(), cells_per_side));
-  rows_ = betweenBlocks(field.rows(), blocks.height);
-  cols_ = betweenBlocks(field.cols(), blocks.width);
-  is_by_cell_ = blocks.width == field.cols() && blocks.height == field.rows();
-  cells_per_block_ = static_cast<double>(field.cellCount()) / blocks.area();
-  packedCompliance(blocks, field.cols() * field.pitchX(), field.rows() * field.pitchY(),
-                   contact_modulus, compliance_);
-  // the mean of 2/(E q) over the waves from those of blocks to those of cells
-  const double pitch = std::sqrt(field.cellArea());
-  short_compliance_ =
-      is_by_cell_
-          ? 0.0
-          : 4.0 * pitch / (kPi * contact_modulus * (1.0 + 1.0 / std::sqrt(cells_per_block_)));
+double FlowingPlaces::layerUnder(double pressure) const {
+  const double place = chosen::kParts * (pressure / hardness_);
+  const auto before = std::min(static_cast<std::size_t>(place), layer_.size() - 2);
+  return layer_[before] +
+         (place - static_cast<double>(before)) * (layer_[before + 1] - layer_[before]);
 }
 
-void FlowingPlaces::spread(const std::vector<double>& pressures) {
-  blocks_.create(compliance_.size());
-  blocks_ = 0.0;
-  const double share = 1.0 / cells_per_block_;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const Between& at_row = rows_[row];
-    double* const before = blocks_[at_row.before];
-    double* const behind = blocks_[at_row.behind];
-    for (int i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
-      const auto cell = static_cast<std::size_t>(i);
-      const Between& at = cols_[static_cast<std::size_t>(columns_[cell])];
-      const double pressure = share * pressures[cell];
-      const double lower = at_row.share * pressure;
-      const double upper = pressure - lower;
-      before[at.before] += upper * (1.0 - at.share);
-      before[at.behind] += upper * at.share;
-      behind[at.before] += lower * (1.0 - at.share);
-      behind[at.behind] += lower * at.share;
-    }
-  }
-}
-
-void FlowingPlaces::yield(const std::vector<double>& pressures, std::vector<double>& yields) {
-  spread(pressures);
-  cv::dft(blocks_, spectrum_);
-  cv::multiply(spectrum_, compliance_, spectrum_);
-  cv::dft(spectrum_, yield_of_blocks_, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-  if (!is_by_cell_) yield_of_blocks_ -= short_compliance_ * blocks_;
-  const double own = short_compliance_ + compliance_of_law_;
-  yields.resize(pressures.size());
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const Between& at_row = rows_[row];
-    const double* const before = yield_of_blocks_[at_row.before];
-    const double* const behind = yield_of_blocks_[at_row.behind];
-    for (int i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
-      const auto cell = static_cast<std::size_t>(i);
-      const Between& at = cols_[static_cast<std::size_t>(columns_[cell])];
-      const double upper = before[at.before] + at.share * (before[at.behind] - before[at.before]);
-      const double lower = behind[at.before] + at.share * (behind[at.behind] - behind[at.before]);
-      yields[cell] = upper + at_row.share * (lower - upper) + own * pressures[cell];
-    }
+void FlowingPlaces::raise(PeriodicCompliance& bodies) {
+  bodies.give(cells_, pressures_, contact_modulus_, yields_);
+  rises_.resize(gaps_.size());
+  layers_.resize(gaps_.size());
+  for (std::size_t i = 0; i < gaps_.size(); ++i) {
+    layers_[i] = layerUnder(pressures_[i]);
+    rises_[i] = gaps_[i] + yields_[i] + layers_[i];
   }
 }
 
@@ -182,42 +103,44 @@ double FlowingPlaces::displacement(double stiffness) const {
   return displacement;
 }
 
-double FlowingPlaces::solve(double stiffness) {
-  const std::size_t count = gaps_.size();
-  rises_ = gaps_;
-  pressures_.assign(count, 0.0);
-  const auto pressureAt = [&](std::size_t i, double place, double per_length) {
-    return std::clamp(pressures_[i] + per_length * (place - rises_[i]), 0.0, hardness_);
-  };
-  const double first = chosen::kFirstStiffness * stiffness;
-  const double start = displacement(first);
-  for (std::size_t i = 0; i < count; ++i) pressures_[i] = pressureAt(i, start, first);
-  yield(pressures_, yields_);
-  for (std::size_t i = 0; i < count; ++i) rises_[i] = gaps_[i] + yields_[i];
-  moves_.resize(count);
-  for (int step = 0; step < chosen::kFlowSteps; ++step) {
-    const double place = displacement(stiffness);
+void FlowingPlaces::moveTo(double place, double stiffness) {
+  moves_.resize(gaps_.size());
+  for (std::size_t i = 0; i < gaps_.size(); ++i) {
+    const double pressure = pressures_[i] + stiffness * (place - rises_[i]);
+    moves_[i] = std::clamp(pressure, 0.0, hardness_) - pressures_[i];
+  }
+}
+
+double FlowingPlaces::follow(PeriodicCompliance& bodies, int steps, double stiffness) {
+  raise(bodies);
+  next_layers_.resize(gaps_.size());
+  for (int step = 0; step < steps; ++step) {
+    moveTo(displacement(stiffness), stiffness);
+    bodies.give(cells_, moves_, contact_modulus_, yields_);
     double fall = 0.0;
-    double square = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      moves_[i] = pressureAt(i, place, stiffness) - pressures_[i];
-      fall -= rises_[i] * moves_[i];
-      square += moves_[i] * moves_[i];
-    }
-    yield(moves_, yields_);
     double bend = 0.0;
-    double square_of_yields = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      bend += moves_[i] * yields_[i];
-      square_of_yields += yields_[i] * yields_[i];
+    for (std::size_t i = 0; i < gaps_.size(); ++i) {
+      next_layers_[i] = layerUnder(pressures_[i] + moves_[i]);
+      fall -= rises_[i] * moves_[i];
+      bend += moves_[i] * (yields_[i] + next_layers_[i] - layers_[i]);
     }
     if (!(fall > 0.0) || !(bend > 0.0)) break;
     const double share = std::min(1.0, fall / bend);
-    for (std::size_t i = 0; i < count; ++i) {
-      pressures_[i] += share * moves_[i];
-      rises_[i] += share * yields_[i];
+    double square_of_moves = 0.0;
+    double product = 0.0;
+    double square_of_growths = 0.0;
+    for (std::size_t i = 0; i < gaps_.size(); ++i) {
+      const double move = share * moves_[i];
+      pressures_[i] += move;
+      const double layer = share == 1.0 ? next_layers_[i] : layerUnder(pressures_[i]);
+      const double growth = share * yields_[i] + layer - layers_[i];
+      rises_[i] += growth;
+      layers_[i] = layer;
+      square_of_moves += move * move;
+      product += move * growth;
+      square_of_growths += growth * growth;
     }
-    stiffness = step % 2 == 0 ? square / bend : bend / square_of_yields;
+    stiffness = step % 2 == 0 ? square_of_moves / product : product / square_of_growths;
   }
   return stiffness;
 }
@@ -235,14 +158,14 @@ bool FlowingPlaces::takeFlowed(const GapField& field, double displacement) {
   flowed_ = 0.0;
   pressure_map_ = 0.0;
   int changed_cell = 0;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
+  for (std::size_t row = 0; row + 1 < cells_.row_begin.size(); ++row) {
     double* const flowed = flowed_[static_cast<int>(row)];
     double* const pressure = pressure_map_[static_cast<int>(row)];
-    for (int i = row_begin_[row]; i < row_begin_[row + 1]; ++i) {
+    for (int i = cells_.row_begin[row]; i < cells_.row_begin[row + 1]; ++i) {
       const auto cell = static_cast<std::size_t>(i);
-      pressure[columns_[cell]] = pressures_[cell];
-      flowed[columns_[cell]] = lost(cell);
-      if (cell == first) changed_cell = static_cast<int>(row) * field.cols() + columns_[cell];
+      pressure[cells_.columns[cell]] = pressures_[cell];
+      flowed[cells_.columns[cell]] = lost(cell);
+      if (cell == first) changed_cell = static_cast<int>(row) * field.cols() + cells_.columns[cell];
     }
   }
   changed_.lower(field, flowed_);
@@ -255,13 +178,23 @@ bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, con
   total_ = press.load / field.cellArea();
   takeCells(field, press.approach);
   if (!(total_ > 0.0) || !(total_ < hardness_ * static_cast<double>(gaps_.size()))) return false;
-  compliance_of_law_ = law.closingUnder(hardness_) / hardness_;
-  takeBlocks(field, press.contact_modulus, chosen::kFlowBlock);
-  const double stiffness =
-      solve(press.contact_modulus / (kSinkOfCell * std::sqrt(field.cellArea())));
-  takeBlocks(field, press.contact_modulus, 1);
-  yield(pressures_, yields_);
-  for (std::size_t i = 0; i < gaps_.size(); ++i) rises_[i] = gaps_[i] + yields_[i];
+  contact_modulus_ = press.contact_modulus;
+  takeLayer(law);
+  const int longest = std::max(field.rows(), field.cols());
+  const int block =
+      std::min((longest + chosen::kFlowBlocks - 1) / chosen::kFlowBlocks, chosen::kFlowBlock);
+  by_blocks_.start(field, block);
+  const double of_a_cell = contact_modulus_ / (kSinkOfCell * std::sqrt(field.cellArea()));
+  pressures_.assign(gaps_.size(), 0.0);
+  rises_ = gaps_;
+  moveTo(displacement(chosen::kFirstStiffness * of_a_cell), chosen::kFirstStiffness * of_a_cell);
+  pressures_.swap(moves_);
+  const int steps = block == 1 ? chosen::kFlowStepsByCells : chosen::kFlowSteps;
+  double stiffness = follow(by_blocks_, steps, of_a_cell);
+  if (block > 1) {
+    by_cells_.start(field, 1);
+    stiffness = follow(by_cells_, 1, stiffness);
+  }
   return takeFlowed(field, displacement(stiffness));
 }
 
