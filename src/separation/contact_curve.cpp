@@ -17,6 +17,10 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
                                                                 : Regime::kElastoPlastic;
 }
 
+/// So many times the cells that came in reach without flow are put in order at once: it decides on
+/// time alone.
+constexpr double kMoreInReach = 2.0;
+
 /// What ModelStatement::doubt is about.
 constexpr double kDoubtedFactor = 1.3;
 
@@ -53,20 +57,31 @@ const char* doubtOf(const SeparationCurve& curve, double exponent, double force_
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
                               const FarGaps* far) {
-  start(field, settings, far, nullptr);
+  start(field, settings, far, nullptr, 0.0);
 }
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
                               const FlowingPlaces& flow) {
-  start(field, settings, nullptr, &flow);
+  // about the cells that have come in reach without flow do so with it
+  const double reached = frame_.cellsBelow(rest().approach + frame_.law().range());
+  const double fraction = kMoreInReach * reached / static_cast<double>(frame_.validCount());
+  start(field, settings, nullptr, &flow, std::min(fraction, frame_.orderedFraction()));
+}
+
+SeparationState ContactCurve::restIfElastic(const ContactSettings& settings) {
+  if (!has_flowed_) return rest();
+  frame_.stopFlow();
+  SeparationCurve elastic;
+  followCurve(frame_, settings, elastic);
+  return elastic.rest();
 }
 
 void ContactCurve::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
-                         const FlowingPlaces* flow) {
+                         const FlowingPlaces* flow, double fraction) {
   flow_ = flow;
   cell_area_ = field.cellArea();
   has_unloading_ = false;
-  frame_.start(field, settings, far, flow == nullptr);
+  frame_.start(field, settings, far, flow == nullptr, fraction);
   followCurve(frame_, settings, loading_);
   const double gaps = takeContacts();
   regime_of_dale_.clear();

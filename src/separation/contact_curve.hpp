@@ -42,6 +42,9 @@ class ContactCurve {
   /// - @p flow of the places of `field`; both must outlive the object's use
   void comeToRest(const GapField& field, const ContactSettings& settings,
                   const FlowingPlaces& flow);
+  /// The rest of these surfaces if none of their contacts flowed, not even as a patch; frame() is
+  /// theirs from then on.
+  SeparationState restIfElastic(const ContactSettings& settings);
   /// From then on frame() is that of the surfaces as flow has changed them.
   /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not
   /// asked for another rest [N]
@@ -80,7 +83,7 @@ class ContactCurve {
 
  private:
   void start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
-             const FlowingPlaces* flow);
+             const FlowingPlaces* flow, double fraction);
   /// @return sum of the gaps of the cells in contact [m]
   double takeContacts();
   /// Regimes of contacts by the share of their load that places bear which have flowed, and their

@@ -44,7 +44,7 @@ CellsMissing::CellsMissing(double gap)
       gap_(gap) {}
 
 void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
-                      bool flows) {
+                      bool flows, double fraction) {
   field_ = &field;
   far_ = far;
   settings_ = &settings;
@@ -53,7 +53,7 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings, co
   voltage_.emplace(fieldLaw(settings.load.fieldVoltage(), settings.interface));
   water_ = settings.capillary.law();
   dales_.start(field);
-  ordered_fraction_ = kFirstFraction;
+  ordered_fraction_ = std::max(kFirstFraction, fraction);
   order_.build(field, ordered_fraction_, 0.0, &dales_);
   pyramid_.prepare(order_);
   // if the limit lies beyond the frame, cells will be missing before it is reached
@@ -70,9 +70,11 @@ void FrameSums::takeChangedGaps(double approach) {
   // where dales lie and which cells meet others stays as it was
   order_.changeGaps(approach, changed_gaps_);
   pyramid_.prepare(order_);
-  patch_forces_.emplace(*settings_, field_->cellArea(), false);
+  stopFlow();
   startSweeps();
 }
+
+void FrameSums::stopFlow() { patch_forces_.emplace(*settings_, field_->cellArea(), false); }
 
 void FrameSums::startSweeps() {
   has_mark_ = false;

@@ -45,8 +45,9 @@ class FrameSums {
   /// CellsMissing where they would
   ///   come in reach.
   /// - @p flows whether the hardness limits what patches carry
+  /// - @p fraction of the cells that will probably come in reach, if it is known
   void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr,
-             bool flows = true);
+             bool flows = true, double fraction = 0.0);
 
   /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
   /// - @p expected_end where the displacements will probably end [m]: so many cells are put in
@@ -81,6 +82,8 @@ class FrameSums {
   ///   gaps has not changed
   template <typename Changed>
   void change(double approach, const Changed& changed);
+  /// From here on the hardness does not limit what patches carry.
+  void stopFlow();
   /// Calls that go back, but not beyond where the last call was, need not start anew from now on.
   void mark();
 
@@ -105,6 +108,8 @@ class FrameSums {
   double approachBeforeLimit() const { return approach_before_limit_; }
   /// Where it is reached [m].
   double limitApproach();
+  /// Share of the cells that are in order.
+  double orderedFraction() const { return ordered_fraction_; }
   /// Whether the sums at an approach, without a hold, take no more cells in order than there are.
   /// Which there are shows in the last digits of all sums.
   bool hasInOrder(double approach) const { return isOrderedUpTo(approach + law().range()); }

@@ -18,8 +18,8 @@ namespace mems_stiction {
 namespace {
 
 /// What the contacts carry, or would where a load is more than they do [N].
-double carriedAtRest(const ContactCurve& curve, const LoadOptions& load) {
-  return curve.rest().force() + curve.rest().carried + load.mechanical_load;
+double carriedAtRest(const SeparationState& rest, const LoadOptions& load) {
+  return rest.force() + rest.carried + load.mechanical_load;
 }
 
 /// Whether the longest wave of a frame reaches through the bodies, so that it meets another
@@ -97,29 +97,27 @@ bool SeparationSolver::mayFlow(const LoadOptions& load) const {
          curve_.largestFullness() > chosen::kMayFlow;
 }
 
-bool SeparationSolver::attractsMoreByFlow(const ContactProblem& problem) const {
-  const double load = problem.settings.load.mechanical_load + curve_.rest().electrostatic;
-  const double carried = carriedAtRest(curve_, problem.settings.load);
-  if (!(carried > chosen::kGrowthByFlow * load)) return false;
-  ContactCurve elastic;
-  elastic.comeToRest(problem.gap, problem.settings, places_that_flow_);
-  return carried > chosen::kGrowthByFlow * carriedAtRest(elastic, problem.settings.load);
-}
-
 bool SeparationSolver::flow(const ContactProblem& problem) {
+  const LoadOptions& load = problem.settings.load;
   const PatchForces& forces = curve_.frame().patchForces();
   const ContactTraction law = forces.law();
   const bool is_reached = curve_.loading().status == Status::kEquilibrium;
   FlowingPlaces::Press press = {forces.contactModulus(), forces.hardness(),
-                                carriedAtRest(curve_, problem.settings.load),
+                                carriedAtRest(curve_.rest(), load),
                                 is_reached ? curve_.rest().approach : GapField::kInvalidGap};
+  attracts_more_ = false;
   bool has_flowed = false;
+  double carried_by_elastic = 0.0;
   for (int round = 0; round < chosen::kFlowRounds; ++round) {
     if (!places_that_flow_.press(problem.gap, law, press)) break;
+    if (!has_flowed)
+      carried_by_elastic = carriedAtRest(curve_.restIfElastic(problem.settings), load);
     has_flowed = true;
     curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
     // flattened summits bring the surfaces nearer to each other, which attract the more
-    const double carried = carriedAtRest(curve_, problem.settings.load);
+    const double carried = carriedAtRest(curve_.rest(), load);
+    const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
+    attracts_more_ = carried > chosen::kGrowthByFlow * std::max(pressed_by, carried_by_elastic);
     if (carried < chosen::kMoreCarried * press.load) break;
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
@@ -127,7 +125,6 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
                          ? std::max(press.approach, approach)
                          : GapField::kInvalidGap;
   }
-  attracts_more_ = has_flowed && attractsMoreByFlow(problem);
   return has_flowed;
 }
 
@@ -300,8 +297,10 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   });
   if (!has_flowed_ || !wants_surfaces) return;
   const cv::Mat1d& flowed = places_that_flow_.flowed();
-  solution.displaced_lower -= share.lower(kPlasticLimit) * flowed;
-  solution.displaced_upper += share.upper(kPlasticLimit) * flowed;
+  cv::scaleAdd(flowed, -share.lower(kPlasticLimit), solution.displaced_lower,
+               solution.displaced_lower);
+  cv::scaleAdd(flowed, share.upper(kPlasticLimit), solution.displaced_upper,
+               solution.displaced_upper);
 }
 
 void SeparationSolver::listPullOffContacts(const ContactProblem& problem,

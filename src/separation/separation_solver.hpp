@@ -44,9 +44,6 @@ class SeparationSolver : public ContactSolver {
   const GapField& comeToRest(const ContactProblem& problem, ContactSolution& solution);
   /// Whether loads press contacts so hard that places of them may flow.
   bool mayFlow(const LoadOptions& load) const;
-  /// Whether surfaces that have flowed attract each other so much more than they would without flow
-  /// that how far they flow is not sure.
-  bool attractsMoreByFlow(const ContactProblem& problem) const;
   /// Whether places flow under the loads at rest; if so the curve is that of the changed surfaces
   /// from then on.
   bool flow(const ContactProblem& problem);
@@ -74,8 +71,9 @@ class SeparationSolver : public ContactSolver {
   PlateTilt tilt_;
   ContactCurve curve_;
   FlowingPlaces places_that_flow_;
-  bool has_flowed_ = false;                 ///< place by place
-  bool attracts_more_ = false;              ///< by flow
+  bool has_flowed_ = false;  ///< place by place
+  /// By flow, so much more than without that how far they flow is not sure.
+  bool attracts_more_ = false;
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;

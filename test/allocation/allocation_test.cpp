@@ -52,7 +52,7 @@ TEST_P(RepeatedFrame, AllocatesNothing) {
   EXPECT_EQ(count.calls, 0);
 }
 
-/// Places that flow are found by transforms, and those of OpenCV allocate; nothing is allocated for
+/// Places that flow are found by transforms, which may allocate, and listed; nothing is allocated for
 /// each cell.
 TEST_P(RepeatedFrame, ThatFlowsAllocatesForItsTransforms) {
   const HeightMap scan = frame(1);
