@@ -68,10 +68,12 @@ constexpr double kDoubtedContacts = 1.25;
 constexpr double kHardlyPast = 0.35;
 constexpr double kMorePast = 1.3;
 
-/// Surfaces that have flowed are doubted where contacts carry so many times what they would without
-/// flow, since the surfaces attract each other more [-]. No force hangs on it. Of 288 pressed
-/// frames it doubts four, of which three are out by more than 1.3; up to 1.6 it doubts the same.
-constexpr double kGrowthByFlow = 1.5;
+/// Surfaces are doubted where contacts that have flowed carry so many times what they would without
+/// flow, since the surfaces attract each other more, and bonded ones where a quarter of the frame
+/// stores so many times as much when pressed flat as the frame does, per area: (S10) has one
+/// stiffness [-]. No force hangs on it. Of 288 pressed frames it doubts four, of which three are
+/// out by more than 1.3; up to 1.6 it doubts the same.
+constexpr double kDoubtedTimes = 1.5;
 
 /// Into how many blocks each side of a frame is divided at most, and how many cells their sides
 /// have at least, where places close by themselves, (S9a). No force hangs on it: the flag and the
@@ -85,10 +87,6 @@ constexpr int kPlaceCells = 8;
 /// texture changes are out by more than 1.6 without a doubt, by up to 400. With 1.3 1.0 % more are
 /// doubted, and as many are out.
 constexpr double kPullOfPlaces = 1.6;
-
-/// Bonded surfaces are doubted where a quarter of the frame stores so many times as much when
-/// pressed flat as the frame does, per area [-]: (S10) has one stiffness. No force hangs on it.
-constexpr double kChangingTexture = 1.5;
 
 /// Bonded surfaces cannot tear where the flattened relief pulls with less than this share of the
 /// strength of the law, (S10b) [-]. Set on 422 frames of other kinds, seed 19. No force hangs on

@@ -117,7 +117,7 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
     // flattened summits bring the surfaces nearer to each other, which attract the more
     const double carried = carriedAtRest(curve_.rest(), load);
     const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
-    attracts_more_ = carried > chosen::kGrowthByFlow * std::max(pressed_by, carried_by_elastic);
+    attracts_more_ = carried > chosen::kDoubtedTimes * std::max(pressed_by, carried_by_elastic);
     if (carried < chosen::kMoreCarried * press.load) break;
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
@@ -159,7 +159,7 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
   const double modulus = frame.patchForces().contactModulus();
   if (solution.is_conforming) {
     if (places_.largestEnergy(field, modulus) >
-        chosen::kChangingTexture * solution.flattening_energy) {
+        chosen::kDoubtedTimes * solution.flattening_energy) {
       solution.model.doubt =
           "the surfaces are bonded, and their texture changes from place to place";
     }
