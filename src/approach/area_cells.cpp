@@ -20,7 +20,7 @@ constexpr std::int64_t kFewCells = 1 << 14;
 constexpr std::int64_t kPartMore = 2;
 constexpr std::size_t kBlock = 16;
 
-constexpr char kName[] = "mems_stiction area cells 1\n";
+constexpr char kName[] = "mems_stiction area cells 2\n";
 constexpr std::uint32_t kOrderOfBytes = 0x01020304;
 
 template <typename Scalar>
@@ -51,7 +51,7 @@ MEMS_STICTION_VECTORIZED std::int32_t largestOfBlock(const std::int32_t* slots) 
 }
 
 bool sameLimits(const AreaCellLimits& one, const AreaCellLimits& other) {
-  return one.level == other.level && one.depth == other.depth && one.most_cells == other.most_cells;
+  return one.depth == other.depth && one.most_cells == other.most_cells;
 }
 
 }  // namespace
@@ -63,25 +63,19 @@ AreaCells::AreaCells(double pitch_x, double pitch_y, const AreaCellLimits& limit
     throw SurfaceError("the pitch of an area (" + numberText(pitch_x) + " x " +
                        numberText(pitch_y) + " m) must be above 0");
   }
-  if (std::isnan(limits.level) || !(limits.depth > 0.0) || limits.most_cells < 1) {
-    throw SurfaceError("an area keeps no cell above " + numberText(limits.level) + " m, " +
-                       numberText(limits.depth) + " m deep, at most " +
+  if (!(limits.depth > 0.0) || limits.most_cells < 1) {
+    throw SurfaceError("an area keeps no cell " + numberText(limits.depth) + " m deep, at most " +
                        std::to_string(limits.most_cells));
   }
 }
 
-std::int64_t AreaCells::levelByHeight() const {
-  std::int64_t level = kNoLevel;
-  if (limits_.level > -HeightCounts::kLargestHeight) level = HeightCounts::finestOf(limits_.level);
-  if (limits_.depth < HeightCounts::kLargestHeight && !counts_.empty()) {
-    level =
-        std::max(level, HeightCounts::finestOf(highest_) - HeightCounts::finestOf(limits_.depth));
-  }
-  return level;
+std::int64_t AreaCells::levelByDepth() const {
+  if (!(limits_.depth < HeightCounts::kLargestHeight) || counts_.empty()) return kNoLevel;
+  return HeightCounts::finestOf(highest_) - HeightCounts::finestOf(limits_.depth);
 }
 
 std::int64_t AreaCells::finestLevel() const {
-  std::int64_t level = levelByHeight();
+  std::int64_t level = levelByDepth();
   if (counts_.total() > limits_.most_cells) {
     level = std::max(level, counts_.finestOfBucket(counts_.lowestWithin(limits_.most_cells)));
   }
@@ -141,7 +135,7 @@ void AreaCells::addRow(std::int64_t row, std::int64_t col, const Scalar* line, s
   counts_.add(line, size, slots_.data());
   const double highest = highestOf(line, size);
   if (std::isfinite(highest) && !(highest <= highest_)) highest_ = highest;
-  dropped_below_ = std::max(dropped_below_, levelByHeight());
+  dropped_below_ = std::max(dropped_below_, levelByDepth());
   std::int64_t wanted = 1;  // slot 0 is that of what is invalid
   if (dropped_below_ != kNoLevel)
     wanted = std::max(counts_.slotOf(counts_.bucketAbove(dropped_below_)), wanted);
@@ -200,8 +194,7 @@ void AreaCells::add(const AreaCells& other) {
 std::string AreaCells::toBytes() const {
   std::string bytes = kName;
   appendBytes(bytes, kOrderOfBytes);
-  for (const double value : {pitch_x_, pitch_y_, limits_.level, limits_.depth})
-    appendBytes(bytes, value);
+  for (const double value : {pitch_x_, pitch_y_, limits_.depth}) appendBytes(bytes, value);
   appendBytes(bytes, limits_.most_cells);
   appendBytes(bytes, highest_);
   counts_.appendTo(bytes);
@@ -232,8 +225,8 @@ AreaCells AreaCells::fromBytes(std::string_view bytes) {
     throw SurfaceError("these area cells come from a machine with another order of bytes");
   }
   bool is_whole = takeBytes(bytes, pitch_x) && takeBytes(bytes, pitch_y) &&
-                  takeBytes(bytes, limits.level) && takeBytes(bytes, limits.depth) &&
-                  takeBytes(bytes, limits.most_cells) && takeBytes(bytes, highest);
+                  takeBytes(bytes, limits.depth) && takeBytes(bytes, limits.most_cells) &&
+                  takeBytes(bytes, highest);
   AreaCells cells(pitch_x, pitch_y, limits);
   cells.highest_ = highest;
   cells.counts_ = HeightCounts::takeFrom(bytes);

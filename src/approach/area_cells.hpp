@@ -29,10 +29,9 @@ struct AreaCell {
   double relief = 0.0;  ///< z1 - z2 [m]
 };
 
-/// Which cells are kept one by one. Every limit holds; a level is taken to the next bucket of the
+/// Which cells are kept one by one. Both limits hold; a level is taken to the next bucket of the
 /// counts above it.
 struct AreaCellLimits {
-  double level = -std::numeric_limits<double>::infinity();  ///< none below this height [m]
   double depth =
       std::numeric_limits<double>::infinity();  ///< none that far below the highest of all [m]
   std::int64_t most_cells =
@@ -94,10 +93,10 @@ class AreaCells {
   void addRow(std::int64_t row, std::int64_t col, const Scalar* line, std::size_t size);
   static constexpr std::int64_t kNoLevel = std::numeric_limits<std::int64_t>::min();
 
-  /// The finest bucket from which on upwards cells are kept by all limits, or by those of height
-  /// alone: it only rises while cells come in.
+  /// The finest bucket from which on upwards cells are kept by both limits, or by depth alone: it
+  /// only rises while cells come in.
   std::int64_t finestLevel() const;
-  std::int64_t levelByHeight() const;
+  std::int64_t levelByDepth() const;
   /// So many cells are held at most after each row, those included that will not be kept.
   std::int64_t mostInMemory() const;
   void makeRoom(std::size_t more);

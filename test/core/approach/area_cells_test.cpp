@@ -91,14 +91,12 @@ TEST(HeightCounts, haveBucketsAsWideAsTheRangeAsks) {
 TEST(AreaCells, keepThoseAboveTheirLevel) {
   const cv::Mat1d heights = randomHeights(50, 70, 5e-9, 2);
   const double highest = *std::max_element(heights.begin(), heights.end());
-  AreaCellLimits limits;
-  limits.level = 3e-9;
   AreaCellLimits deep;
   deep.depth = highest - 3e-9;
   AreaCellLimits few;
   few.most_cells =
       std::count_if(heights.begin(), heights.end(), [](double height) { return height > 3e-9; });
-  for (const AreaCellLimits& one : {limits, deep, few}) {
+  for (const AreaCellLimits& one : {deep, few}) {
     AreaCells cells(1e-9, 2e-9, one);
     cells.add(-3, 10, heights);
     EXPECT_EQ(cells.validCount(), 3500);
@@ -132,7 +130,6 @@ TEST(AreaCells, doNotDependOnTheOrderWithAnyLimit) {
   AreaCellLimits by_depth;
   by_depth.depth = 4e-9;
   AreaCellLimits by_all = by_depth;
-  by_all.level = 2e-9;
   by_all.most_cells = 800;
   std::vector<cv::Mat1d> tiles;
   for (unsigned i = 0; i < 40; ++i)
