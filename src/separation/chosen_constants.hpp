@@ -54,6 +54,9 @@ constexpr double kJoinedShare = 0.2;
 // ---------------------------------------------------------------- what the curve says of its own
 // error
 
+/// A force that may be out by more than this is doubted (ModelStatement::doubt).
+constexpr double kDoubtedFactor = 1.3;
+
 /// Contacts are doubted where their width, in a0, and the excess over 1 of the force's exponent
 /// with the work of adhesion are together more than this [-]. Set on 2,856 frames of other kinds
 /// (studies/trust --kinds, seeds 5 to 9 and 14 to 17), of which a third may be doubted. No force
@@ -61,12 +64,12 @@ constexpr double kJoinedShare = 0.2;
 /// doubt, and 34.0 to 32.1 % of all are doubted; with 1.4 it is 0.7 %, with 1.05 0.35 %, of 34.8 %.
 constexpr double kDoubtedContacts = 1.25;
 
-/// Surfaces that water draws together are doubted where, on their way, no more than this share of
-/// what the contacts carried drew them on, towards a force so many times larger. Of 380 frames at
-/// 30 % humidity (studies/trust --effects) this doubts two, with 3.2 and 3.5 times the half-space's
-/// force; of 144 others one, with 16 times. No force hangs on it: the doubt does.
+/// Surfaces that water draws together are doubted where, on their way, no more than this share
+/// of what the contacts carried drew them on, towards more than kDoubtedFactor times the force.
+/// Of 380 frames at 30 % humidity (studies/trust --effects) this doubts two, with 3.2 and 3.5
+/// times the half-space's force; of 144 others one, with 16 times. No force hangs on it: the
+/// doubt does.
 constexpr double kHardlyPast = 0.35;
-constexpr double kMorePast = 1.3;
 
 /// Surfaces are doubted where contacts that have flowed carry so many times what they would without
 /// flow, since the surfaces attract each other more, and bonded ones where a quarter of the frame
@@ -85,7 +88,8 @@ constexpr int kPlaceCells = 8;
 /// [-]. Set on frames of other kinds, seeds 14 to 16, and on 4,200 whose texture changes. No force
 /// hangs on it. Never: 2 % fewer frames of other kinds are doubted, and 0.5 % of those whose
 /// texture changes are out by more than 1.6 without a doubt, by up to 400. With 1.3 1.0 % more are
-/// doubted, and as many are out.
+/// doubted, and as many are out. Those that have flowed place by place are doubted from
+/// kDoubtedFactor on: of 264 such frames four more, of which two were out, by 1.4 and 1.7.
 constexpr double kPullOfPlaces = 1.6;
 
 /// Bonded surfaces cannot tear where the flattened relief pulls with less than this share of the

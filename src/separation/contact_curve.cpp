@@ -21,9 +21,6 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 /// time alone.
 constexpr double kMoreInReach = 2.0;
 
-/// What ModelStatement::doubt is about.
-constexpr double kDoubtedFactor = 1.3;
-
 /// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges,
 /// and a force that is the difference of larger ones, so that what is out in these weighs more in
 /// it. Or where the surfaces may have come to another rest, or what is out in the load of the
@@ -32,7 +29,7 @@ constexpr double kDoubtedFactor = 1.3;
 /// - @p is_drawn_past as isDrawnPastARest()
 const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest,
                     bool is_drawn_past) {
-  if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
+  if (force_from_next_rest > chosen::kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a "
            "larger force";
   }

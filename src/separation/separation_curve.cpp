@@ -294,7 +294,7 @@ bool isDrawnPastARest(const SeparationCurve& loading, double load) {
                        before = std::max(before, state.partingForce());
                        return state.capillary > 0.0 &&
                               state.force() + load < chosen::kHardlyPast * state.carried &&
-                              loading.pull_off_force > chosen::kMorePast * before;
+                              loading.pull_off_force > chosen::kDoubtedFactor * before;
                      });
 }
 

@@ -163,8 +163,11 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
       solution.model.doubt =
           "the surfaces are bonded, and their texture changes from place to place";
     }
-  } else if (places_.force(field, frame.law(), modulus, curve_.unloading(),
-                           chosen::kPullOfPlaces * solution.pull_off_force) > 0.0) {
+    return;
+  }
+  const double least = has_flowed_ ? chosen::kDoubtedFactor : chosen::kPullOfPlaces;
+  if (places_.force(field, frame.law(), modulus, curve_.unloading(),
+                    least * solution.pull_off_force) > 0.0) {
     solution.model.doubt =
         "places smoother than the rest close by themselves, and hold more than the contacts";
   }

@@ -239,6 +239,18 @@ TEST(SeparationFlow, isDoubtedWhereAttractionGrowsByIt) {
   EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
 }
 
+TEST(SeparationFlow, isDoubtedWhereASmoothPartMayHoldALittleMore) {
+  // a quarter is ten times smoother than the rest, and may hold 1.3 to 1.6 times what contacts do
+  cv::Mat1d heights = gaussianFrame(0.5e-9, 2).asDouble().heights().clone();
+  heights(cv::Range(0, 32), cv::Range(0, 32)) *= 0.1;
+  const HeightMap surface(heights, 4e-9, 4e-9);
+  Options options = flowing(90e9, 0.5e9, 60e6 * 64 * 64 * 16e-18);
+  EXPECT_TRUE(isDoubted(surface, options, "places smoother than the rest"));
+  options.lower.hardness = options.upper.hardness = 0.8e9;
+  options.load.mechanical_load /= 3.0;
+  EXPECT_FALSE(isDoubted(surface, options, "places smoother than the rest"));
+}
+
 TEST(SeparationFlow, aSecondPressingUnderTheSameLoadChangesLittle) {
   const HeightMap surface = gaussianFrame(1.2e-9, 310);
   Options options = flowing(100e9, 1.2e9, 80e6 * 64 * 64 * 16e-18);
