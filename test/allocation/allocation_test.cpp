@@ -52,8 +52,8 @@ TEST_P(RepeatedFrame, AllocatesNothing) {
   EXPECT_EQ(count.calls, 0);
 }
 
-/// Places that flow are found by transforms, which may allocate, and listed; nothing is allocated for
-/// each cell.
+/// Places that flow are found by transforms, which may allocate, and listed; nothing is allocated
+/// for each cell.
 TEST_P(RepeatedFrame, ThatFlowsAllocatesForItsTransforms) {
   const HeightMap scan = frame(1);
   Options options = optionsWith(GetParam());
