@@ -473,7 +473,7 @@ TEST_F(DeviceForceTest, whatIsFoundByFewCellsIsWhatAllOfThemSay) {
                      [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
                        all.add(rowInArea(pieces, piece, row), col, tile);
                      });
-  AreaCells few(kPitch, kPitch, {-1.0, 1.0, 1 << 16});
+  AreaCells few(kPitch, kPitch, {1.0, 1 << 16});
   surface.visitTiles(0, surface.rows(),
                      [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
                        few.add(rowInArea(pieces, piece, row), col, tile);
