@@ -86,6 +86,43 @@ def pressures(heights, thickness, share, mean_pressure):
     raise AssertionError("no convergence")
 
 
+def plate_frame(seed):
+    """Heights [m], pitch [m] and settings of a self-affine frame of a free plate under something
+    rigid, whose pixels show what holds."""
+    random = np.random.default_rng(seed)
+
+    def between(low, high):
+        return np.exp(random.uniform(np.log(low), np.log(high)))
+
+    modulus, work, hamaker = between(5e9, 150e9), between(0.01, 0.12), 65e-21
+    z0 = np.sqrt(hamaker / (16 * np.pi * work))
+    pitch = min(modulus * z0**2 / work, 50e-9) * between(0.15, 0.8)
+    thickness = SIZE * pitch / between(3, 50)
+    q = 2 * np.pi * np.hypot(np.fft.fftfreq(SIZE)[:, None], np.fft.rfftfreq(SIZE)[None])
+    roll_off = 2 * np.pi / (SIZE * between(0.12, 1))
+    amplitude = np.maximum(q, roll_off) ** (-1 - random.uniform(0.5, 0.95))
+    amplitude[(q > 2 * np.pi / 6) | (q == 0)] = 0.0
+    waves = np.fft.rfft2(random.normal(size=(SIZE, SIZE))) * amplitude
+    heights = np.fft.irfft2(waves, s=(SIZE, SIZE))
+    heights *= z0 * between(0.7, 12) / heights.std()
+    stiff = {"upper/youngs_modulus": 1e17, "upper/hardness": 1e14, "lower/hardness": 1e14}
+    poisson = {"upper/poisson_ratio": 0.0, "lower/poisson_ratio": 0.0}
+    return (
+        heights,
+        pitch,
+        {
+            "interface/work_of_adhesion": work,
+            "interface/hamaker_constant": hamaker,
+            "lower/youngs_modulus": modulus,
+            "lower/thickness": thickness,
+            "limits/accept_implausible": True,
+            "half_space/flow": False,
+            **stiff,
+            **poisson,
+        },
+    )
+
+
 class PlatesAndFilmsTest(unittest.TestCase):
     def setUp(self):
         self.heights = rough(SIZE, SIZE, 1e-9, 7, 12)
@@ -127,6 +164,24 @@ class PlatesAndFilmsTest(unittest.TestCase):
             self.assertLess(
                 np.linalg.norm(found.pressure - expected), 0.01 * np.linalg.norm(expected), what
             )
+
+    def test_a_plate_that_rests_on_many_places_is_doubted(self):
+        """22 thicknesses wide, it holds some five times as much as the thick body for which the
+        curve takes it."""
+        heights, pitch, settings = plate_frame(1077)
+        force = {}
+        for thickness in (0.0, settings["lower/thickness"]):
+            settings["lower/thickness"] = thickness
+            with warnings.catch_warnings():  # something rigid is no usual material
+                warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+                curve = mems_stiction.predict(heights, pitch, **settings)
+                solution = mems_stiction.half_space(heights, pitch, **settings)
+            self.assertEqual(solution.status, "SOLVED", solution.message)
+            self.assertEqual("thin" in curve.model_doubt, thickness > 0.0, curve.model_doubt)
+            force[thickness] = solution.pull_off_force
+            if thickness == 0.0:
+                self.assertLess(abs(np.log(curve.pull_off_force / force[0.0])), np.log(1.1))
+        self.assertTrue(4.0 < force[settings["lower/thickness"]] / force[0.0] < 6.0, force)
 
     def test_predict_scan_finds_the_same_of_the_same_settings(self):
         lower = {
