@@ -6,12 +6,15 @@
 #include <opencv2/core.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.hpp"
 #include "configuration/named_files.hpp"
 #include "evaluation/plausibility.hpp"
+#include "evaluation/row_columns.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -89,6 +92,16 @@ void bindErrors(py::module& module) {
 
 void bindSettings(py::module& module) {
   module.def("version", &packageVersion, "of the package, which the core was compiled with");
+  module.def(
+      "column_groups",
+      [] {
+        std::vector<std::pair<std::string, std::string>> groups;
+        for (const ColumnGroup& group : columnGroups())
+          groups.emplace_back(group.name, group.meaning);
+        return groups;
+      },
+      "names and meanings, in the order in which they take columns");
+  module.def("chosen_columns", &chosenColumns, "names"_a, "known"_a, "wanted"_a = std::nullopt);
   py::class_<Configuration>(module, "Configuration")
       .def(py::init<>())
       .def(

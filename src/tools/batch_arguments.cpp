@@ -5,6 +5,7 @@
 
 #include "command_line.hpp"
 #include "configuration/named_files.hpp"
+#include "evaluation/row_columns.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -34,6 +35,14 @@ void describe(CLI::App& app, BatchArguments& arguments) {
                  "the rows; beside them OUT.settings.yaml, what they were made with")
       ->required()
       ->type_name("OUT.csv|OUT.jsonl");
+  app.add_option("--columns", arguments.form.columns,
+                 "OUT has these columns and groups of them, with commas between, or all; the rows "
+                 "with which a call goes on are then in OUT.rows.csv. Groups: " +
+                     columnGroupsText())
+      ->type_name("NAMES");
+  app.add_flag("--excel", arguments.form.is_for_excel,
+               "OUT is for a spreadsheet whose decimal sign is the comma: semicolons between "
+               "cells; without --columns it has every column that some row has a value for");
   app.add_option("-c,--config", arguments.configuration,
                  "every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");

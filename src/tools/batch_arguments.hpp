@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "chosen_table.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 
@@ -18,7 +19,9 @@ struct BatchArguments {
   std::optional<double> voltage;
   std::optional<double> load;
   std::string shard = "1/1";
-  std::string output;
+  std::string output;  ///< the rows
+  TableForm form;
+  std::string table;  ///< of that form, beside the rows; empty if there is none
   std::string parts;
   std::string part;
   std::string dump;

@@ -86,6 +86,12 @@ RowFormat rowFormatOf(const std::string& path, const std::string& option) {
   throw OptionsError({option + ": '" + path + "' is not allowed, must end in .csv or .jsonl"});
 }
 
+std::vector<std::string> columnsOf(const RowFields& fields) {
+  std::vector<std::string> columns;
+  for (const auto& field : fields) columns.push_back(field.first);
+  return columns;
+}
+
 std::string rowText(const RowFields& fields, RowFormat format,
                     const std::vector<std::string>& columns) {
   std::string line;

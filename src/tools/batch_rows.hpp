@@ -22,6 +22,9 @@ enum class RowFormat { kCsv, kJsonLines };
 /// the option
 RowFormat rowFormatOf(const std::string& path, const std::string& option = "--output");
 
+/// The names of the fields.
+std::vector<std::string> columnsOf(const RowFields& fields);
+
 /// One line with its end. Numbers that are not finite: nan, inf, -inf in CSV; null in JSON. @param
 /// columns CSV only: the cells, empty where the row has no such field
 std::string rowText(const RowFields& fields, RowFormat format,

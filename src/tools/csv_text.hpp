@@ -7,15 +7,20 @@
 
 namespace mems_stiction {
 
+/// The cell, quoted where it must be. @param separator of cells
+inline std::string csvQuoted(const std::string& cell, char separator = ',') {
+  if (cell.find_first_of({'"', separator}) == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char letter : cell)
+    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + "\"";
+}
+
 /// The text as a cell: quoted where it must be, and with an apostrophe before what a spreadsheet
 /// would take for the beginning of a formula.
 inline std::string csvText(std::string text) {
   if (!text.empty() && std::strchr("=+-@\t", text.front()) != nullptr) text.insert(0, "'");
-  if (text.find_first_of("\",") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text)
-    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
+  return csvQuoted(text);
 }
 
 }  // namespace mems_stiction

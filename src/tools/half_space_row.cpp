@@ -33,13 +33,10 @@ RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Ver
   return fields;
 }
 
-std::vector<std::string> halfSpaceColumnNames(bool with_verdict) {
+RowFields halfSpaceSample(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
-  std::vector<std::string> names;
-  for (const auto& field : halfSpaceFields({true, SolvedHalfSpace(), ""}, verdict))
-    names.push_back(field.first);
-  return names;
+  return halfSpaceFields({true, SolvedHalfSpace(), ""}, verdict);
 }
 
 std::map<std::string, std::string> halfSpaceColumnUnits() {

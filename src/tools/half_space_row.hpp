@@ -26,8 +26,8 @@ struct HalfSpaceAnswer {
 /// solution there are none. No wall time: the same scan gives the same row.
 RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict);
 
-/// Every such column in order.
-std::vector<std::string> halfSpaceColumnNames(bool with_verdict);
+/// Every such field in order, as it is without a value.
+RowFields halfSpaceSample(bool with_verdict);
 
 /// The unit of every such column that has one.
 std::map<std::string, std::string> halfSpaceColumnUnits();

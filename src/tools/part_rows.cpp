@@ -139,8 +139,7 @@ std::size_t writeParts(const std::string& rows_path, const std::string& path,
     scans_of[key].rows.push_back(rowOfPart(row));
     scans_of[key].statements.push_back(statementOf(row));
   }
-  std::vector<std::string> columns;
-  for (const auto& field : fieldsOf(0, {}, {})) columns.push_back(field.first);
+  const std::vector<std::string> columns = columnsOf(fieldsOf(0, {}, {}));
   std::string text = headingText(format, columns);
   std::size_t count = 0;
   for (auto& [key, by_scans] : parts.verdicts()) {

@@ -30,14 +30,11 @@ void append(const RowFields& more, RowFields& fields) {
 
 }  // namespace
 
-std::vector<std::string> batchColumns(const std::string& formulation, bool with_verdict,
-                                      bool with_half_space) {
-  std::vector<std::string> names = columnNames(formulation, with_verdict);
-  if (with_half_space) {
-    for (std::string& name : halfSpaceColumnNames(with_verdict)) names.push_back(std::move(name));
-  }
-  for (auto& field : stateFields({})) names.push_back(std::move(field.first));
-  return names;
+RowFields batchSample(const std::string& formulation, bool with_verdict, bool with_half_space) {
+  RowFields fields = sampleFields(formulation, with_verdict);
+  if (with_half_space) append(halfSpaceSample(with_verdict), fields);
+  append(stateFields({}), fields);
+  return fields;
 }
 
 std::map<std::string, std::string> batchUnits(const std::string& formulation, bool with_verdict,

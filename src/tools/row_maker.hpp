@@ -30,10 +30,9 @@ struct BatchRow {
   bool is_warned = false;
 };
 
-/// Every column of a row that the formulation has, in order.
-/// @param with_verdict whether a device is stated
-std::vector<std::string> batchColumns(const std::string& formulation, bool with_verdict,
-                                      bool with_half_space);
+/// A row with every column that the formulation has, in order, as it is without a value: names and
+/// types. @param with_verdict whether a device is stated
+RowFields batchSample(const std::string& formulation, bool with_verdict, bool with_half_space);
 
 /// The unit of every such column that has one.
 std::map<std::string, std::string> batchUnits(const std::string& formulation, bool with_verdict,

@@ -116,14 +116,13 @@ RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& wa
   return fields;
 }
 
-std::vector<std::string> columnNames(const std::string& formulation, bool with_verdict) {
-  std::vector<std::string> names;
-  for (const auto& field : originFields({}, "")) names.push_back(field.first);
+RowFields sampleFields(const std::string& formulation, bool with_verdict) {
+  RowFields fields = originFields({}, "");
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
-  for (const auto& field : figureFields({}, {}, {}, verdict, formulation, {}))
-    names.push_back(field.first);
-  return names;
+  for (auto& field : figureFields({}, {}, {}, verdict, formulation, {}))
+    fields.push_back(std::move(field));
+  return fields;
 }
 
 std::map<std::string, std::string> columnUnits(const std::string& formulation, bool with_verdict) {

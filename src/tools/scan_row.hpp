@@ -41,10 +41,10 @@ RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& wa
                        const Prediction& prediction, const std::optional<Verdict>& verdict,
                        const std::string& formulation, const Provenance& provenance);
 
-/// Every column in order.
+/// A row with every column in order, as it is without a value.
 /// @param formulation those of figures that it has not are left out
 /// @param with_verdict whether a device is stated
-std::vector<std::string> columnNames(const std::string& formulation, bool with_verdict);
+RowFields sampleFields(const std::string& formulation, bool with_verdict);
 
 /// The unit of every such column that has one.
 std::map<std::string, std::string> columnUnits(const std::string& formulation, bool with_verdict);

@@ -39,12 +39,12 @@ constexpr std::size_t kMostNamed = 10;
 /// Refuses before the work what could not be written after it. @throw OptionsError, FileError
 void checkOutputs(const BatchArguments& arguments) {
   for (const std::string& path :
-       {arguments.output, settingsPathOf(arguments.output), arguments.parts}) {
+       {arguments.output, settingsPathOf(arguments.output), arguments.table, arguments.parts}) {
     if (isLonelyPipe(path)) throw FileError(path + ": " + kLonelyPipe);
   }
   if (arguments.parts.empty()) return;
   rowFormatOf(arguments.parts, "--parts");
-  if (arguments.parts == arguments.output)
+  if (arguments.parts == arguments.output || arguments.parts == arguments.table)
     throw OptionsError({"--parts: must be another file than --output"});
 }
 
@@ -81,6 +81,13 @@ void pool(const BatchArguments& arguments, const std::vector<std::string>& input
   };
   const std::size_t count = writeParts(arguments.output, arguments.parts, device);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
+}
+
+/// If it is asked for, of the rows that are there. @param sample of the rows
+void tabulate(const BatchArguments& arguments, const RowFields& sample) {
+  if (arguments.table.empty()) return;
+  const std::size_t count = writeTable(arguments.table, arguments.form, sample);
+  std::cout << oneLine(arguments.table) << ": " << count << " columns of these rows\n";
 }
 
 constexpr const char* kGone = "rows are of files that are no longer there";
@@ -152,7 +159,9 @@ int run(const BatchArguments& arguments) {
   const bool has_device = configuration.device.isStated();
   const bool has_half_space = mayCallHalfSpace(configuration);
   const std::string& formulation = configuration.model.formulation;
-  const std::vector<std::string> columns = batchColumns(formulation, has_device, has_half_space);
+  const RowFields sample = batchSample(formulation, has_device, has_half_space);
+  const std::vector<std::string> columns = columnsOf(sample);
+  if (!arguments.table.empty()) checkTable(arguments.table, arguments.form, columns);
   checkSettings(arguments.output,
                 settingsText(scans.size(), inputs, arguments,
                              batchUnits(formulation, has_device, has_half_space), stated));
@@ -214,6 +223,7 @@ int run(const BatchArguments& arguments) {
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") +
                  first_message);
   }
+  tabulate(arguments, sample);
   askForPart(arguments, stated);
   pool(arguments, scans.inputs(), stated);
   return failed_count > 0 && failed_count == wanted_numbers.size()
@@ -222,7 +232,8 @@ int run(const BatchArguments& arguments) {
 }
 
 int merge(const BatchArguments& arguments) {
-  const std::vector<std::string> shards = inputsOf(arguments);
+  std::vector<std::string> shards = inputsOf(arguments);
+  for (std::string& shard : shards) shard = rowsBehind(shard);
   rowFormatOf(arguments.output);
   checkOutputs(arguments);
   for (const std::string& shard : shards) {
@@ -240,11 +251,20 @@ int merge(const BatchArguments& arguments) {
     }
   }
   const std::size_t total = totalOf(shards.front(), settings);
+  RowFields sample;
+  if (!arguments.table.empty()) {
+    BatchArguments of_rows = arguments;
+    const Configuration configuration = madeOf(shards.front(), settings, of_rows);
+    sample = batchSample(configuration.model.formulation, configuration.device.isStated(),
+                         mayCallHalfSpace(configuration));
+    checkTable(arguments.table, arguments.form, columnsOf(sample));
+  }
   complainOfMany(requireOneState(shards), kGone);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size()
             << " shards\n";
+  tabulate(arguments, sample);
   if (!arguments.parts.empty()) {
     BatchArguments of_rows = arguments;
     const Configuration configuration = madeOf(shards.front(), settings, of_rows);
@@ -258,7 +278,11 @@ int merge(const BatchArguments& arguments) {
 
 int main(int argc, char** argv) {
   return runProgram<BatchArguments>("stiction_batch", argc, argv, describe,
-                                    [](const BatchArguments& arguments) {
+                                    [](BatchArguments arguments) {
+                                      if (arguments.form.isAsked()) {
+                                        arguments.table = arguments.output;
+                                        arguments.output = rowsPathOf(arguments.table);
+                                      }
                                       return arguments.merge ? merge(arguments) : run(arguments);
                                     });
 }

@@ -127,6 +127,96 @@ class BatchTest(unittest.TestCase):
         self.predict("rows.csv", inputs=["=1+1.bag", "@sum.bag"], status=1)
         self.assertEqual([row["file"] for row in self.rows("rows.csv")], ["'=1+1.bag", "'@sum.bag"])
 
+    def table(self, name, delimiter=","):
+        with open(str(self.folder / name), newline="", encoding="utf-8-sig") as stream:
+            return list(csv.DictReader(stream, delimiter=delimiter))
+
+    def exported(self, rows, *options):
+        """What export_predictions makes of whole rows with the same words."""
+        done = run(
+            [program("export_predictions"), "-o", self.folder / "by_export.csv", *options]
+            + [self.folder / rows]
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.table("by_export.csv", ";" if "--excel" in options else ",")
+
+    def test_columns_are_chosen_by_the_words_of_export_predictions(self):
+        self.predict("whole.csv")
+        for options in (
+            ["--columns", "file, verdict,pull_off_force,sq"],
+            ["--columns=forces,number,doubts", "--excel"],
+            ["--excel"],
+        ):
+            self.predict("table.csv", *options)
+            delimiter = ";" if "--excel" in options else ","
+            table = self.table("table.csv", delimiter)
+            self.assertEqual(len(table), 11)
+            expected = self.exported("whole.csv", *options)
+            self.assertEqual(list(table[0]), list(expected[0]))
+            for row, other in zip(table, expected):
+                for name in row:
+                    # flags are words in rows and counts in exports of Python
+                    here, there = row[name], other[name]
+                    if delimiter == ",":
+                        here = {"true": "1", "false": "0", "nan": ""}.get(here, here)
+                    self.assertEqual(here, there, name)
+            # the rows beside it are those of a call without a table
+            self.assertEqual(
+                (self.folder / "table.csv.rows.csv").read_bytes(),
+                (self.folder / "whole.csv").read_bytes(),
+            )
+            again = self.predict("table.csv", *options)
+            self.assertIn("11 of them from before", again.stdout)
+            self.assertEqual(self.table("table.csv", delimiter), table)
+        self.predict("lines.jsonl", "--columns", "pull_off_force,number,message")
+        lines = [json.loads(line) for line in (self.folder / "lines.jsonl").open()]
+        self.assertEqual(list(lines[0]), ["pull_off_force", "number", "message"])
+        self.assertEqual(
+            lines[0]["pull_off_force"], float(self.rows("whole.csv")[0]["pull_off_force"])
+        )
+        self.assertEqual(list(lines[5]), ["number", "message"])  # could not be predicted
+
+    def test_shards_with_tables_are_merged_by_the_rows_beside_them(self):
+        for index in (1, 2):
+            self.predict("part%d.csv" % index, "--shard=%d/2" % index, "--columns=verdict")
+        self.predict("whole.csv")
+        shards = [self.folder / ("part%d.csv" % index) for index in (1, 2)]
+        done = run(
+            [self.batch, "--merge", "--excel", "--columns=number,forces", "-o"]
+            + [self.folder / "all.csv"]
+            + shards
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(
+            self.table("all.csv", ";"),
+            self.exported("whole.csv", "--excel", "--columns=number,forces"),
+        )
+        done = run([self.batch, "--merge", "-o", self.folder / "joined.csv"] + shards)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(
+            (self.folder / "joined.csv").read_bytes(), (self.folder / "whole.csv").read_bytes()
+        )
+
+    def test_a_table_is_refused_before_the_work_and_replaces_nothing_else(self):
+        scan = [self.inputs / "b.bag"]
+        for told, name, options in (
+            ("did you mean verdict?", "a.csv", ["--columns=vredict"]),
+            ("is no CSV", "a.jsonl", ["--excel"]),
+            ("must end in .csv or .jsonl", "a.txt", ["--excel"]),
+        ):
+            done = self.predict(name, *options, inputs=scan, status=2)
+            self.assertIn(told, done.stderr)
+            self.assertEqual(list(self.folder.iterdir()), [])
+        self.predict("whole.csv", inputs=scan)
+        before = (self.folder / "whole.csv").read_bytes()
+        done = self.predict("whole.csv", "--excel", inputs=scan, status=2)
+        self.assertIn("has whole rows", done.stderr)
+        self.assertEqual((self.folder / "whole.csv").read_bytes(), before)
+        (self.folder / "notes.csv").write_text("mine")
+        done = self.predict("notes.csv", "--columns=verdict", inputs=scan, status=2)
+        self.assertIn("write another file", done.stderr)
+        self.assertEqual((self.folder / "notes.csv").read_text(), "mine")
+
     def test_the_figures_are_those_of_predict_scan_to_the_last_bit(self):
         self.predict("rows.jsonl", "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
         heights = np.load(str(self.folder / "dump/000001/heights.npy"))

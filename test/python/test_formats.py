@@ -318,9 +318,9 @@ class ParquetTest(InFolder):
         self.assertIn("margin", rows[0])
         self.assertNotIn("contact_area", rows[0])
         # each column belongs to one group
-        by_groups = self.exported("--columns", ",".join(name for name, _, _ in GROUPS), bag)
+        by_groups = self.exported("--columns", ",".join(name for name, _ in GROUPS), bag)
         self.assertEqual(sorted(by_groups[0]), sorted(names))
-        for wanted, told in (("vredict", "did you mean verdict?"), ("", "groups are origin")):
+        for wanted, told in (("vredict", "did you mean verdict?)"), ("", "groups are origin")):
             self.refused(
                 told, "export_predictions", "-o", self.folder / "a.csv", "--columns=" + wanted, bag
             )
