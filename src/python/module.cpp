@@ -3,10 +3,12 @@
 
 #include "bindings.hpp"
 #include "memory.hpp"
+#include "threads_inside.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace mems_stiction::python;
   module.doc() = "The C++ core. Import mems_stiction instead.";
+  spareStaticObjects();
   bindErrors(module);
   bindMemory(module);
   bindSettings(module);

@@ -7,6 +7,8 @@
 #include <pybind11/pybind11.h>
 #include <unistd.h>
 
+#include "threads_inside.hpp"
+
 namespace mems_stiction {
 namespace python {
 
@@ -23,10 +25,13 @@ void takingLock(const Work& work) {
 }
 
 /// Lets go of the lock for as long as it lives. pybind11's gil_scoped_release, but for
-/// takingLock().
+/// takingLock() and threads_inside.hpp.
 class WithoutLock {
  public:
-  WithoutLock() : state_(PyEval_SaveThread()) {}
+  WithoutLock() : state_(nullptr) {
+    countThisThread();  // while the interpreter cannot end
+    state_ = PyEval_SaveThread();
+  }
   WithoutLock(const WithoutLock&) = delete;
   WithoutLock& operator=(const WithoutLock&) = delete;
   ~WithoutLock() {

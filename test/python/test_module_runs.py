@@ -231,6 +231,39 @@ time.sleep(%f)
             )
             self.assertEqual((ended.returncode, ended.stderr), (0, b""))
 
+    def test_static_objects_outlive_daemon_threads(self):
+        """What exit() destroys, it would destroy behind threads that the core has objects of."""
+        code = """
+import ctypes, sys, threading, time
+libc = ctypes.CDLL(None)
+libc.strdup.restype = ctypes.c_void_p
+# Called behind the destructors of what is loaded from here on: dprintf(1, ...).
+libc.on_exit(libc.dprintf, ctypes.c_void_p(libc.strdup(b"destroyed\\n")))
+import numpy as np
+import mems_stiction
+heights = np.random.RandomState(1).normal(0.0, 3e-9, (48, 48))
+done = threading.Event()
+def work():
+    mems_stiction.predict(heights, 1e-8)
+    done.set()
+    time.sleep(1000)
+if %r:
+    threading.Thread(target=work, daemon=True).start()
+    done.wait()
+else:
+    mems_stiction.predict(heights, 1e-8)
+print("told")
+sys.exit(1)
+"""
+        for is_daemon, told in ((True, b"told\n"), (False, b"told\ndestroyed\n")):
+            ended = subprocess.run(
+                [sys.executable, "-W", "ignore", "-c", code % is_daemon],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                timeout=300,
+            )
+            self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (1, told, b""))
+
     def test_a_prediction_goes_to_another_process(self):
         prediction = mems_stiction.predict(rough(40, 50), PITCH, device=DEVICE, device_force=FEW)
         copy = pickle.loads(pickle.dumps(prediction))
