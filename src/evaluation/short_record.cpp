@@ -54,6 +54,11 @@ std::string forceText(const Prediction& prediction, const RecordExtras& extras) 
   return text;
 }
 
+/// Whether the verdict gives this warning as its reason: people have read it then.
+bool hasSaid(const std::optional<Verdict>& verdict, const std::string& warning) {
+  return verdict && verdict->reason.find(warning) != std::string::npos;
+}
+
 /// The verdict's sentence, its word in colour.
 std::string verdictLine(const std::optional<Verdict>& verdict, const Paint& paint) {
   if (!verdict) {
@@ -84,8 +89,10 @@ std::string shortRecord(const std::string& file, const HeightMap& scan,
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   for (const std::string& sentence : regimeFlagSentences(flags, modelDoubt(prediction)))
     text += lineOf(paint(kYellow, "outside the model's range"), sentence);
-  for (const std::string& warning : extras.warnings)
-    text += lineOf(paint(kYellow, "warning"), oneLine(warning));
+  for (const std::string& warning : extras.warnings) {
+    if (!hasSaid(extras.verdict, warning))
+      text += lineOf(paint(kYellow, "warning"), oneLine(warning));
+  }
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, kIndent);
   if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, kIndent);
   if (extras.sweep) text += sweepTable(*extras.sweep, kIndent);

@@ -275,6 +275,21 @@ TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReache
       YAML::Load(run("--all --pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
 }
 
+TEST_F(PredictScan, WhatAScanDoesNotShowStandsOnceWhereTheVerdictGivesItAsItsReason) {
+  cv::Mat heights(64, 64, CV_32FC1);  // each pixel by itself: no pixel shows a summit
+  cv::RNG(1).fill(heights, cv::RNG::NORMAL, 0.0, 3e-9);
+  const std::string scan = folder_.file("noise.tiff");
+  writeHeightTiff(scan, heights);
+  const std::string device = folder_.write(
+      "d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n"));
+  const std::string text = run("-c " + device + " --pitch 20e-9 " + scan).output;
+  const std::string sentence = "does not show what holds: waves shorter than two pixels";
+  const std::size_t first = text.find(sentence);
+  ASSERT_NE(first, std::string::npos) << text;
+  EXPECT_LT(text.rfind('\n', first), text.find("Does it stick? Not known")) << text;
+  EXPECT_EQ(text.find(sentence, first + 1), std::string::npos) << text;
+}
+
 TEST_F(PredictScan, WithoutOptionsItSaysWhatPeopleAskFor) {
   const std::string device =
       folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
