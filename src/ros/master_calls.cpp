@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <thread>
 
 #include <ros/master.h>
 #include <ros/network.h>
@@ -22,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kCallPatience{5};
 /// Between looks at whether to give up [s].
 constexpr double kLook = 0.05;
+/// Between looks at whether another process has ended.
+constexpr std::chrono::milliseconds kUntilNextLook{20};
 
 /// One call. execute() of the client waits for ever.
 bool callOnce(const std::string& host, std::uint32_t port, const char* method,
@@ -104,6 +107,19 @@ std::string livingOwnerOf(const std::string& name) {
     return "";
   const std::string owner = address;
   return calls.askProcess(owner, "getPid", request, process) ? owner : "";
+}
+
+void endOwner(const std::string& owner) {
+  const MasterCalls calls;
+  XmlRpcValue request;
+  request[0] = ros::this_node::getName();
+  XmlRpcValue with_reason = request;
+  with_reason[1] = "a node of the same name takes its place";
+  XmlRpcValue ignored;
+  calls.askProcess(owner, "shutdown", with_reason, ignored);
+  const Clock::time_point end = Clock::now() + kCallPatience;
+  while (Clock::now() < end && calls.askProcess(owner, "getPid", request, ignored))
+    std::this_thread::sleep_for(kUntilNextLook);
 }
 
 void setParameterAtStart(const std::string& name, const XmlRpcValue& value) {

@@ -41,6 +41,11 @@ class MasterCalls {
 /// ros::start().
 std::string livingOwnerOf(const std::string& name);
 
+/// Asks that process to end and waits for it, some seconds at most. One that still registers topics
+/// while this process does would take the name back: then the master ends both.
+/// - @p owner as livingOwnerOf() gives it
+void endOwner(const std::string& owner);
+
 /// While the node starts: waits for the master, as ros::param::set() does, but without its lock.
 void setParameterAtStart(const std::string& name, const XmlRpc::XmlRpcValue& value);
 

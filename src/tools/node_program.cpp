@@ -93,8 +93,10 @@ int run(int argc, char** argv, const NodeProgram& program) {
   shutDownOn(SIGTERM);
   shutDownOn(SIGHUP);
   const std::string& node = ros::this_node::getName();
-  const std::string owner = takes_over ? "" : livingOwnerOf(node);
-  if (!owner.empty()) {
+  const std::string owner = livingOwnerOf(node);
+  if (!owner.empty() && takes_over) {
+    endOwner(owner);
+  } else if (!owner.empty()) {
     const std::string end_it = " end that one (rosnode kill " + node + ")";
     complain(program.name,
              "a node of the name " + node + " runs already, at " + owner +
