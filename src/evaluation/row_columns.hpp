@@ -24,6 +24,7 @@ std::string columnGroupsText();
 
 /// Those of the names that a table gets, in the order of the names; what is wanted, in the order
 /// in which it is wanted.
+/// @param names all columns
 /// @param known those of the names that some row has a value for
 /// @param wanted groups and columns with commas between, or "all"; nothing: what is known
 /// @throw OptionsError naming --columns and the word that is neither a column nor a group
