@@ -743,9 +743,8 @@ class OwnScansTest(unittest.TestCase):
             found = calibrated(data)
             covered += found.work_of_adhesion_lower < truth < found.work_of_adhesion_upper
             logs.append(math.log(found.work_of_adhesion / truth))
-        self.assertGreaterEqual(
-            covered, times(1, 3)
-        )  # a sound interval misses two of four in 1.4 % of cases, both of two in 0.3 %
+        # a sound interval misses two of four in 1.4 % of cases, both of two in 0.3 %
+        self.assertGreaterEqual(covered, times(1, 3))
         self.assertAlmostEqual(float(np.mean(logs)), 0.0, delta=0.1)
 
 

@@ -11,6 +11,9 @@ from mems_stiction.curve import Curve, CurveError, read_curve
 from mems_stiction.curve_figure import curve_picture
 from mems_stiction.plots import plt
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from one_process import run_in_one_process  # noqa: E402  (the path comes first)
+
 PLOT_CURVE = pathlib.Path(__file__).resolve().parents[2] / "scripts/plot_curve"
 HEAD = "height,force,direction\n"
 
@@ -181,11 +184,11 @@ class PlotCurveTest(unittest.TestCase):
             ([good, "-o", self.folder / "p.jpg"], ("--output", ".png, .pdf or .svg")),
             ([good, "-o", self.folder / "none/p.png"], ("none/p.png' cannot be written",)),
         ]
-        for arguments, expected in cases:
-            done = self.run_it(*arguments)
-            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        answers = run_in_one_process([PLOT_CURVE] + arguments for arguments, _ in cases)
+        for (status, _, error), (_, expected) in zip(answers, cases):
+            self.assertEqual((status, error.count("\n")), (2, 1), error)
             for text in expected:
-                self.assertIn(text, done.stderr)
+                self.assertIn(text, error)
         (self.folder / "h.csv").write_bytes(b"\xff\xfe\x00\x01")
         with self.assertRaises(CurveError):
             read_curve(self.folder / "h.csv", "h")

@@ -24,6 +24,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import rough  # noqa: E402  (the path comes first)
+from tiers import times  # noqa: E402
 
 PITCH = 10e-9
 SCAN = rough(96, 96, 3e-9, 1, 12)
@@ -131,7 +132,7 @@ class FacesTest(unittest.TestCase):
         return found
 
     def test_every_program_states_one_margin_by_one_distribution(self):
-        for kind in DEVICES:
+        for kind in times(("spring", "peeling"), DEVICES):
             found = self.faces(settings_of(kind))
             first = found["predict_scan"]
             governed = first["governed_by"]

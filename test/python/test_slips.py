@@ -24,27 +24,12 @@ from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from tiers import times  # noqa: E402  (the path comes first)
+from one_process import run_in_one_process  # noqa: E402  (the path comes first)
+from tiers import times  # noqa: E402
 
 BAD_INPUT = 2
 WIPED = b"\r\x1b[K"
 LONGEST_SILENCE = 300.0  # of a program [s]; a work that lasts says so each second
-
-ASKING_FOR_VERSIONS = """
-import contextlib, io, json, runpy, sys
-answers = []
-for path in sys.argv[1:]:
-    sys.argv = [path, "--version"]
-    out, err = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        try:
-            runpy.run_path(path, run_name="__main__")
-            status = 0
-        except SystemExit as end:
-            status = end.code or 0
-    answers.append((status, out.getvalue(), err.getvalue()))
-print(json.dumps(answers))
-"""
 
 
 def rough(size=24):
@@ -160,16 +145,9 @@ class SlipTest(unittest.TestCase):
             done = self.run_it(name, "--version")
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertRegex(done.stdout, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
-        # in one process, which loads what they share once
-        done = subprocess.run(
-            [sys.executable, "-c", ASKING_FOR_VERSIONS]
-            + [find_node("mems_stiction", name)[0] for name in scripts],
-            stdout=subprocess.PIPE,
-            universal_newlines=True,
-            timeout=300,
+        answers = run_in_one_process(
+            [find_node("mems_stiction", name)[0], "--version"] for name in scripts
         )
-        answers = json.loads(done.stdout)
-        self.assertEqual(len(answers), len(scripts))
         for name, (status, out, err) in zip(scripts, answers):
             self.assertEqual((status, err), (0, ""), name)
             self.assertRegex(out, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
