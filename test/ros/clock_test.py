@@ -44,7 +44,8 @@ class Pair:
         self.folder.mkdir()
         settings = dict(yaml.safe_load(STATION.read_text()), diagnostic_period=0.2)
         source = dict(folder=str(self.folder), settle_time=0.1, poll_period=0.2)
-        source.update(diagnostic_period=0.2, old_files="all")
+        # else it is content with the test's own Collector on scan_info
+        source.update(diagnostic_period=0.2, old_files="all", listener="stiction_node")
         self.processes = []
         for program, own in (("stiction_node", settings), ("scan_source", source)):
             for key, value in own.items():
