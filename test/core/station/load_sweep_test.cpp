@@ -10,6 +10,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/constants.hpp"
 #include "station/remaining_contact.hpp"
+#include "station/sweep_table.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "surface/gaussian_surface.hpp"
@@ -423,6 +424,25 @@ TEST(LoadSweep, RefusesGridsWhoseRowsNoIntegerCounts) {
   const std::vector<std::string> violations = request.validate(Options());
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_NE(violations[0].find("1e+10 pairs are not allowed"), std::string::npos) << violations[0];
+}
+
+TEST(SweepTable, tellsVoltagesThatReleaseFromThoseThatSurelyDo) {
+  LoadSweepResult sweep;
+  LoadSweepRow row;
+  row.margin = 2.0;
+  row.direction = SweepDirection::kDown;
+  sweep.rows = {row};
+  LoadSweepSummary summary;
+  summary.highest_releasing_voltage = 20.0;
+  summary.highest_safe_voltage = 10.0;
+  summary.opening_voltage = 5.0;
+  sweep.summaries = {summary};
+  const std::string text = sweepTable(sweep, "");
+  EXPECT_NE(
+      text.find("releases after voltages up to 20 V, surely (95 %) after voltages up to 10 V; "
+                "opens on the way down at 5 V."),
+      std::string::npos)
+      << text;
 }
 
 }  // namespace
