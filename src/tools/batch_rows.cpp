@@ -94,27 +94,23 @@ std::vector<std::string> columnsOf(const RowFields& fields) {
 
 std::string rowText(const RowFields& fields, RowFormat format,
                     const std::vector<std::string>& columns) {
-  std::string line;
   if (format == RowFormat::kJsonLines) {
+    std::string line;
     for (const auto& [name, value] : fields)
       line += (line.empty() ? "{\"" : ",\"") + name + "\":" + jsonText(value);
     return line + "}\n";
   }
-  for (const std::string& column : columns) {
+  return csvLine(columns, ',', [&](const std::string& column) {
     const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& candidate) {
       return candidate.first == column;
     });
-    if (&column != &columns.front()) line += ",";
-    if (field != fields.end()) line += csvCell(field->second);
-  }
-  return line + "\n";
+    return field != fields.end() ? csvCell(field->second) : "";
+  });
 }
 
 std::string headingText(RowFormat format, const std::vector<std::string>& columns) {
   if (format == RowFormat::kJsonLines) return "";
-  std::string line;
-  for (const std::string& column : columns) line += (line.empty() ? "" : ",") + column;
-  return line + "\n";
+  return csvLine(columns, ',', [](const std::string& column) { return column; });
 }
 
 RowFile::RowFile(const std::string& path, RowFormat format, const std::string& heading,

@@ -53,18 +53,12 @@ std::string csvTable(const std::vector<RowTexts>& rows, const std::vector<std::s
   const char separator = is_for_excel ? ';' : ',';
   const std::map<std::string, nlohmann::json> samples(sample.begin(), sample.end());
   std::string text = is_for_excel ? kByteOrderMark : "";
-  for (const std::string& name : columns) {
-    if (&name != &columns[0]) text += separator;
-    text += name;
-  }
-  text += "\n";
+  text += csvLine(columns, separator, [](const std::string& name) { return name; });
   for (const RowTexts& row : rows) {
-    for (const std::string& name : columns) {
-      if (&name != &columns[0]) text += separator;
+    text += csvLine(columns, separator, [&](const std::string& name) {
       const std::string cell = textOf(row, name);
-      text += is_for_excel ? excelCell(name, cell, samples.at(name)) : csvQuoted(cell);
-    }
-    text += "\n";
+      return is_for_excel ? excelCell(name, cell, samples.at(name)) : csvQuoted(cell);
+    });
   }
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace mems_stiction {
 
@@ -14,6 +15,18 @@ inline std::string csvQuoted(const std::string& cell, char separator = ',') {
   for (const char letter : cell)
     quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
   return quoted + "\"";
+}
+
+/// A line with a cell for each column. @param cell_of the text of a column's cell, as it stands
+template <typename CellOf>
+std::string csvLine(const std::vector<std::string>& columns, char separator,
+                    const CellOf& cell_of) {
+  std::string line;
+  for (const std::string& column : columns) {
+    if (&column != &columns.front()) line += separator;
+    line += cell_of(column);
+  }
+  return line + "\n";
 }
 
 /// The text as a cell: quoted where it must be, and with an apostrophe before what a spreadsheet
