@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -251,10 +252,15 @@ int merge(const BatchArguments& arguments) {
     }
   }
   const std::size_t total = totalOf(shards.front(), settings);
+  BatchArguments of_rows = arguments;
+  std::optional<Configuration> made;  // what the rows were, where that is asked for
+  const auto rowsMade = [&]() -> const Configuration& {
+    if (!made) made = madeOf(shards.front(), settings, of_rows);
+    return *made;
+  };
   RowFields sample;
   if (!arguments.table.empty()) {
-    BatchArguments of_rows = arguments;
-    const Configuration configuration = madeOf(shards.front(), settings, of_rows);
+    const Configuration& configuration = rowsMade();
     sample = batchSample(configuration.model.formulation, configuration.device.isStated(),
                          mayCallHalfSpace(configuration));
     checkTable(arguments.table, arguments.form, columnsOf(sample));
@@ -266,8 +272,7 @@ int merge(const BatchArguments& arguments) {
             << " shards\n";
   tabulate(arguments, sample);
   if (!arguments.parts.empty()) {
-    BatchArguments of_rows = arguments;
-    const Configuration configuration = madeOf(shards.front(), settings, of_rows);
+    const Configuration& configuration = rowsMade();
     askForPart(arguments, configuration);
     pool(of_rows, of_rows.inputs, configuration);
   }
