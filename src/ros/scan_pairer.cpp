@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kNear = 1.0;  // between stamps that may have been meant to be one [s]
 
-constexpr const char* kNoStamp =
-    "it has no stamp (0), so nobody can tell which scan_info belongs to which image; give each "
-    "scan a header.stamp of its own, or set use_scan_info to false";
+constexpr const char* kNeedsOwnStamp =
+    ", so nobody can tell which scan_info belongs to which image; give each scan a header.stamp "
+    "of its own, or set use_scan_info to false";
 
 constexpr const char* kDoubtful =
     "; a scan of this stamp that was predicted before may have got the scan_info of another";
@@ -71,6 +71,8 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
 }
 
 }  // namespace
+
+std::string whySharedStamp() { return std::string("another scan has its stamp") + kNeedsOwnStamp; }
 
 ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject,
                        std::size_t max_bytes)
@@ -142,7 +144,7 @@ void ScanPairer::add(const Message& message, ros::SteadyTime now, Topic<Message>
                      Topic<Other>& other) {
   const ros::Time at = message->header.stamp;
   if (at.isZero()) {
-    giveUp(message->header, kNoStamp, topic, other);
+    giveUp(message->header, std::string("it has no stamp (0)") + kNeedsOwnStamp, topic, other);
     return;
   }
   const std::uint32_t number = message->header.seq;
@@ -164,7 +166,7 @@ void ScanPairer::add(const Message& message, ros::SteadyTime now, Topic<Message>
   }
   stamp.last = now;
   if (half.has_come) {
-    const std::string reason = std::string(kSharedStamp) + (stamp.is_paired ? kDoubtful : "");
+    const std::string reason = whySharedStamp() + (stamp.is_paired ? kDoubtful : "");
     rejectOf(at, reason, topic, other);
     rejectOf(at, reason, other, topic);
     giveUp(message->header, reason, topic, other);

@@ -29,9 +29,7 @@
 namespace mems_stiction {
 
 /// Why scans that share a stamp are not taken, and what to do.
-inline constexpr char kSharedStamp[] =
-    "another scan has its stamp, so nobody can tell which scan_info belongs to which image; give "
-    "each scan a header.stamp of its own, or set use_scan_info to false";
+std::string whySharedStamp();
 
 /// Holds back each half of a pair until the other one comes, or time is up.
 class ScanPairer {

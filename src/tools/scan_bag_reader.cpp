@@ -203,7 +203,7 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message,
       if (place < 0 || place >= size) continue;
       const auto info = instantiateInfo(infos[static_cast<std::size_t>(place)]);
       if (info->header.stamp != image->header.stamp) continue;
-      if (found && contentOf(*info) != contentOf(*found)) throw SurfaceError(kSharedStamp);
+      if (found && contentOf(*info) != contentOf(*found)) throw SurfaceError(whySharedStamp());
       if (!found) found = info;
     }
   }
