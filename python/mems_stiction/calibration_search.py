@@ -38,10 +38,9 @@ class Surrogate:
 
         self.nodes = nodes
         grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
-        self._prepare([tuple(parameters) for parameters in grid.reshape(-1, len(nodes))])
-        values = np.array(
-            [self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))]
-        )
+        places = [tuple(parameters) for parameters in grid.reshape(-1, len(nodes))]
+        self._prepare(places)
+        values = np.array([self._at(parameters) for parameters in places])
         values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
         self.interpolation = (
             PchipInterpolator(nodes[0], values, axis=0)
