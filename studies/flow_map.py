@@ -182,8 +182,8 @@ def section_of(lines, arguments):
         text += [
             "",
             "Where they flow, the share of the contact that has flowed is within 0.1 of the "
-            "half-space's on %.0f %%, and the heights that are lost differ by %.0f %% in the "
-            "median, rms, and by up to 20 %% on %.0f %%."
+            "half-space's on %.0f %%. The heights that are lost differ by %.0f %% in the median, "
+            "rms, and by up to 20 %% on %.0f %%."
             % (
                 100 * np.mean([abs(line["share"]) < 0.1 for line in flowed]),
                 100 * np.median(errors),
