@@ -532,7 +532,7 @@ class BatchTest(unittest.TestCase):
 
     def test_a_scan_that_ends_the_program_gets_a_row_and_the_others_theirs(self):
         scans = [self.scan("%d.txt" % number, number) for number in range(6)]
-        rough = 1e-9 * np.random.RandomState(2).standard_normal((1024, 1024))
+        rough = 1e-9 * np.random.RandomState(2).standard_normal((2048, 2048))
         np.save(str(self.folder / "large.npy"), rough)
         (self.folder / "large.npy.yaml").write_text("pitch_x: 2.0e-8\npitch_y: 2.0e-8\n")
         scans.insert(2, self.folder / "large.npy")
