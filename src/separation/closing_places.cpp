@@ -76,6 +76,24 @@ void ClosingPlaces::readRows() {
   rows_.resize(row_of_line_.size() * cols);
   for (std::size_t i = 0; i < row_of_line_.size(); ++i)
     field_->gapsOfRow(row_of_line_[i], rows_.data() + i * cols);
+  sumRows();
+}
+
+void ClosingPlaces::sumRows() {
+  const auto cols = static_cast<std::size_t>(field_->cols());
+  sums_before_.resize(row_of_line_.size() * (cols + 1));
+  for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
+    const double* gaps = rows_.data() + line * cols;
+    GapSum* before = sums_before_.data() + line * (cols + 1);
+    GapSum sum;
+    for (std::size_t col = 0; col < cols; ++col) {
+      before[col] = sum;
+      const bool is_known = gaps[col] <= field_->largestGap();
+      sum.cells += is_known ? 1.0 : 0.0;
+      sum.gaps += is_known ? gaps[col] : 0.0;
+    }
+    before[cols] = sum;
+  }
 }
 
 void ClosingPlaces::readColumns() {
@@ -104,22 +122,19 @@ void ClosingPlaces::takePlaces(int divisions) {
       Place place;
       place.rows = {firstOf(i, down, field_->rows()), firstOf(i + 1, down, field_->rows())};
       place.cols = {firstOf(j, along, field_->cols()), firstOf(j + 1, along, field_->cols())};
-      double cells = 0.0;
-      double known = 0.0;
-      double sum = 0.0;
+      int lines = 0;
+      GapSum sum;
       for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
         if (row_of_line_[line] < place.rows.from || row_of_line_[line] >= place.rows.to) continue;
-        const double* gaps = rows_.data() + line * static_cast<std::size_t>(field_->cols());
-        for (int col = place.cols.from; col < place.cols.to; ++col) {
-          const bool is_known = gaps[col] <= field_->largestGap();
-          cells += 1.0;
-          known += is_known ? 1.0 : 0.0;
-          sum += is_known ? gaps[col] : 0.0;
-        }
+        ++lines;
+        const GapSum* before =
+            sums_before_.data() + line * (static_cast<std::size_t>(field_->cols()) + 1);
+        sum.cells += before[place.cols.to].cells - before[place.cols.from].cells;
+        sum.gaps += before[place.cols.to].gaps - before[place.cols.from].gaps;
       }
-      if (!(known > 0.0)) continue;
-      place.mean_gap = sum / known;
-      place.area = known / cells * place.rows.length() * place.cols.length() * field_->cellArea();
+      if (!(sum.cells > 0.0)) continue;
+      place.mean_gap = sum.gaps / sum.cells;
+      place.area = sum.cells / lines * place.rows.length() * field_->cellArea();
       places_.push_back(place);
     }
   }
