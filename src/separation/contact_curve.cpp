@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "numeric/constants.hpp"
 #include "separation/real_area.hpp"
@@ -20,6 +21,31 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 /// So many times the cells that came in reach without flow are put in order at once: it decides on
 /// time alone.
 constexpr double kMoreInReach = 2.0;
+
+/// Rms slope of the gap from cell to cell [-].
+double rmsSlope(const GapField& field) {
+  const auto cols = static_cast<std::size_t>(field.cols());
+  std::vector<double> row(cols);
+  std::vector<double> above(cols, GapField::kInvalidGap);
+  double along = 0.0;
+  double down = 0.0;
+  double along_count = 0.0;
+  double down_count = 0.0;
+  const auto add = [](double difference, double& sum, double& count) {
+    if (!std::isfinite(difference)) return;
+    sum += difference * difference;
+    count += 1.0;
+  };
+  for (int i = 0; i < field.rows(); ++i) {
+    field.gapsOfRow(i, row.data());
+    for (std::size_t col = 0; col < cols; ++col) {
+      add((row[col] - above[col]) / field.pitchY(), down, down_count);
+      if (col > 0) add((row[col] - row[col - 1]) / field.pitchX(), along, along_count);
+    }
+    row.swap(above);
+  }
+  return std::sqrt(along / std::max(along_count, 1.0) + down / std::max(down_count, 1.0));
+}
 
 /// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges,
 /// and a force that is the difference of larger ones, so that what is out in these weighs more in
@@ -122,7 +148,7 @@ void ContactCurve::takeFlow(const FlowingPlaces& flow) {
   }
 }
 
-// (S13d)
+// (S13d), (S13e)
 void ContactCurve::growTo(double load, double gaps) {
   const SeparationState& rest = loading_.rest();
   if (!(load > rest.carried)) return;
@@ -146,7 +172,11 @@ void ContactCurve::growTo(double load, double gaps) {
               (cells - cells_before) * (load - carried_before) / (carried - carried_before);
     }
   }
-  by_contacts_.contact_area *= cells / cells_at_rest;
+  const double pressure = load / frame_.area();
+  const double slope = rmsSlope(frame_.field());
+  by_contacts_.contact_area = std::max(
+      by_contacts_.contact_area * cells / cells_at_rest,
+      frame_.area() * touchingShare(pressure, frame_.patchForces().contactModulus(), slope));
 }
 
 double ContactCurve::takeContacts() {

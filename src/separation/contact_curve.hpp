@@ -90,7 +90,8 @@ class ContactCurve {
   /// areas, which contain all that is pressed.
   void takeFlow(const FlowingPlaces& flow);
   /// Lets the contact area grow where a load is more than the contacts carry at the end of the
-  /// search: all of them as one patch, whose overlap is that of the heights.
+  /// search: all of them as one patch, whose overlap is that of the heights, and at least that of a
+  /// random surface of these slopes.
   /// - @p gaps that takeContacts() has summed
   void growTo(double load, double gaps);
   /// Where the unloading branch is another than the loading branch: of surfaces that have flowed,

@@ -40,6 +40,11 @@ double touchingShare(double flatness) {
   return std::pow(std::sqrt(kPi) * ratio, -growth);
 }
 
+double touchingShare(double pressure, double contact_modulus, double rms_slope) {
+  const double flattening = contact_modulus * rms_slope;
+  return flattening > 0.0 ? std::erf(std::sqrt(kPi) * pressure / flattening) : 1.0;
+}
+
 double realCells(const PatchAtRest& patch) {
   const double of_bodies = std::min(1.0, touchingShare(patch.load.flatness) * wideningOf(patch));
   // what the layer takes of the overlap bends nothing: there all of it touches

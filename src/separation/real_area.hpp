@@ -23,6 +23,13 @@ struct PatchAtRest {
 /// - @p flatness 1 - m, A ~ delta^m, from 0 to 1
 double touchingShare(double flatness);
 
+/// Share of a random surface that touches under a pressure [-]: erf(sqrt(pi) p/(E h')), Persson's
+/// law with the slope that solved surfaces have while little touches, 2 p/(E h') (Prodanov, Dapp,
+/// Mueser, Tribol. Lett. 53 (2014) 433).
+/// - @p pressure p on the whole [Pa], @p contact_modulus E [Pa], @p rms_slope h' [-]; all of a
+/// surface without slope touches
+double touchingShare(double pressure, double contact_modulus, double rms_slope);
+
 /// Cells that repel each other, one at least: a half-space knows no smaller contact.
 double realCells(const PatchAtRest& patch);
 

@@ -43,6 +43,15 @@ TEST(RealArea, goesFromHalfOfAParaboloidsOverlapToAllOfAPunchs) {
   EXPECT_NEAR(realCells(patch), touching(std::sqrt(3.0 / 8.0)), 1e-9);
 }
 
+TEST(RealArea, ofARandomSurfaceGoesFromTwoPressuresToAll) {
+  const double flattening = 100e9 * 0.02;  // E h'
+  EXPECT_EQ(touchingShare(0.0, 100e9, 0.02), 0.0);
+  EXPECT_NEAR(touchingShare(0.01 * flattening, 100e9, 0.02), 0.02, 1e-5);
+  EXPECT_NEAR(touchingShare(flattening / std::sqrt(kPi), 100e9, 0.02), 0.8427008, 1e-7);
+  EXPECT_DOUBLE_EQ(touchingShare(5.0 * flattening, 100e9, 0.02), 1.0);
+  EXPECT_DOUBLE_EQ(touchingShare(1.0, 100e9, 0.0), 1.0);
+}
+
 TEST(RealArea, ofASoftSphereIsThatPartOfJkrsContactThatPresses) {
   constexpr double kModulus = 1e9;
   constexpr double kRadius = 1e-6;

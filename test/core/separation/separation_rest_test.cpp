@@ -1,9 +1,11 @@
 /// Where surfaces come to rest that could rest in more than one place.
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "numeric/constants.hpp"
 #include "separation/contact_curve.hpp"
 #include "support/sample_frames.hpp"
 #include "support/separation_cases.hpp"
@@ -92,6 +94,18 @@ TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {
     EXPECT_NEAR(ended.contact_area, whole.contact_area, 0.15 * whole.contact_area) << share;
     EXPECT_GT(ended.contact_area, 1.2 * before) << share;
   }
+}
+
+TEST(SeparationRest, allTouchesUnderALoadThatPressesTheSurfaceFlat) {
+  const HeightMap surface = samples::gaussian(64, 64, 4e-9, 4e-9, 2e-9, 30e-9, 1);
+  const double slope = 2.0 * 2e-9 / 30e-9;
+  const double area = 64 * 64 * 4e-9 * 4e-9;
+  const auto touching = [&](double pressure) {
+    const Options options = separation_cases::elastic(50e9, pressure * area);
+    return AdhesionModel(options).predict(surface).contact_area / area;
+  };
+  EXPECT_GT(touching(50e9 * slope / std::sqrt(kPi)), 0.8);
+  EXPECT_GT(touching(50e9 * slope * 1.5), 0.99);
 }
 
 TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
