@@ -6,6 +6,7 @@
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/checked_messages.hpp"
 #include "ros/own_log.hpp"
@@ -256,7 +257,16 @@ void LineSource::add(const std_msgs::Header& header, Placed line) {
   scan_->last = line.progress;
   const double way = line.progress - scan_->origin;
   if (std::abs(way) > std::abs(scan_->furthest)) scan_->furthest = way;
+  scan_->points += line.points.size();
   scan_->lines.push_back(std::move(line.points));
+  if (scan_->points > kMaxPixels) {
+    accounting_.refused(linesName(scan_->first),
+                        "more than " + std::to_string(kMaxPixels) +
+                            " points without an end: set max_lines, end_at_turn or pause, "
+                            "or call ~end_scan");
+    scan_.reset();
+    return;
+  }
   if (options.max_lines > 0 && static_cast<int>(scan_->lines.size()) >= options.max_lines) end();
 }
 

@@ -6,6 +6,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -30,6 +31,10 @@ from std_msgs.msg import Bool, String
 from std_srvs.srv import Trigger
 from stiction_client import TIMEOUT, Collector, settings_of, source_counts, wait_until
 from tf2_msgs.msg import TFMessage
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
+
+from tiers import evidence  # noqa: E402  (the path comes first)
 
 
 class Scanner:
@@ -99,6 +104,21 @@ class LinesTest(unittest.TestCase):
         self.assertTrue(scanner.end().success)
         self.check(scanner, expected)
         scanner.counts.wait(found=1, published=1, waiting=0, lines=LINES)
+
+    @evidence
+    def test_1_a_scan_that_never_ends_is_refused_before_the_memory_does(self):
+        scanner = Scanner(self, "endless", motion="count", line_pitch=LINE_PITCH)
+        scanner.begin()
+        message = line(np.zeros(1000000), rospy.Time.from_sec(1000.0))
+        for number in range(1, 102):
+            scanner.sensor.publish(message)
+            scanner.counts.wait(lines=number)
+        self.assertRegex(scanner.refused.wait(1)[0].data, "100000000 points.*max_lines")
+        scanner.send(lines_of())
+        scanner.counts.wait(lines_of_this_scan=LINES)
+        scanner.end()
+        self.check(scanner, lines_of())
+        scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
 
     def test_2_a_speed_and_a_number_of_lines_make_one_scan_after_the_other(self):
         scanner = Scanner(self, "speed", motion="speed", speed=LINE_PITCH / 0.01, max_lines=LINES)
