@@ -228,27 +228,38 @@ FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double
   return attraction;
 }
 
-template <typename OfGap, typename OfMoments>
+template <typename AddCells, typename OfMoments>
 double FrameSums::sumApart(double approach, int contact_count, const ContactTraction& law,
-                           const OfGap& of_gap, const OfMoments& of_moments) const {
+                           const AddCells& add_cells, const OfMoments& of_moments) const {
   double sum = 0.0;
   const auto add_moments = [&](const GapMoments& gaps) {
     sum += gaps.count * of_moments(gaps, gaps.mean - approach);
   };
   pyramid_.visit(
       approach, contact_count, ruleOf(law),
-      [&](const OrderedCell* cells, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) sum += of_gap(cells[i].gap - approach);
-      },
+      [&](const OrderedCell* cells, std::size_t count) { add_cells(cells, count, sum); },
       add_moments);
   if (far_ != nullptr) std::for_each(far_->moments().begin(), far_->moments().end(), add_moments);
   return sum;
 }
 
+MEMS_STICTION_VECTORIZED void FrameSums::addEnergies(const ContactTraction& law,
+                                                     const OrderedCell* cells, std::size_t count,
+                                                     double approach, double& sum) {
+  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Packet& gap) {
+    const Packet energy = law.energy(gap);
+    for (std::size_t i = 0; i < Packet::kCount; ++i) sum += energy[i];
+  });
+  for (std::size_t i = in_fours; i < count; ++i) sum += law.energy(cells[i].gap - approach);
+}
+
 double FrameSums::energyAt(const ContactTraction& law, double approach) {
   const int contact_count = overlappingAt(approach);
   const double sum = sumApart(
-      approach, contact_count, law, [&](double gap) { return law.energy(gap); },
+      approach, contact_count, law,
+      [&](const OrderedCell* cells, std::size_t count, double& energy) {
+        addEnergies(law, cells, count, approach, energy);
+      },
       [&](const GapMoments& gaps, double gap) { return law.meanEnergy(gap, gaps.variance); });
   return field_->cellArea() * (sum + contact_count * law.workOfAdhesion());
 }
@@ -259,7 +270,10 @@ double FrameSums::lastingFieldEnergy(double approach) {
   const FieldLaw& field = *voltage_;
   const int contact_count = overlappingAt(approach);
   const double sum = sumApart(
-      approach, contact_count, law(), [&](double gap) { return field.energy(gap); },
+      approach, contact_count, law(),
+      [&](const OrderedCell* cells, std::size_t count, double& energy) {
+        for (std::size_t i = 0; i < count; ++i) energy += field.energy(cells[i].gap - approach);
+      },
       [&](const GapMoments& gaps, double gap) {
         return field.energy(gap) - 0.5 * field.slope(gap) * gaps.variance;
       });

@@ -140,10 +140,13 @@ class FrameSums {
   Attraction attractionAt(const ContactTraction& law, double approach, double hold);
   double energyAt(const ContactTraction& law, double approach);
   /// Sums an energy over the cells apart [J/m^2 times their number].
-  /// - @p of_gap of one cell; @p of_moments of several, by their gaps and mean gap less approach
-  template <typename OfGap, typename OfMoments>
+  /// - @p add_cells(cells, count, sum) one by one; @p of_moments of several, by their gaps and mean
+  /// gap less approach
+  template <typename AddCells, typename OfMoments>
   double sumApart(double approach, int contact_count, const ContactTraction& law,
-                  const OfGap& of_gap, const OfMoments& of_moments) const;
+                  const AddCells& add_cells, const OfMoments& of_moments) const;
+  static void addEnergies(const ContactTraction& law, const OrderedCell* cells, std::size_t count,
+                          double approach, double& sum);
 
   const GapField* field_ = nullptr;
   const FarGaps* far_ = nullptr;

@@ -68,7 +68,7 @@ class LineSource {
   struct Scan {
     std_msgs::Header first;  ///< of its first line; seq counts the lines
     std::vector<ScanLine> lines;
-    std::uint64_t points = 0;  ///< of all lines
+    std::uint64_t points = 0;                      ///< of all lines
     std::uint32_t first_number = 0, repeated = 0;  ///< of the sequence; lines of one stamp
     std::optional<cv::Vec3d> start, direction;     ///< of the stage, by tf
     double origin = 0.0, last = 0.0;               ///< progress of the first and the last line
