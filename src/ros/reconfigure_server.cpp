@@ -8,11 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include <dynamic_reconfigure/Reconfigure.h>
+
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/own_log.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/option_values.hpp"
@@ -68,8 +71,8 @@ RunningSettings changedBy(const dynamic_reconfigure::Config& message, RunningSet
   return settings;
 }
 
-ShownConfig configOf(const RunningSettings& settings) {
-  ShownConfig config(StictionConfig::__getDefault__());
+StictionConfig configOf(const RunningSettings& settings) {
+  StictionConfig config = StictionConfig::__getDefault__();
   dynamic_reconfigure::Config message;
   visitValues(settings, [&message](const std::string& key, const auto& value) {
     auto& entry = entriesOf<std::decay_t<decltype(value)>>(message).emplace_back();
@@ -81,7 +84,7 @@ ShownConfig configOf(const RunningSettings& settings) {
 }
 
 template <typename Value>
-std::string shown(const Value& value) {
+std::string textOf(const Value& value) {
   PlainStream text;
   text << value;
   return text.str();
@@ -92,7 +95,7 @@ void compare(const List& before, const List& now, std::string& differences) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (before[i].value == now[i].value) continue;
     differences += (differences.empty() ? "" : "; ") + now[i].name + " was " +
-                   shown(before[i].value) + " and is " + shown(now[i].value);
+                   textOf(before[i].value) + " and is " + textOf(now[i].value);
   }
 }
 
@@ -114,49 +117,56 @@ std::string lostSettings(const ros::NodeHandle& private_handle, const RunningSet
          oneLine(shortened(differences, kLongestSentence));
 }
 
-ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
-  // What an earlier run left would be taken for the settings of this one.
-  private_handle.deleteParam(kReconfigureParameters);
-  ros::M_string remappings;
-  for (const char* name : {"set_parameters", "parameter_descriptions", "parameter_updates"}) {
-    remappings[name] = private_handle.resolveName(name);
-  }
-  return ros::NodeHandle(private_handle, kReconfigureParameters, remappings);
-}
-
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle,
-                                     const SettingsOwner& settings, Change change,
+ReconfigureServer::ReconfigureServer(ros::NodeHandle& private_handle, const SettingsOwner& settings,
+                                     double max_message_size, Change change,
                                      std::function<void()> changed)
     : settings_(settings),
       change_(std::move(change)),
       changed_(std::move(changed)),
       mirror_name_(private_handle.resolveName(kReconfigureParameters)),
-      lost_(lostSettings(private_handle, settings.current())),
-      server_(std::make_unique<dynamic_reconfigure::Server<ShownConfig>>(
-          mutex_, reconfigureHandle(private_handle))) {
+      lost_(lostSettings(private_handle, settings.current())) {
   if (!lost_.empty()) logSoon(ros::console::levels::Warn, lost_);
-  server_->updateConfig(configOf(settings.current()));
+  // What an earlier run left would be taken for the settings of this one.
+  private_handle.deleteParam(kReconfigureParameters);
+  descriptions_ = private_handle.advertise<dynamic_reconfigure::ConfigDescription>(
+      "parameter_descriptions", 1, true);
+  descriptions_.publish(StictionConfig::__getDescriptionMessage__());
+  updates_ = private_handle.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
+  updates_.publish(shown());
   setParameterAtStart(mirror_name_, mirror());
-  bool is_first = true;  // setCallback() calls at once, with what is set
-  server_->setCallback([this, is_first](ShownConfig& config, std::uint32_t) mutable {
-    if (!std::exchange(is_first, false)) take(config);
-  });
+  using Service = dynamic_reconfigure::Reconfigure;
+  service_ = advertiseChecked<Service>(
+      private_handle, "set_parameters",
+      {[this](Service::Request& request, Service::Response& response) {
+         take(request.config);
+         response.config = shown();
+       },
+       [this](Service::Response& response, const std::string& reason) {
+         logSoon(ros::console::levels::Warn, "reconfigure refused, nothing changed: " + reason);
+         response.config = shown();
+       },
+       max_message_size});
 }
 
 void ReconfigureServer::show() {
   forgetLost();
-  server_->updateConfig(configOf(settings_.current()));
+  updates_.publish(shown());
   changed_();
 }
 
+dynamic_reconfigure::Config ReconfigureServer::shown() const {
+  dynamic_reconfigure::Config message;
+  configOf(settings_.current()).__toMessage__(message);
+  return message;
+}
+
 XmlRpc::XmlRpcValue ReconfigureServer::mirror() const {
-  dynamic_reconfigure::Config shown;
-  configOf(settings_.current()).__toMessage__(shown);
+  const dynamic_reconfigure::Config settings = shown();
   XmlRpc::XmlRpcValue mirror;
-  for (const auto& entry : shown.doubles) mirror[entry.name] = entry.value;
-  for (const auto& entry : shown.strs) mirror[entry.name] = entry.value;
+  for (const auto& entry : settings.doubles) mirror[entry.name] = entry.value;
+  for (const auto& entry : settings.strs) mirror[entry.name] = entry.value;
   return mirror;
 }
 
@@ -174,8 +184,12 @@ void ReconfigureServer::forgetLost() {
   lost_.clear();
 }
 
-void ReconfigureServer::take(ShownConfig& config) {
+void ReconfigureServer::take(dynamic_reconfigure::Config& wanted) {
+  const boost::recursive_mutex::scoped_lock lock(mutex_);
   try {
+    StictionConfig config = configOf(settings_.current());
+    config.__fromMessage__(wanted);
+    config.__clamp__();
     dynamic_reconfigure::Config message;
     config.__toMessage__(message);
     change_(changedBy(message, settings_.current()));
@@ -185,13 +199,12 @@ void ReconfigureServer::take(ShownConfig& config) {
     for (const std::string& line : error.violations()) {
       logSoon(ros::console::levels::Warn, "reconfigure refused, nothing changed: " + line);
     }
-    config = configOf(settings_.current());
   } catch (const std::future_error&) {
-    config = configOf(settings_.current());  // the node is shutting down
+    // the node is shutting down
   } catch (const std::exception& error) {  // such as memory that is not to be had: show what is set
     logSoon(ros::console::levels::Error, "reconfigure failed: " + oneLine(reasonOf(error)));
-    config = configOf(settings_.current());
   }
+  updates_.publish(shown());
 }
 
 }  // namespace mems_stiction

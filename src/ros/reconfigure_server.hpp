@@ -3,13 +3,15 @@
 /// @file
 /// dynamic_reconfigure beside the services: shows what is set, passes changes to the one setter,
 /// and puts back what it refuses.
+///
+/// Not by dynamic_reconfigure's own server: its requests are read by roscpp, which makes room for
+/// all that a list states, and it reads and writes parameters within the calls that it serves.
 
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <string>
 
-#include <dynamic_reconfigure/server.h>
+#include <dynamic_reconfigure/Config.h>
 #include <ros/node_handle.h>
 #include <boost/thread/recursive_mutex.hpp>
 
@@ -18,19 +20,6 @@
 #include "ros/master_calls.hpp"
 
 namespace mems_stiction {
-
-/// Whom dynamic_reconfigure's server asks to read and write parameters, within the calls that it
-/// serves and under the lock of all parameters. They do nothing here, where the mirror is written
-/// by a thread that may wait for the master.
-struct ShownConfig : StictionConfig {
-  ShownConfig() = default;
-  ShownConfig(const StictionConfig& config)
-      : StictionConfig(config) {}  // NOLINT(google-explicit-constructor): as the server converts
-  void __toServer__(const ros::NodeHandle& /*handle*/) const {
-  }  // NOLINT(readability-identifier-naming,bugprone-reserved-identifier)
-  void __fromServer__(const ros::NodeHandle& /*handle*/) {
-  }  // NOLINT(readability-identifier-naming,bugprone-reserved-identifier)
-};
 
 /// One per node; the thread of its queue calls back.
 class ReconfigureServer {
@@ -41,9 +30,10 @@ class ReconfigureServer {
   /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads,
   /// stand in `reconfigure` there, where they cannot be taken for settings.
   /// - @p settings outlive the server
+  /// - @p max_message_size of a request [bytes]
   /// - @p changed the mirror is to be written
-  ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
-                    Change change, std::function<void()> changed);
+  ReconfigureServer(ros::NodeHandle& private_handle, const SettingsOwner& settings,
+                    double max_message_size, Change change, std::function<void()> changed);
 
   /// Held from reading the settings to changing them, so that a change by a service and one by
   /// reconfigure do not undo each other.
@@ -61,7 +51,8 @@ class ReconfigureServer {
  private:
   void forgetLost();
   XmlRpc::XmlRpcValue mirror() const;
-  void take(ShownConfig& config);
+  dynamic_reconfigure::Config shown() const;
+  void take(dynamic_reconfigure::Config& wanted);
 
   boost::recursive_mutex mutex_;
   const SettingsOwner& settings_;
@@ -70,7 +61,9 @@ class ReconfigureServer {
   const std::string mirror_name_;
   mutable std::mutex lost_mutex_;  ///< held for a moment only, unlike the other
   std::string lost_;
-  std::unique_ptr<dynamic_reconfigure::Server<ShownConfig>> server_;
+  ros::Publisher descriptions_;
+  ros::Publisher updates_;
+  ros::ServiceServer service_;
 };
 
 }  // namespace mems_stiction

@@ -105,7 +105,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           },
           static_cast<std::size_t>(options_.max_waiting_memory)),
       reconfigure_(
-          service_handle_, predictor_.settings(),
+          service_handle_, predictor_.settings(), options_.max_message_size,
           [this](const auto& settings) { change(settings); }, [this] { master_->writeSoon(this); }),
       actions_(
           service_handle_, options_.max_message_size,

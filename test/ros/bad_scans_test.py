@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Bad scans between good ones: each is counted with its reason, and the good ones go on."""
 
+import struct
 import time
 import unittest
 
 import numpy as np
 import rospy
 import rostest
+from dynamic_reconfigure.srv import Reconfigure
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from mems_stiction.srv import Predict, PredictRequest
 from rosgraph_msgs.msg import Log
@@ -38,6 +40,10 @@ class BytesRequest(AnyMsg):
 
 
 class BytesPredict(Predict):
+    _request_class = BytesRequest
+
+
+class BytesReconfigure(Reconfigure):
     _request_class = BytesRequest
 
 
@@ -199,6 +205,10 @@ class BadScansTest(unittest.TestCase):
         )
         self.assertFalse(refused.success)
         self.assertIn("states 4294967295 elements", refused.message)
+        shown = rospy.ServiceProxy("stiction_node/set_parameters", BytesReconfigure)(
+            BytesRequest(struct.pack("<I", 10**8) + bytes(16))  # a hundred million flags
+        )
+        self.assertIn("voltage", [entry.name for entry in shown.config.doubles])
         request.height = image_message(surface, rospy.Time(8011))
         answer = rospy.ServiceProxy("stiction_node/predict", Predict)(request)
         self.assertTrue(answer.success, answer.message)
