@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "numeric/constants.hpp"
+#include "numeric/packet.hpp"
+#include "numeric/vectorized.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -17,10 +19,12 @@ int firstOf(int index, int parts, int cells) {
   return static_cast<int>(static_cast<std::int64_t>(index) * cells / parts);
 }
 
-/// Into how many a side is divided that is to be divided into `divisions`: blocks have kPlaceCells
-/// cells or more.
+/// Into how many a side is divided that is to be divided into `divisions`, a power of two: blocks
+/// have kPlaceCells cells or more.
 int partsOf(int cells, int divisions) {
-  return std::clamp(cells / chosen::kPlaceCells, 1, divisions);
+  int parts = 1;
+  while (2 * parts <= divisions && 2 * parts * chosen::kPlaceCells <= cells) parts *= 2;
+  return parts;
 }
 
 /// Lines that tell the flattening energy: the same as of the whole frame.
@@ -28,6 +32,27 @@ void chooseLines(int count, std::vector<int>& lines) {
   const int step = std::max(1, count / chosen::kLines);
   lines.clear();
   for (int line = step / 2; line < count; line += step) lines.push_back(line);
+}
+
+/// How many gaps are known, no larger than this, and their sum.
+MEMS_STICTION_VECTORIZED void addKnown(const double* gaps, std::size_t count, double largest,
+                                       double& known, double& sum) {
+  Packet knowns = 0.0;
+  Packet sums = 0.0;
+  std::size_t i = 0;
+  for (; i + Packet::kCount <= count; i += Packet::kCount) {
+    const Packet gap = Packet::load(gaps + i);
+    const PacketMask is_unknown = gap > largest;
+    knowns += select(is_unknown, Packet(0.0), Packet(1.0));
+    sums += select(is_unknown, Packet(0.0), gap);
+  }
+  for (; i < count; ++i) {
+    if (gaps[i] > largest) continue;
+    known += 1.0;
+    sum += gaps[i];
+  }
+  known += knowns.sum();
+  sum += sums.sum();
 }
 
 }  // namespace
@@ -76,23 +101,26 @@ void ClosingPlaces::readRows() {
   rows_.resize(row_of_line_.size() * cols);
   for (std::size_t i = 0; i < row_of_line_.size(); ++i)
     field_->gapsOfRow(row_of_line_[i], rows_.data() + i * cols);
-  sumRows();
+  sumBlocks();
 }
 
-void ClosingPlaces::sumRows() {
-  const auto cols = static_cast<std::size_t>(field_->cols());
-  sums_before_.resize(row_of_line_.size() * (cols + 1));
+void ClosingPlaces::sumBlocks() {
+  const int rows = field_->rows();
+  const int cols = field_->cols();
+  down_ = partsOf(rows, chosen::kPlacesPerSide);
+  along_ = partsOf(cols, chosen::kPlacesPerSide);
+  blocks_.assign(static_cast<std::size_t>(down_) * static_cast<std::size_t>(along_), {});
+  int i = 0;
   for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
-    const double* gaps = rows_.data() + line * cols;
-    GapSum* before = sums_before_.data() + line * (cols + 1);
-    GapSum sum;
-    for (std::size_t col = 0; col < cols; ++col) {
-      before[col] = sum;
-      const bool is_known = gaps[col] <= field_->largestGap();
-      sum.cells += is_known ? 1.0 : 0.0;
-      sum.gaps += is_known ? gaps[col] : 0.0;
+    while (row_of_line_[line] >= firstOf(i + 1, down_, rows)) ++i;
+    const double* gaps = rows_.data() + line * static_cast<std::size_t>(cols);
+    for (int j = 0; j < along_; ++j) {
+      GapSum& block = blocks_[static_cast<std::size_t>(i * along_ + j)];
+      const int from = firstOf(j, along_, cols);
+      const auto count = static_cast<std::size_t>(firstOf(j + 1, along_, cols) - from);
+      block.cells += static_cast<double>(count);
+      addKnown(gaps + from, count, field_->largestGap(), block.known, block.gaps);
     }
-    before[cols] = sum;
   }
 }
 
@@ -122,19 +150,19 @@ void ClosingPlaces::takePlaces(int divisions) {
       Place place;
       place.rows = {firstOf(i, down, field_->rows()), firstOf(i + 1, down, field_->rows())};
       place.cols = {firstOf(j, along, field_->cols()), firstOf(j + 1, along, field_->cols())};
-      int lines = 0;
       GapSum sum;
-      for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
-        if (row_of_line_[line] < place.rows.from || row_of_line_[line] >= place.rows.to) continue;
-        ++lines;
-        const GapSum* before =
-            sums_before_.data() + line * (static_cast<std::size_t>(field_->cols()) + 1);
-        sum.cells += before[place.cols.to].cells - before[place.cols.from].cells;
-        sum.gaps += before[place.cols.to].gaps - before[place.cols.from].gaps;
+      for (int k = i * down_ / down; k < (i + 1) * down_ / down; ++k) {
+        for (int l = j * along_ / along; l < (j + 1) * along_ / along; ++l) {
+          const GapSum& block = blocks_[static_cast<std::size_t>(k * along_ + l)];
+          sum.cells += block.cells;
+          sum.known += block.known;
+          sum.gaps += block.gaps;
+        }
       }
-      if (!(sum.cells > 0.0)) continue;
-      place.mean_gap = sum.gaps / sum.cells;
-      place.area = sum.cells / lines * place.rows.length() * field_->cellArea();
+      if (!(sum.known > 0.0)) continue;
+      place.mean_gap = sum.gaps / sum.known;
+      place.area =
+          sum.known / sum.cells * place.rows.length() * place.cols.length() * field_->cellArea();
       places_.push_back(place);
     }
   }

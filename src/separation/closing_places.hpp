@@ -57,15 +57,16 @@ class ClosingPlaces {
     double energy = 0.0;    ///< U/A [J/m^2]
   };
 
-  /// Over the known cells of a line.
+  /// Over the lines of a block.
   struct GapSum {
     double cells = 0.0;
-    double gaps = 0.0;  ///< [m]
+    double known = 0.0;  ///< of them
+    double gaps = 0.0;   ///< of those [m]
   };
 
   void start(const GapField& field, double contact_modulus);
   void readRows();
-  void sumRows();
+  void sumBlocks();
   void readColumns();
   /// The places of one size; none if their sides would be too short.
   void takePlaces(int divisions);
@@ -85,9 +86,11 @@ class ClosingPlaces {
   std::vector<Place> places_;
   std::vector<int> row_of_line_;
   std::vector<int> col_of_line_;
-  std::vector<double> rows_;         ///< lines, one behind the other [m]
-  std::vector<GapSum> sums_before_;  ///< of the cells before each of a line, and of the whole line
-  std::vector<double> columns_;      ///< the same; empty until they are asked for
+  std::vector<double> rows_;     ///< lines, one behind the other [m]
+  std::vector<double> columns_;  ///< the same; empty until they are asked for
+  int down_ = 1;                 ///< the smallest blocks, by rows and columns
+  int along_ = 1;
+  std::vector<GapSum> blocks_;  ///< of these, row by row
   StructureFunction along_rows_;
   StructureFunction along_columns_;
 };
