@@ -22,19 +22,23 @@ FirstPass firstPass(const cv::Mat& heights) {
   FirstPass pass;
   double origin = 0.0;
   double sum = 0.0;
+  double min = 0.0;  // numbers of their own stay in registers
+  double max = 0.0;
   for (int row = 0; row < heights.rows; ++row) {
     const Scalar* line = heights.ptr<Scalar>(row);
     for (int col = 0; col < heights.cols; ++col) {
       const double height = line[col];
       if (!std::isfinite(height)) continue;
-      if (pass.count == 0) origin = pass.min = pass.max = height;
-      pass.min = std::min(pass.min, height);
-      pass.max = std::max(pass.max, height);
+      if (pass.count == 0) origin = min = max = height;
+      min = std::min(min, height);
+      max = std::max(max, height);
       sum += height - origin;
       ++pass.count;
     }
   }
   if (pass.count == 0) throw SurfaceError("the height map has no valid pixel");
+  pass.min = min;
+  pass.max = max;
   pass.mean = origin + sum / static_cast<double>(pass.count);
   return pass;
 }
@@ -50,7 +54,9 @@ Gradients gradients(const HeightMap& surface) {
   const cv::Mat& heights = surface.heights();
   const double per_x = 0.5 / surface.pitchX();
   const double per_y = 0.5 / surface.pitchY();
-  Gradients sums;
+  long long count = 0;
+  double squares = 0.0;
+  double excess_area = 0.0;
   for (int row = 1; row + 1 < heights.rows; ++row) {
     const Scalar* above = heights.ptr<Scalar>(row - 1);
     const Scalar* line = heights.ptr<Scalar>(row);
@@ -63,13 +69,13 @@ Gradients gradients(const HeightMap& surface) {
       const double square = slope_x * slope_x + slope_y * slope_y;
       if (!std::isfinite(square) || !std::isfinite(line[col]))
         continue;  // an invalid neighbour reaches the square
-      sums.squares += square;
-      sums.excess_area +=
+      squares += square;
+      excess_area +=
           square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
-      ++sums.count;
+      ++count;
     }
   }
-  return sums;
+  return {count, squares, excess_area};
 }
 
 template <typename Scalar>
