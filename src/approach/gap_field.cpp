@@ -170,6 +170,22 @@ void GapField::lower(const GapField& field, const cv::Mat1d& lowering) {
   });
 }
 
+void GapField::lower(const GapField& field, const PressedCells& cells,
+                     const std::vector<double>& lowering) {
+  takeGrid(field);
+  upper_is_flat_ = field.upper_is_flat_;
+  if (!upper_is_flat_) lower_ = field.lower_;
+  fillRelief(relief_, [&](int row, double* line) {
+    field.gapsOfRow(row, line);
+    for (int col = 0; col < cols_; ++col) line[col] = -line[col];
+    const auto place = static_cast<std::size_t>(row);
+    for (int i = cells.row_begin[place]; i < cells.row_begin[place + 1]; ++i) {
+      const auto cell = static_cast<std::size_t>(i);
+      line[cells.columns[cell]] -= lowering[cell];
+    }
+  });
+}
+
 void GapField::computeAgainstPlane(const HeightMap& lower) {
   const auto copyInto = [&](auto& relief) {
     fillRelief(relief, [&](int row, auto* line) {

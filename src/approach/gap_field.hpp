@@ -25,6 +25,14 @@ struct StoredGaps {
   double operator[](std::ptrdiff_t cell) const { return top - static_cast<double>(relief[cell]); }
 };
 
+/// Some cells of a frame, row by row.
+struct PressedCells {
+  std::vector<int> row_begin;         ///< of each row's cells, and the end of the last one's
+  std::vector<std::int32_t> columns;  ///< of each cell
+
+  std::size_t count() const { return columns.size(); }
+};
+
 /// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they
 /// never come into contact and are left out of every sum. compute() reuses the memory of the
 /// previous frame.
@@ -40,6 +48,8 @@ class GapField {
   /// The gaps of another field whose relief has been lowered cell by cell [m], as a plate that
   /// tilts or bends does for itself.
   void lower(const GapField& field, const cv::Mat1d& lowering);
+  /// The same of some cells alone.
+  void lower(const GapField& field, const PressedCells& cells, const std::vector<double>& lowering);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }

@@ -91,14 +91,6 @@ void ContactCurve::comeToRest(const GapField& field, const ContactSettings& sett
   start(field, settings, nullptr, &flow, std::min(fraction, frame_.orderedFraction()));
 }
 
-SeparationState ContactCurve::restIfElastic(const ContactSettings& settings) {
-  if (!has_flowed_) return rest();
-  frame_.stopFlow();
-  SeparationCurve elastic;
-  followCurve(frame_, settings, elastic);
-  return elastic.rest();
-}
-
 void ContactCurve::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
                          const FlowingPlaces* flow, double fraction) {
   flow_ = flow;
@@ -114,20 +106,21 @@ void ContactCurve::start(const GapField& field, const ContactSettings& settings,
 }
 
 void ContactCurve::takeFlow(const FlowingPlaces& flow) {
-  const OverlapSweep& sweep = frame_.contactsAt(rest().approach);
+  OverlapSweep& sweep = frame_.contactsAt(rest().approach);
+  const GapField& field = frame_.field();
   std::vector<double> borne(contacts_.size(), 0.0);
   std::vector<double> by_flow(contacts_.size(), 0.0);
   std::vector<int> pressed(contacts_.size(), 0);
-  const auto placeOf = [&](const OrderedCell& ordered) {
-    return static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)));
-  };
-  for (int i = 0; i < sweep.cellCount(); ++i) {
-    const OrderedCell& ordered = frame_.orderedCells()[static_cast<std::size_t>(i)];
-    const GridCell cell = frame_.field().cellAt(ordered.cell);
-    const double pressure = flow.pressure()(cell.row, cell.col);
-    borne[placeOf(ordered)] += pressure;
-    if (pressure > 0.0) ++pressed[placeOf(ordered)];
-    if (flow.flowed()(cell.row, cell.col) > 0.0) by_flow[placeOf(ordered)] += pressure;
+  for (int row = 0; row < field.rows(); ++row) {
+    flow.visitRow(row, [&](int col, double flowed, double pressure) {
+      if (!(pressure > 0.0)) return;
+      const std::int32_t id = sweep.patchOf(field.cellAt(row, col));
+      if (id < 0) return;
+      const auto place = static_cast<std::size_t>(sweep.livePlace(id));
+      borne[place] += pressure;
+      ++pressed[place];
+      if (flowed > 0.0) by_flow[place] += pressure;
+    });
   }
   by_contacts_.contact_area = 0.0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -140,11 +133,12 @@ void ContactCurve::takeFlow(const FlowingPlaces& flow) {
       contacts_[i].regime = Regime::kElastoPlastic;
     }
   }
-  for (int i = 0; i < sweep.cellCount(); ++i) {
-    const OrderedCell& ordered = frame_.orderedCells()[static_cast<std::size_t>(i)];
-    const auto dale = static_cast<std::size_t>(ordered.tag.dale());
-    if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
-    regime_of_dale_[dale] = contacts_[placeOf(ordered)].regime;
+  regime_of_dale_.assign(static_cast<std::size_t>(sweep.daleCount()), Regime::kElastic);
+  for (int dale = 0; dale < sweep.daleCount(); ++dale) {
+    const std::int32_t place = sweep.livePlace(sweep.patchOfDale(dale));
+    if (place >= 0)
+      regime_of_dale_[static_cast<std::size_t>(dale)] =
+          contacts_[static_cast<std::size_t>(place)].regime;
   }
 }
 

@@ -42,9 +42,6 @@ class ContactCurve {
   /// - @p flow of the places of `field`; both must outlive the object's use
   void comeToRest(const GapField& field, const ContactSettings& settings,
                   const FlowingPlaces& flow);
-  /// The rest of these surfaces if none of their contacts flowed, not even as a patch; frame() is
-  /// theirs from then on.
-  SeparationState restIfElastic(const ContactSettings& settings);
   /// From then on frame() is that of the surfaces as flow has changed them.
   /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not
   /// asked for another rest [N]

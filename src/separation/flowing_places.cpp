@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numeric/constants.hpp"
-#include "numeric/vectorized.hpp"
+#include "numeric/packet.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -20,23 +21,146 @@ constexpr double kLoadBalance = 1e-9;
 /// Of the search for it, each step of which halves what is left at least.
 constexpr int kMostHalvings = 60;
 
-/// Sum of stiffness (displacement - x) between 0 and the hardness, and how many cells are in
-/// between.
+/// The pressures of cells which bear `open` more than t D, between 0 and the hardness.
 struct Borne {
   double sum = 0.0;
-  double rising = 0.0;
+  double rising = 0.0;  ///< how many cells are in between
 };
 
-MEMS_STICTION_VECTORIZED Borne borneAt(double displacement, double stiffness, double hardness,
-                                       const double* rises, const double* pressures,
+MEMS_STICTION_VECTORIZED Borne borneAt(double by_place, double hardness, const double* open,
                                        std::size_t count) {
-  Borne borne;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double pressure = pressures[i] + stiffness * (displacement - rises[i]);
-    borne.sum += std::min(std::max(pressure, 0.0), hardness);
-    borne.rising += pressure > 0.0 && pressure < hardness ? 1.0 : 0.0;
+  Packet sum = 0.0;
+  Packet rising = 0.0;
+  const auto take = [&](const Packet& of_cells) {
+    const Packet pressure = of_cells + by_place;
+    const PacketMask is_pressed = pressure > 0.0;
+    const PacketMask is_below = pressure < hardness;
+    const Packet most = select(is_below, pressure, Packet(hardness));
+    sum += select(is_pressed, most, Packet(0.0));
+    rising += select(is_pressed, oneWhere(is_below), Packet(0.0));
+  };
+  const std::size_t in_packets = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) take(Packet::load(open + i));
+  if (in_packets < count) {
+    constexpr double kApart = -std::numeric_limits<double>::infinity();
+    take(Packet::loadFirst(open + in_packets, count - in_packets, kApart));
   }
-  return borne;
+  return {sum.sum(), rising.sum()};
+}
+
+/// p - t r of each cell.
+/// @return the lowest and the highest
+MEMS_STICTION_VECTORIZED std::pair<double, double> openAt(double stiffness, const double* pressures,
+                                                          const double* rises, std::size_t count,
+                                                          double* open) {
+  Packet lowest = std::numeric_limits<double>::infinity();
+  Packet highest = -std::numeric_limits<double>::infinity();
+  const std::size_t in_packets = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) {
+    const Packet of_cells = Packet::load(pressures + i) - stiffness * Packet::load(rises + i);
+    lowest = select(of_cells < lowest, of_cells, lowest);
+    highest = select(of_cells > highest, of_cells, highest);
+    of_cells.store(open + i);
+  }
+  double low = lowest.smallest();
+  double high = highest.largest();
+  for (std::size_t i = in_packets; i < count; ++i) {
+    open[i] = pressures[i] - stiffness * rises[i];
+    low = std::min(low, open[i]);
+    high = std::max(high, open[i]);
+  }
+  return {low, high};
+}
+
+MEMS_STICTION_VECTORIZED void movesTo(double by_place, double hardness, const double* open,
+                                      const double* pressures, std::size_t count, double* moves) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double pressure = open[i] + by_place;
+    const double most = pressure < hardness ? pressure : hardness;
+    moves[i] = (pressure > 0.0 ? most : 0.0) - pressures[i];
+  }
+}
+
+/// s of pressures from 0 to the hardness.
+/// - @p of_steps s of equal steps of the pressure
+MEMS_STICTION_VECTORIZED void layersUnder(const std::vector<double>& of_steps, double hardness,
+                                          const double* pressures, std::size_t count,
+                                          double* layers) {
+  const double* const layer = of_steps.data();
+  const auto last = static_cast<std::int32_t>(of_steps.size() - 2);
+  const double per_pressure = (last + 1) / hardness;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = per_pressure * pressures[i];
+    const std::int32_t before = std::min(static_cast<std::int32_t>(place), last);
+    layers[i] = layer[before] + (place - before) * (layer[before + 1] - layer[before]);
+  }
+}
+
+/// values + share steps
+MEMS_STICTION_VECTORIZED void sumOf(double share, const double* values, const double* steps,
+                                    std::size_t count, double* sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] = values[i] + share * steps[i];
+}
+
+/// How E falls along the moves at first, and how its slope grows on the way.
+struct Descent {
+  double fall = 0.0;
+  double bend = 0.0;
+};
+
+MEMS_STICTION_VECTORIZED Descent descentOf(const double* rises, const double* moves,
+                                           const double* yields, const double* layers,
+                                           const double* next_layers, std::size_t count) {
+  Packet fall = 0.0;
+  Packet bend = 0.0;
+  const std::size_t in_packets = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) {
+    const Packet move = Packet::load(moves + i);
+    fall += Packet::load(rises + i) * move;
+    bend += move *
+            (Packet::load(yields + i) + Packet::load(next_layers + i) - Packet::load(layers + i));
+  }
+  Descent descent = {-fall.sum(), bend.sum()};
+  for (std::size_t i = in_packets; i < count; ++i) {
+    descent.fall -= rises[i] * moves[i];
+    descent.bend += moves[i] * (yields[i] + next_layers[i] - layers[i]);
+  }
+  return descent;
+}
+
+/// Sums over the cells of a step, for the stiffness of the next one.
+struct Growth {
+  double square_of_moves = 0.0;
+  double product = 0.0;  ///< of the moves and by how much rises have grown
+  double square = 0.0;   ///< of the latter
+};
+
+MEMS_STICTION_VECTORIZED Growth grow(double share, const double* moves, const double* yields,
+                                     const double* layers, const double* next_layers,
+                                     std::size_t count, double* rises) {
+  Packet square_of_moves = 0.0;
+  Packet product = 0.0;
+  Packet square = 0.0;
+  const std::size_t in_packets = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount) {
+    const Packet move = share * Packet::load(moves + i);
+    const Packet growth =
+        share * Packet::load(yields + i) + Packet::load(next_layers + i) - Packet::load(layers + i);
+    (Packet::load(rises + i) + growth).store(rises + i);
+    square_of_moves += move * move;
+    product += move * growth;
+    square += growth * growth;
+  }
+  Growth sums = {square_of_moves.sum(), product.sum(), square.sum()};
+  for (std::size_t i = in_packets; i < count; ++i) {
+    const double move = share * moves[i];
+    const double growth = share * yields[i] + next_layers[i] - layers[i];
+    rises[i] += growth;
+    sums.square_of_moves += move * move;
+    sums.product += move * growth;
+    sums.square += growth * growth;
+  }
+  return sums;
 }
 
 }  // namespace
@@ -64,83 +188,65 @@ void FlowingPlaces::takeLayer(const ContactTraction& law) {
     layer_[i] = law.closingUnder(hardness_ * static_cast<double>(i) / chosen::kParts);
 }
 
-double FlowingPlaces::layerUnder(double pressure) const {
-  const double place = chosen::kParts * (pressure / hardness_);
-  const auto before = std::min(static_cast<std::size_t>(place), layer_.size() - 2);
-  return layer_[before] +
-         (place - static_cast<double>(before)) * (layer_[before + 1] - layer_[before]);
-}
-
 void FlowingPlaces::raise(PeriodicCompliance& bodies) {
+  const std::size_t count = gaps_.size();
   bodies.give(cells_, pressures_, contact_modulus_, yields_);
-  rises_.resize(gaps_.size());
-  layers_.resize(gaps_.size());
-  for (std::size_t i = 0; i < gaps_.size(); ++i) {
-    layers_[i] = layerUnder(pressures_[i]);
-    rises_[i] = gaps_[i] + yields_[i] + layers_[i];
-  }
+  layers_.resize(count);
+  layersUnder(layer_, hardness_, pressures_.data(), count, layers_.data());
+  rises_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) rises_[i] = gaps_[i] + yields_[i] + layers_[i];
 }
 
-double FlowingPlaces::displacement(double stiffness) const {
-  const auto begin = rises_.begin();
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (std::size_t i = 0; i < rises_.size(); ++i) {
-    const double open = begin[static_cast<std::ptrdiff_t>(i)] - pressures_[i] / stiffness;
-    low = std::min(low, open);
-    high = std::max(high, open + hardness_ / stiffness);
-  }
-  double displacement = 0.5 * (low + high);
+double FlowingPlaces::displacement(double stiffness) {
+  open_.resize(gaps_.size());
+  const auto [least, most] =
+      openAt(stiffness, pressures_.data(), rises_.data(), gaps_.size(), open_.data());
+  // of t D
+  double low = -most;
+  double high = hardness_ - least;
+  double place = stiffness * displacement_;
+  if (!(place > low && place < high)) place = 0.5 * (low + high);
   for (int search = 0; search < kMostHalvings; ++search) {
-    const Borne borne = borneAt(displacement, stiffness, hardness_, rises_.data(),
-                                pressures_.data(), rises_.size());
+    const Borne borne = borneAt(place, hardness_, open_.data(), gaps_.size());
     const double lack = total_ - borne.sum;
     if (std::abs(lack) <= kLoadBalance * total_) break;
-    (lack > 0.0 ? low : high) = displacement;
-    const double by_slope = displacement + lack / (stiffness * borne.rising);
-    displacement = by_slope > low && by_slope < high ? by_slope : 0.5 * (low + high);
+    (lack > 0.0 ? low : high) = place;
+    const double by_slope = place + lack / borne.rising;
+    place = by_slope > low && by_slope < high ? by_slope : 0.5 * (low + high);
   }
-  return displacement;
+  displacement_ = place / stiffness;
+  return displacement_;
 }
 
 void FlowingPlaces::moveTo(double place, double stiffness) {
   moves_.resize(gaps_.size());
-  for (std::size_t i = 0; i < gaps_.size(); ++i) {
-    const double pressure = pressures_[i] + stiffness * (place - rises_[i]);
-    moves_[i] = std::clamp(pressure, 0.0, hardness_) - pressures_[i];
-  }
+  movesTo(stiffness * place, hardness_, open_.data(), pressures_.data(), gaps_.size(),
+          moves_.data());
 }
 
 double FlowingPlaces::follow(PeriodicCompliance& bodies, int steps, double stiffness) {
-  raise(bodies);
-  next_layers_.resize(gaps_.size());
+  const std::size_t count = gaps_.size();
+  next_layers_.resize(count);
+  next_pressures_.resize(count);
   for (int step = 0; step < steps; ++step) {
     moveTo(displacement(stiffness), stiffness);
     bodies.give(cells_, moves_, contact_modulus_, yields_);
-    double fall = 0.0;
-    double bend = 0.0;
-    for (std::size_t i = 0; i < gaps_.size(); ++i) {
-      next_layers_[i] = layerUnder(pressures_[i] + moves_[i]);
-      fall -= rises_[i] * moves_[i];
-      bend += moves_[i] * (yields_[i] + next_layers_[i] - layers_[i]);
+    sumOf(1.0, pressures_.data(), moves_.data(), count, next_pressures_.data());
+    layersUnder(layer_, hardness_, next_pressures_.data(), count, next_layers_.data());
+    const Descent descent = descentOf(rises_.data(), moves_.data(), yields_.data(), layers_.data(),
+                                      next_layers_.data(), count);
+    if (!(descent.fall > 0.0) || !(descent.bend > 0.0)) break;
+    const double share = std::min(1.0, descent.fall / descent.bend);
+    if (share < 1.0) {
+      sumOf(share, pressures_.data(), moves_.data(), count, next_pressures_.data());
+      layersUnder(layer_, hardness_, next_pressures_.data(), count, next_layers_.data());
     }
-    if (!(fall > 0.0) || !(bend > 0.0)) break;
-    const double share = std::min(1.0, fall / bend);
-    double square_of_moves = 0.0;
-    double product = 0.0;
-    double square_of_growths = 0.0;
-    for (std::size_t i = 0; i < gaps_.size(); ++i) {
-      const double move = share * moves_[i];
-      pressures_[i] += move;
-      const double layer = share == 1.0 ? next_layers_[i] : layerUnder(pressures_[i]);
-      const double growth = share * yields_[i] + layer - layers_[i];
-      rises_[i] += growth;
-      layers_[i] = layer;
-      square_of_moves += move * move;
-      product += move * growth;
-      square_of_growths += growth * growth;
-    }
-    stiffness = step % 2 == 0 ? square_of_moves / product : product / square_of_growths;
+    pressures_.swap(next_pressures_);
+    const Growth growth = grow(share, moves_.data(), yields_.data(), layers_.data(),
+                               next_layers_.data(), count, rises_.data());
+    layers_.swap(next_layers_);
+    stiffness =
+        step % 2 == 0 ? growth.square_of_moves / growth.product : growth.product / growth.square;
   }
   return stiffness;
 }
@@ -153,29 +259,32 @@ bool FlowingPlaces::takeFlowed(const GapField& field, double displacement) {
   std::size_t first = 0;
   while (first < gaps_.size() && !(lost(first) > 0.0)) ++first;
   if (first == gaps_.size()) return false;
-  flowed_.create(field.rows(), field.cols());
-  pressure_map_.create(field.rows(), field.cols());
-  flowed_ = 0.0;
-  pressure_map_ = 0.0;
-  int changed_cell = 0;
-  for (std::size_t row = 0; row + 1 < cells_.row_begin.size(); ++row) {
-    double* const flowed = flowed_[static_cast<int>(row)];
-    double* const pressure = pressure_map_[static_cast<int>(row)];
-    for (int i = cells_.row_begin[row]; i < cells_.row_begin[row + 1]; ++i) {
-      const auto cell = static_cast<std::size_t>(i);
-      pressure[cells_.columns[cell]] = pressures_[cell];
-      flowed[cells_.columns[cell]] = lost(cell);
-      if (cell == first) changed_cell = static_cast<int>(row) * field.cols() + cells_.columns[cell];
-    }
-  }
-  changed_.lower(field, flowed_);
-  lowering_ = gaps_[first] + lost(first) - changed_.gap(changed_cell);
+  flowed_.resize(gaps_.size());
+  for (std::size_t cell = 0; cell < gaps_.size(); ++cell) flowed_[cell] = lost(cell);
+  changed_.lower(field, cells_, flowed_);
+  const auto begin = cells_.row_begin.begin();
+  const auto row = std::upper_bound(begin, cells_.row_begin.end(), static_cast<int>(first)) - begin;
+  const int changed_cell = static_cast<int>(row - 1) * field.cols() + cells_.columns[first];
+  lowering_ = gaps_[first] + flowed_[first] - changed_.gap(changed_cell);
+  std::swap(flowed_cells_, cells_);
+  flowed_pressures_.swap(pressures_);
   return true;
+}
+
+void FlowingPlaces::readRow(int row, double* flowed, double* pressures) const {
+  const auto cols = static_cast<std::size_t>(changed_.cols());
+  std::fill_n(flowed, cols, 0.0);
+  std::fill_n(pressures, cols, 0.0);
+  visitRow(row, [&](int col, double way, double pressure) {
+    flowed[col] = way;
+    pressures[col] = pressure;
+  });
 }
 
 bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, const Press& press) {
   hardness_ = press.hardness;
   total_ = press.load / field.cellArea();
+  displacement_ = 0.0;
   takeCells(field, press.approach);
   if (!(total_ > 0.0) || !(total_ < hardness_ * static_cast<double>(gaps_.size()))) return false;
   contact_modulus_ = press.contact_modulus;
@@ -190,9 +299,11 @@ bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, con
   moveTo(displacement(chosen::kFirstStiffness * of_a_cell), chosen::kFirstStiffness * of_a_cell);
   pressures_.swap(moves_);
   const int steps = block == 1 ? chosen::kFlowStepsByCells : chosen::kFlowSteps;
+  raise(by_blocks_);
   double stiffness = follow(by_blocks_, steps, of_a_cell);
   if (block > 1) {
     by_cells_.start(field, 1);
+    raise(by_cells_);
     stiffness = follow(by_cells_, 1, stiffness);
   }
   return takeFlowed(field, displacement(stiffness));

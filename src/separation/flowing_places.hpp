@@ -21,16 +21,14 @@
 /// carry at Ha, nothing is answered.
 ///
 /// Found by projected gradients whose steps follow Barzilai and Borwein (IMA J. Numer. Anal. 8
-/// (1988) 141, recalled), with C on blocks of cells first, by cells last: pressures that hardness
-/// bounds leave little to find, and a few steps suffice.
+/// (1988) 141, recalled), with C on blocks of cells, and by cells once before the last step:
+/// pressures that hardness bounds leave little to find, and a few steps suffice.
 ///
 ///     FlowingPlaces places;
 ///     if (places.press(field, law, {contact_modulus, hardness, load, approach}))
 ///         use(places.changed());
 
 #include <vector>
-
-#include <opencv2/core.hpp>
 
 #include "approach/gap_field.hpp"
 #include "separation/contact_traction.hpp"
@@ -53,33 +51,33 @@ class FlowingPlaces {
   /// @return whether anything flows
   bool press(const GapField& field, const ContactTraction& law, const Press& press);
 
-  /// By which the gap has grown, w [m]; of the last press() under which something has flowed, as
-  /// what follows.
-  const cv::Mat1d& flowed() const { return flowed_; }
+  /// Calls take(column, w [m], p [Pa]) for the cells of a row that may touch: by which the gap has
+  /// grown, and what presses; others have neither. Of the last press() under which something has
+  /// flowed, as what follows.
+  template <typename Taker>
+  void visitRow(int row, const Taker& take) const;
+  /// The same of all cells of a row.
+  void readRow(int row, double* flowed, double* pressures) const;
   /// The gap of the surfaces as flow leaves them.
   const GapField& changed() const { return changed_; }
   /// By how much later than before these touch first [m].
   double lowering() const { return lowering_; }
-  /// p of each cell [Pa].
-  const cv::Mat1d& pressure() const { return pressure_map_; }
 
  private:
   /// The cells that may touch, row by row.
   void takeCells(const GapField& field, double approach);
   /// s of pressures up to Ha.
   void takeLayer(const ContactTraction& law);
-  /// s of one [m]; @param pressure p [Pa], from 0 to Ha
-  double layerUnder(double pressure) const;
   /// What its gap becomes under the pressures, g + C p + s [m].
   void raise(PeriodicCompliance& bodies);
   /// D at which cells bear the load with t (D - x) between 0 and Ha, x = r - p/t.
   /// - @p stiffness t [Pa/m]
-  double displacement(double stiffness) const;
+  double displacement(double stiffness);
   /// What the pressures change by if cells at rises r bear t (D - r) more, between 0 and Ha [Pa].
-  /// - @p place D [m]
+  /// - @p place D [m], of displacement() with this t
   /// - @p stiffness t [Pa/m]
   void moveTo(double place, double stiffness);
-  /// Steps towards the least E, from the pressures that there are.
+  /// Steps towards the least E, from the pressures that there are and their rises.
   /// @return the stiffness of the next step [Pa/m]
   double follow(PeriodicCompliance& bodies, int steps, double stiffness);
   bool takeFlowed(const GapField& field, double displacement);
@@ -92,17 +90,30 @@ class FlowingPlaces {
   std::vector<double> gaps_;
   std::vector<double> pressures_;
   std::vector<double> rises_;  ///< r, what its gap has become [m]
+  double displacement_ = 0.0;  ///< the last D [m]
+  std::vector<double> open_;   ///< p - t r, which t D is added to [Pa]
   std::vector<double> moves_;
   std::vector<double> layers_;       ///< s of the pressures [m]
   std::vector<double> next_layers_;  ///< after the moves
+  std::vector<double> next_pressures_;
   std::vector<double> yields_;
   std::vector<double> line_;
   PeriodicCompliance by_blocks_;
   PeriodicCompliance by_cells_;
-  cv::Mat1d flowed_;
-  cv::Mat1d pressure_map_;
+  PressedCells flowed_cells_;  ///< those of the last press under which something has flowed
+  std::vector<double> flowed_pressures_;
+  std::vector<double> flowed_;  ///< w [m]
   GapField changed_;
   double lowering_ = 0.0;
 };
+
+template <typename Taker>
+void FlowingPlaces::visitRow(int row, const Taker& take) const {
+  const auto place = static_cast<std::size_t>(row);
+  for (int i = flowed_cells_.row_begin[place]; i < flowed_cells_.row_begin[place + 1]; ++i) {
+    const auto cell = static_cast<std::size_t>(i);
+    take(flowed_cells_.columns[cell], flowed_[cell], flowed_pressures_[cell]);
+  }
+}
 
 }  // namespace mems_stiction

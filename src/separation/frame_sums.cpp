@@ -70,11 +70,9 @@ void FrameSums::takeChangedGaps(double approach) {
   // where dales lie and which cells meet others stays as it was
   order_.changeGaps(approach, changed_gaps_);
   pyramid_.prepare(order_);
-  stopFlow();
+  patch_forces_.emplace(*settings_, field_->cellArea(), false);
   startSweeps();
 }
-
-void FrameSums::stopFlow() { patch_forces_.emplace(*settings_, field_->cellArea(), false); }
 
 void FrameSums::startSweeps() {
   has_mark_ = false;

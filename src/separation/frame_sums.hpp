@@ -82,8 +82,6 @@ class FrameSums {
   ///   gaps has not changed
   template <typename Changed>
   void change(double approach, const Changed& changed);
-  /// From here on the hardness does not limit what patches carry.
-  void stopFlow();
   /// Calls that go back, but not beyond where the last call was, need not start anew from now on.
   void mark();
 

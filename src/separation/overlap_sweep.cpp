@@ -98,9 +98,9 @@ void OverlapSweep::insert(std::int32_t id, const OrderedCell& ordered) {
   patch.gap_sum += ordered.gap;
 }
 
-std::int32_t OverlapSweep::patchOf(int cell) {
-  if (!(field_->gap(cell) < approach_)) return -1;
-  return joined_.patchOf(dales_->find(field_->cellAt(cell)));
+std::int32_t OverlapSweep::patchOf(const GridCell& cell) {
+  if (!(field_->gap(cell.index) < approach_)) return -1;
+  return joined_.patchOf(dales_->find(cell));
 }
 
 std::int32_t OverlapSweep::join(std::int32_t id, const OrderedCell& ordered) {

@@ -48,11 +48,14 @@ class OverlapSweep {
     return live_place_[static_cast<std::size_t>(id)];
   }
   /// Patch that holds a cell, or -1.
-  std::int32_t patchOf(int cell);
+  std::int32_t patchOf(const GridCell& cell);
   /// Patch that holds a cell of the order that is in.
   std::int32_t patchOf(const OrderedCell& ordered) const {
     return joined_.patchOf(ordered.tag.dale());
   }
+  /// Dales that are known; a dale's patch need not be a live one.
+  int daleCount() const { return joined_.count(); }
+  std::int32_t patchOfDale(std::int32_t dale) const { return joined_.patchOf(dale); }
 
  private:
   static constexpr std::int32_t kNone = -1;

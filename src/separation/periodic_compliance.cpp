@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "numeric/constants.hpp"
+#include "numeric/vectorized.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -32,6 +33,19 @@ void gainsOf(const cv::Size& blocks, double width, double height, double of_cell
       const double by_wave = q > 0.0 ? 2.0 / q : 0.0;
       line[y] = static_cast<float>((by_wave - of_cells) / blocks.area());
     }
+  }
+}
+
+MEMS_STICTION_VECTORIZED void addTo(float* sums, double share, const std::vector<double>& line) {
+  for (std::size_t i = 0; i < line.size(); ++i) sums[i] += static_cast<float>(share * line[i]);
+}
+
+/// Values between two rows.
+MEMS_STICTION_VECTORIZED void takeBetween(const float* before, const float* behind, double share,
+                                          std::vector<double>& line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const double value = before[i];
+    line[i] = value + share * (behind[i] - value);
   }
 }
 
@@ -76,26 +90,33 @@ void PeriodicCompliance::spread(const PressedCells& cells, const std::vector<dou
   for (int row = 0; row < blocks_.height; ++row)
     std::fill_n(filter_->row(row), blocks_.width, 0.0F);
   const bool is_by_cell = blocks_ == frame_;
-  const double share = 1.0 / cells_per_block_;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const Between& at_row = rows_[row];
-    float* const before = filter_->row(at_row.before);
-    float* const behind = filter_->row(at_row.behind);
-    for (int i = cells.row_begin[row]; i < cells.row_begin[row + 1]; ++i) {
-      const auto cell = static_cast<std::size_t>(i);
-      if (is_by_cell) {
-        before[cells.columns[cell]] = static_cast<float>(pressures[cell]);
-        continue;
-      }
-      const Between& at = cols_[static_cast<std::size_t>(cells.columns[cell])];
-      const double pressure = share * pressures[cell];
-      const double lower = at_row.share * pressure;
-      const double upper = pressure - lower;
-      before[at.before] += static_cast<float>(upper * (1.0 - at.share));
-      before[at.behind] += static_cast<float>(upper * at.share);
-      behind[at.before] += static_cast<float>(lower * (1.0 - at.share));
-      behind[at.behind] += static_cast<float>(lower * at.share);
+    const int begin = cells.row_begin[row];
+    const int end = cells.row_begin[row + 1];
+    if (begin == end) continue;
+    const double* const of_row = pressures.data() + begin;
+    const std::int32_t* const columns = cells.columns.data() + begin;
+    if (is_by_cell) {
+      float* const line = filter_->row(static_cast<int>(row));
+      for (int i = 0; i < end - begin; ++i) line[columns[i]] = static_cast<float>(of_row[i]);
+      continue;
     }
+    line_.assign(static_cast<std::size_t>(blocks_.width), 0.0);
+    spreadAlong(columns, of_row, end - begin);
+    const double behind_share = rows_[row].share / cells_per_block_;
+    const double before_share = 1.0 / cells_per_block_ - behind_share;
+    addTo(filter_->row(rows_[row].before), before_share, line_);
+    addTo(filter_->row(rows_[row].behind), behind_share, line_);
+  }
+}
+
+void PeriodicCompliance::spreadAlong(const std::int32_t* columns, const double* pressures,
+                                     int count) {
+  for (int i = 0; i < count; ++i) {
+    const Between& at = cols_[static_cast<std::size_t>(columns[i])];
+    const double behind = at.share * pressures[i];
+    line_[static_cast<std::size_t>(at.before)] += pressures[i] - behind;
+    line_[static_cast<std::size_t>(at.behind)] += behind;
   }
 }
 
@@ -106,21 +127,27 @@ void PeriodicCompliance::give(const PressedCells& cells, const std::vector<doubl
   const bool is_by_cell = blocks_ == frame_;
   const double compliance = 1.0 / contact_modulus;
   ways.resize(cells.count());
+  line_.resize(static_cast<std::size_t>(blocks_.width));
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const Between& at_row = rows_[row];
-    const float* const before = filter_->row(at_row.before);
-    const float* const behind = filter_->row(at_row.behind);
-    for (int i = cells.row_begin[row]; i < cells.row_begin[row + 1]; ++i) {
-      const auto cell = static_cast<std::size_t>(i);
-      if (is_by_cell) {
-        ways[cell] = compliance * before[cells.columns[cell]];
-        continue;
-      }
-      const Between& at = cols_[static_cast<std::size_t>(cells.columns[cell])];
-      const double upper = before[at.before] + at.share * (before[at.behind] - before[at.before]);
-      const double lower = behind[at.before] + at.share * (behind[at.behind] - behind[at.before]);
-      const double by_blocks = upper + at_row.share * (lower - upper);
-      ways[cell] = compliance * (by_blocks + short_waves_ * pressures[cell]);
+    const int begin = cells.row_begin[row];
+    const int end = cells.row_begin[row + 1];
+    if (begin == end) continue;
+    double* const of_row = ways.data() + begin;
+    const std::int32_t* const columns = cells.columns.data() + begin;
+    if (is_by_cell) {
+      const float* const line = filter_->row(static_cast<int>(row));
+      for (int i = 0; i < end - begin; ++i) of_row[i] = compliance * line[columns[i]];
+      continue;
+    }
+    takeBetween(filter_->row(rows_[row].before), filter_->row(rows_[row].behind), rows_[row].share,
+                line_);
+    const double* const of_cells = pressures.data() + begin;
+    for (int i = 0; i < end - begin; ++i) {
+      const Between& at = cols_[static_cast<std::size_t>(columns[i])];
+      const double before = line_[static_cast<std::size_t>(at.before)];
+      const double behind = line_[static_cast<std::size_t>(at.behind)];
+      const double by_blocks = before + at.share * (behind - before);
+      of_row[i] = compliance * (by_blocks + short_waves_ * of_cells[i]);
     }
   }
 }

@@ -24,14 +24,6 @@
 
 namespace mems_stiction {
 
-/// Some cells of a frame, row by row.
-struct PressedCells {
-  std::vector<int> row_begin;         ///< of each row's cells, and the end of the last one's
-  std::vector<std::int32_t> columns;  ///< of each cell
-
-  std::size_t count() const { return columns.size(); }
-};
-
 /// Keeps its memory, transforms and compliances between frames of one size.
 class PeriodicCompliance {
  public:
@@ -54,6 +46,8 @@ class PeriodicCompliance {
   static std::vector<Between> betweenBlocks(int cells, int blocks);
   /// Pressures of the cells on the blocks beside them [Pa].
   void spread(const PressedCells& cells, const std::vector<double>& pressures);
+  /// Those of some columns of a row, on the blocks of line_.
+  void spreadAlong(const std::int32_t* columns, const double* pressures, int count);
 
   cv::Size frame_;
   cv::Size blocks_;
@@ -63,6 +57,7 @@ class PeriodicCompliance {
   double short_waves_ = 0.0;  ///< E times the compliance of waves too short for blocks [m]
   std::vector<Between> rows_;
   std::vector<Between> cols_;
+  std::vector<double> line_;  ///< a row of blocks
   std::optional<FrameFilter> filter_;
   cv::Mat gains_;  ///< as FrameFilter takes them [m]
 };

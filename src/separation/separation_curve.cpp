@@ -256,6 +256,14 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, apart, curve);
 }
 
+SeparationState restIfElastic(const GapField& field, const ContactSettings& settings) {
+  FrameSums frame;
+  frame.start(field, settings, nullptr, false);
+  SeparationCurve elastic;
+  followCurve(frame, settings, elastic);
+  return elastic.rest();
+}
+
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
                          const SeparationCurve& loading) {
   const auto excess = [&](const SeparationState& state) {

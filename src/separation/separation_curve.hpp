@@ -90,6 +90,9 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way,
 /// reaches its limit; without equilibrium, when approach/max_steps end first.
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
 
+/// The rest of surfaces none of whose contacts flow, not even as a patch.
+SeparationState restIfElastic(const GapField& field, const ContactSettings& settings);
+
 /// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where
 /// what keeps the surfaces from it is more than the error with which the curve knows what the
 /// contacts carry.

@@ -107,17 +107,17 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
                                 is_reached ? curve_.rest().approach : GapField::kInvalidGap};
   attracts_more_ = false;
   bool has_flowed = false;
-  double carried_by_elastic = 0.0;
   for (int round = 0; round < chosen::kFlowRounds; ++round) {
     if (!places_that_flow_.press(problem.gap, law, press)) break;
-    if (!has_flowed)
-      carried_by_elastic = carriedAtRest(curve_.restIfElastic(problem.settings), load);
     has_flowed = true;
     curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
     // flattened summits bring the surfaces nearer to each other, which attract the more
     const double carried = carriedAtRest(curve_.rest(), load);
     const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
-    attracts_more_ = carried > chosen::kDoubtedTimes * std::max(pressed_by, carried_by_elastic);
+    attracts_more_ =
+        carried > chosen::kDoubtedTimes * pressed_by &&
+        carried > chosen::kDoubtedTimes *
+                      carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
     if (carried < chosen::kMoreCarried * press.load) break;
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
@@ -191,7 +191,7 @@ void SeparationSolver::findBorder(const GapField& field) {
   OverlapSweep& sweep = curve_.frame().contactsAt(curve_.rest().approach);
   is_at_border_.assign(curve_.contacts().size(), 0);
   const auto mark = [&](int row, int col) {
-    const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
+    const std::int32_t id = sweep.patchOf(field.cellAt(row, col));
     if (id >= 0) is_at_border_[static_cast<std::size_t>(sweep.livePlace(id))] = 1;
   };
   for (int col = 0; col < field.cols(); ++col) {
@@ -216,10 +216,9 @@ void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
         columnsBetween(0.0, approach, row_gaps_.data(), field.cols(), columns_.data());
     for (int i = 0; i < count; ++i) {
       const std::int32_t col = columns_[static_cast<std::size_t>(i)];
-      const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
-      const auto place = static_cast<std::size_t>(sweep.livePlace(id));
-      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id),
-           curve_.contacts()[place]);
+      const std::int32_t id = sweep.patchOf(field.cellAt(row, col));
+      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)],
+           static_cast<std::size_t>(sweep.livePlace(id)));
     }
   }
 }
@@ -264,6 +263,17 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
                                     : std::numeric_limits<double>::infinity();
 }
 
+void SeparationSolver::takeLeastOverlaps(const GapField& field) {
+  const double approach = curve_.rest().approach;
+  const std::vector<OverlapPatch>& patches = curve_.frame().contactsAt(approach).patches();
+  least_overlaps_.resize(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const double area = patches[i].cells * field.cellArea();
+    least_overlaps_[i] =
+        2.0 * patches[i].depth(approach) * (1.0 - curve_.contacts()[i].area / area);
+  }
+}
+
 void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& solution) {
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
@@ -274,36 +284,43 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 
   const DeformationShare share(settings.lower, settings.upper,
                                settings.interface.hardness_ratio_limit);
-  const double approach = curve_.rest().approach;
-  visitOverlaps(field, [&](int row, int col, double overlap, const OverlapPatch& patch,
-                           const ContactCurve::Contact& contact) {
+  const OverlapSweep& sweep = curve_.frame().contactsAt(curve_.rest().approach);
+  if (wants_map) takeLeastOverlaps(field);
+  flowed_line_.resize(static_cast<std::size_t>(field.cols()));
+  pressure_line_.resize(static_cast<std::size_t>(field.cols()));
+  int last_row = -1;
+  visitOverlaps(field, [&](int row, int col, double overlap, std::size_t place) {
+    const ContactCurve::Contact& contact = curve_.contacts()[place];
     if (wants_map) {
-      // the deepest cells, as many as the real area has: those of a paraboloid whose overlap
-      // exceeds this
-      const double area = patch.cells * field.cellArea();
-      const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
-      const bool touches =
-          contact.is_of_places ? places_that_flow_.pressure()(row, col) > 0.0 : overlap >= least;
-      if (touches || field.cellAt(row, col).index == patch.first_cell) {
-        const bool flows = has_flowed_ && places_that_flow_.flowed()(row, col) > 0.0;
+      if (has_flowed_ && row != last_row)
+        places_that_flow_.readRow(row, flowed_line_.data(), pressure_line_.data());
+      last_row = row;
+      const bool touches = contact.is_of_places
+                               ? pressure_line_[static_cast<std::size_t>(col)] > 0.0
+                               : overlap >= least_overlaps_[place];
+      if (touches || field.cellAt(row, col).index == sweep.patches()[place].first_cell) {
+        const bool flows = has_flowed_ && flowed_line_[static_cast<std::size_t>(col)] > 0.0;
         const Regime regime = !has_flowed_ ? contact.regime
                               : flows      ? Regime::kPlastic
                                            : Regime::kElastic;
         solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regime);
       }
     }
-    if (wants_surfaces) {
+    if (wants_surfaces && contact.remaining.isChanged()) {
       const double flowed = overlap - contact.remaining.of(overlap);
       solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
       solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
     }
   });
   if (!has_flowed_ || !wants_surfaces) return;
-  const cv::Mat1d& flowed = places_that_flow_.flowed();
-  cv::scaleAdd(flowed, -share.lower(kPlasticLimit), solution.displaced_lower,
-               solution.displaced_lower);
-  cv::scaleAdd(flowed, share.upper(kPlasticLimit), solution.displaced_upper,
-               solution.displaced_upper);
+  for (int row = 0; row < field.rows(); ++row) {
+    double* const lower = solution.displaced_lower.ptr<double>(row);
+    double* const upper = solution.displaced_upper.ptr<double>(row);
+    places_that_flow_.visitRow(row, [&](int col, double flowed, double) {
+      lower[col] -= share.lower(kPlasticLimit) * flowed;
+      upper[col] += share.upper(kPlasticLimit) * flowed;
+    });
+  }
 }
 
 void SeparationSolver::listPullOffContacts(const ContactProblem& problem,

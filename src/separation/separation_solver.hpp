@@ -49,11 +49,14 @@ class SeparationSolver : public ContactSolver {
   bool flow(const ContactProblem& problem);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
-  /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row
-  /// by row.
+  /// Calls take(row, column, overlap [m], place of the contact) for each cell that overlaps at
+  /// rest, row by row.
   template <typename Taker>
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
+  /// The deepest cells of a contact touch, as many as the real area has: those of a paraboloid
+  /// whose overlap exceeds this [m].
+  void takeLeastOverlaps(const GapField& field);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
   /// The unloading branch of surfaces that are bonded at rest; none if they part by contacts.
   std::optional<Unloading> bondedUnloading(const ContactProblem& problem, double joined_share,
@@ -76,6 +79,9 @@ class SeparationSolver : public ContactSolver {
   bool attracts_more_ = false;
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;
+  std::vector<double> least_overlaps_;  ///< of the contacts at rest [m]
+  std::vector<double> flowed_line_;
+  std::vector<double> pressure_line_;
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;

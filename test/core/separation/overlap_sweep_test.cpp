@@ -56,7 +56,7 @@ TEST_P(SampleFrames, patchesAreThoseOfALabelling) {
       std::map<int, std::int32_t> patch_of_label;
       for (int cell = 0; cell < field.cellCount(); ++cell) {
         const int label = labels.at<int>(cell / field.cols(), cell % field.cols());
-        const std::int32_t id = sweep.patchOf(cell);
+        const std::int32_t id = sweep.patchOf(field.cellAt(cell));
         ASSERT_EQ(label > 0, id >= 0);
         if (label == 0) continue;
         ASSERT_EQ(patch_of_label.emplace(label, id).first->second, id);
@@ -191,7 +191,7 @@ TEST_P(SampleFrames, patchesDoNotDependOnTheStepsNorOnASweepAhead) {
   ASSERT_EQ(behind.livePatches().size(), at_once.livePatches().size());
   for (const std::int32_t id : at_once.livePatches()) {
     const OverlapPatch& expected = at_once.patch(id);
-    const OverlapPatch& patch = behind.patch(behind.patchOf(expected.first_cell));
+    const OverlapPatch& patch = behind.patch(behind.patchOf(field.cellAt(expected.first_cell)));
     ASSERT_EQ(patch.cells, expected.cells);
     ASSERT_EQ(patch.summits, expected.summits);
     ASSERT_EQ(patch.first_cell, expected.first_cell);
@@ -217,7 +217,7 @@ TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
     ASSERT_EQ(used.advanceTo(approach, order), fresh.advanceTo(approach, order));
     EXPECT_EQ(used.livePatches(), fresh.livePatches());
     for (int cell = 0; cell < field.cellCount(); ++cell)
-      ASSERT_EQ(used.patchOf(cell), fresh.patchOf(cell));
+      ASSERT_EQ(used.patchOf(field.cellAt(cell)), fresh.patchOf(field.cellAt(cell)));
     for (const std::int32_t id : used.livePatches())
       EXPECT_EQ(used.patch(id).merged_term, fresh.patch(id).merged_term);
   }
