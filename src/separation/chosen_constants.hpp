@@ -141,8 +141,8 @@ constexpr double kMoreCarried = 1.1;
 constexpr int kFlowRounds = 2;
 
 /// Share of a cell's own stiffness with which the search for places that flow begins, (S15). It
-/// takes so many steps on blocks of cells and one by cells, and so many by cells where a frame has
-/// no more of them along its sides than this. Blocks have sides of so many cells at most.
+/// takes so many steps on blocks of cells and one from there, and so many by cells where a frame
+/// has no more of them along its sides than this. Blocks have sides of so many cells at most.
 constexpr double kFirstStiffness = 0.3;
 constexpr int kFlowSteps = 4;
 constexpr int kFlowStepsByCells = 8;
