@@ -12,6 +12,9 @@ namespace {
 /// Columns that are gathered at a time: whole lines of the processor's memory.
 constexpr int kColumns = 8;
 
+/// Columns of so many waves all begin where the library's instructions take several at once.
+int alignedLength(int waves) { return (waves + kColumns - 1) / kColumns * kColumns; }
+
 }  // namespace
 
 /// A column is transformed, multiplied and transformed back while it is at hand. Plans are
@@ -21,7 +24,7 @@ struct FrameFilter::Transforms {
       : size(frame),
         waves(frame.width / 2 + 1),
         values(frame.height, 2 * waves, CV_32FC1),
-        gathered(kColumns, frame.height, CV_32FC2),
+        gathered(kColumns, alignedLength(frame.height), CV_32FC2),
         column(1, frame.height, CV_32FC2) {
     const std::lock_guard<std::mutex> lock(plannerMutex());
     const int width = size.width;
@@ -32,10 +35,8 @@ struct FrameFilter::Transforms {
                                            complex(values), nullptr, 1, waves, FFTW_ESTIMATE);
     backward_rows = fftwf_plan_many_dft_c2r(1, &width, rows, complex(values), nullptr, 1, waves,
                                             real, nullptr, 1, 2 * waves, FFTW_ESTIMATE);
-    forward_column =
-        fftwf_plan_dft_1d(size.height, from, to, FFTW_FORWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
-    backward_column =
-        fftwf_plan_dft_1d(size.height, to, from, FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
+    forward_column = fftwf_plan_dft_1d(size.height, from, to, FFTW_FORWARD, FFTW_ESTIMATE);
+    backward_column = fftwf_plan_dft_1d(size.height, to, from, FFTW_BACKWARD, FFTW_ESTIMATE);
   }
   ~Transforms() {
     const std::lock_guard<std::mutex> lock(plannerMutex());
