@@ -1,9 +1,12 @@
 #include "mems_stiction/roughness/areal_parameters.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -49,30 +52,67 @@ struct Gradients {
   double excess_area = 0.0;  ///< sum of sqrt(1 + |grad z|^2) - 1
 };
 
+/// Pixels of a row whose slopes are taken at once.
+constexpr int kChunk = 256;
+
+/// |grad z|^2 and sqrt(1 + |grad z|^2) - 1 of some pixels; 0 where a height is missing.
+/// - @p rows those pixels in the row above, their own, and the one below
+/// @return how many are not missing
+template <typename Scalar>
+MEMS_STICTION_INLINE int slopesOf(const Scalar* const* rows, int pixels, double per_x, double per_y,
+                                  double* squares, double* excesses) {
+  const Scalar* const above = rows[0];
+  const Scalar* const line = rows[1];
+  const Scalar* const below = rows[2];
+  int count = 0;
+  for (int col = 0; col < pixels; ++col) {
+    const double slope_x =
+        (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
+    const double slope_y =
+        (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
+    const double square = slope_x * slope_x + slope_y * slope_y;
+    const double height = line[col];
+    // an invalid neighbour reaches the square
+    const bool is_valid = square - square == 0.0 && height - height == 0.0;
+    // sqrt(1 + q) - 1 without cancellation
+    const double excess = square / (1.0 + std::sqrt(1.0 + square));
+    squares[col] = is_valid ? square : 0.0;
+    excesses[col] = is_valid ? excess : 0.0;
+    count += is_valid ? 1 : 0;
+  }
+  return count;
+}
+
+MEMS_STICTION_VECTORIZED int slopes(const float* const* rows, int pixels, double per_x,
+                                    double per_y, double* squares, double* excesses) {
+  return slopesOf(rows, pixels, per_x, per_y, squares, excesses);
+}
+MEMS_STICTION_VECTORIZED int slopes(const double* const* rows, int pixels, double per_x,
+                                    double per_y, double* squares, double* excesses) {
+  return slopesOf(rows, pixels, per_x, per_y, squares, excesses);
+}
+
 template <typename Scalar>
 Gradients gradients(const HeightMap& surface) {
   const cv::Mat& heights = surface.heights();
   const double per_x = 0.5 / surface.pitchX();
   const double per_y = 0.5 / surface.pitchY();
+  std::array<double, kChunk> of_squares;
+  std::array<double, kChunk> of_excesses;
   long long count = 0;
   double squares = 0.0;
   double excess_area = 0.0;
   for (int row = 1; row + 1 < heights.rows; ++row) {
-    const Scalar* above = heights.ptr<Scalar>(row - 1);
-    const Scalar* line = heights.ptr<Scalar>(row);
-    const Scalar* below = heights.ptr<Scalar>(row + 1);
-    for (int col = 1; col + 1 < heights.cols; ++col) {
-      const double slope_x =
-          (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
-      const double slope_y =
-          (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
-      const double square = slope_x * slope_x + slope_y * slope_y;
-      if (!std::isfinite(square) || !std::isfinite(line[col]))
-        continue;  // an invalid neighbour reaches the square
-      squares += square;
-      excess_area +=
-          square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
-      ++count;
+    for (int first = 1; first + 1 < heights.cols; first += kChunk) {
+      const Scalar* const rows[] = {heights.ptr<Scalar>(row - 1) + first,
+                                    heights.ptr<Scalar>(row) + first,
+                                    heights.ptr<Scalar>(row + 1) + first};
+      const int pixels = std::min(kChunk, heights.cols - 1 - first);
+      count += slopes(rows, pixels, per_x, per_y, of_squares.data(), of_excesses.data());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) {
+        squares += of_squares[i];
+        excess_area += of_excesses[i];
+      }
     }
   }
   return {count, squares, excess_area};
