@@ -317,6 +317,7 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
     double* const lower = solution.displaced_lower.ptr<double>(row);
     double* const upper = solution.displaced_upper.ptr<double>(row);
     places_that_flow_.visitRow(row, [&](int col, double flowed, double) {
+      if (!(flowed > 0.0)) return;  // most cells: neither map is touched there
       lower[col] -= share.lower(kPlasticLimit) * flowed;
       upper[col] += share.upper(kPlasticLimit) * flowed;
     });
