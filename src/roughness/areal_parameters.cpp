@@ -46,13 +46,7 @@ FirstPass firstPass(const cv::Mat& heights) {
   return pass;
 }
 
-struct Gradients {
-  long long count = 0;
-  double squares = 0.0;      ///< sum of |grad z|^2
-  double excess_area = 0.0;  ///< sum of sqrt(1 + |grad z|^2) - 1
-};
-
-/// Pixels of a row whose slopes are taken at once.
+/// Pixels of a row that are taken at once.
 constexpr int kChunk = 256;
 
 /// |grad z|^2 and sqrt(1 + |grad z|^2) - 1 of some pixels; 0 where a height is missing.
@@ -92,30 +86,86 @@ MEMS_STICTION_VECTORIZED int slopes(const double* const* rows, int pixels, doubl
   return slopesOf(rows, pixels, per_x, per_y, squares, excesses);
 }
 
+/// Heights from the mean in units of the range; 0 where one is missing.
 template <typename Scalar>
-Gradients gradients(const HeightMap& surface) {
+MEMS_STICTION_INLINE void deviationsOf(const Scalar* line, int pixels, double mean, double unit,
+                                       double* deviations) {
+  for (int col = 0; col < pixels; ++col) {
+    const double deviation = (line[col] - mean) / unit;
+    deviations[col] = deviation - deviation == 0.0 ? deviation : 0.0;
+  }
+}
+
+MEMS_STICTION_VECTORIZED void deviations(const float* line, int pixels, double mean, double unit,
+                                         double* deviations) {
+  deviationsOf(line, pixels, mean, unit, deviations);
+}
+MEMS_STICTION_VECTORIZED void deviations(const double* line, int pixels, double mean, double unit,
+                                         double* deviations) {
+  deviationsOf(line, pixels, mean, unit, deviations);
+}
+
+/// Sums over the valid pixels, in the order of the frame.
+struct SecondPass {
+  double absolutes = 0.0;
+  double squares = 0.0;
+  double cubes = 0.0;
+  double fourths = 0.0;
+  long long slope_count = 0;
+  double slope_squares = 0.0;  ///< sum of |grad z|^2
+  double excess_area = 0.0;    ///< sum of sqrt(1 + |grad z|^2) - 1
+};
+
+void addPixels(const double* deviations, const double* squares, const double* excesses, int pixels,
+               SecondPass& sums) {
+  SecondPass local = sums;
+  for (int i = 0; i < pixels; ++i) {
+    const double square = deviations[i] * deviations[i];
+    local.absolutes += std::fabs(deviations[i]);
+    local.squares += square;
+    local.cubes += square * deviations[i];
+    local.fourths += square * square;
+    local.slope_squares += squares[i];
+    local.excess_area += excesses[i];
+  }
+  sums = local;
+}
+
+/// Powers of the deviation in units of the height range: cubes and fourths of nanometres stay far
+/// from underflow.
+template <typename Scalar>
+SecondPass secondPass(const HeightMap& surface, double mean, double unit) {
   const cv::Mat& heights = surface.heights();
   const double per_x = 0.5 / surface.pitchX();
   const double per_y = 0.5 / surface.pitchY();
-  std::array<double, kChunk> of_squares;
-  std::array<double, kChunk> of_excesses;
-  long long count = 0;
-  double squares = 0.0;
-  double excess_area = 0.0;
-  for (int row = 1; row + 1 < heights.rows; ++row) {
-    for (int first = 1; first + 1 < heights.cols; first += kChunk) {
-      const Scalar* const rows[] = {heights.ptr<Scalar>(row - 1) + first,
-                                    heights.ptr<Scalar>(row) + first,
-                                    heights.ptr<Scalar>(row + 1) + first};
-      const int pixels = std::min(kChunk, heights.cols - 1 - first);
-      count += slopes(rows, pixels, per_x, per_y, of_squares.data(), of_excesses.data());
-      for (std::size_t i = 0; i < static_cast<std::size_t>(pixels); ++i) {
-        squares += of_squares[i];
-        excess_area += of_excesses[i];
+  std::array<double, kChunk> of_heights{};
+  std::array<double, kChunk> of_squares{};
+  std::array<double, kChunk> of_excesses{};
+  SecondPass sums;
+  for (int row = 0; row < heights.rows; ++row) {
+    const bool has_slopes = row > 0 && row + 1 < heights.rows;
+    if (!has_slopes) {
+      of_squares.fill(0.0);
+      of_excesses.fill(0.0);
+    }
+    for (int first = 0; first < heights.cols; first += kChunk) {
+      const int pixels = std::min(kChunk, heights.cols - first);
+      deviations(heights.ptr<Scalar>(row) + first, pixels, mean, unit, of_heights.data());
+      const int begin = std::max(first, 1);
+      const int count = std::min(first + pixels, heights.cols - 1) - begin;
+      if (has_slopes) {
+        const auto last = static_cast<std::size_t>(pixels - 1);
+        of_squares[0] = of_excesses[0] = of_squares[last] = of_excesses[last] = 0.0;
+        const Scalar* const rows[] = {heights.ptr<Scalar>(row - 1) + begin,
+                                      heights.ptr<Scalar>(row) + begin,
+                                      heights.ptr<Scalar>(row + 1) + begin};
+        sums.slope_count += slopes(rows, count, per_x, per_y, of_squares.data() + (begin - first),
+                                   of_excesses.data() + (begin - first));
       }
+      addPixels(of_heights.data(), of_squares.data(), of_excesses.data(), pixels, sums);
     }
   }
-  return {count, squares, excess_area};
+  return sums;
 }
 
 template <typename Scalar>
@@ -123,26 +173,9 @@ ArealParameters parametersOf(const HeightMap& surface) {
   const cv::Mat& heights = surface.heights();
   const FirstPass pass = firstPass<Scalar>(heights);
 
-  double absolutes = 0.0;
-  double squares = 0.0;
-  double cubes = 0.0;
-  double fourths = 0.0;
-  // Powers of the deviation in units of the height range: cubes and fourths of nanometres stay far
-  // from underflow.
   const double range = pass.max - pass.min;
   const double unit = range > 0.0 ? range : 1.0;
-  for (int row = 0; row < heights.rows; ++row) {
-    const Scalar* line = heights.ptr<Scalar>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      const double deviation = (line[col] - pass.mean) / unit;
-      if (!std::isfinite(deviation)) continue;
-      const double square = deviation * deviation;
-      absolutes += std::fabs(deviation);
-      squares += square;
-      cubes += square * deviation;
-      fourths += square * square;
-    }
-  }
+  const SecondPass sums = secondPass<Scalar>(surface, pass.mean, unit);
 
   ArealParameters parameters;
   const double count = static_cast<double>(pass.count);
@@ -150,19 +183,19 @@ ArealParameters parametersOf(const HeightMap& surface) {
   parameters.sv = pass.mean - pass.min;
   parameters.sz = range;
   if (range > 0.0) {
-    const double variance = squares / count;
-    parameters.sa = unit * absolutes / count;
+    const double variance = sums.squares / count;
+    parameters.sa = unit * sums.absolutes / count;
     parameters.sq = unit * std::sqrt(variance);
-    parameters.ssk = cubes / count / (variance * std::sqrt(variance));
-    parameters.sku = fourths / count / (variance * variance);
+    parameters.ssk = sums.cubes / count / (variance * std::sqrt(variance));
+    parameters.sku = sums.fourths / count / (variance * variance);
   } else {
     parameters.sp = parameters.sv = 0.0;  // the mean of equal numbers can round off
   }
 
-  const Gradients slopes = gradients<Scalar>(surface);
-  if (slopes.count > 0) {
-    parameters.sdq = std::sqrt(slopes.squares / static_cast<double>(slopes.count));
-    parameters.sdr = slopes.excess_area / static_cast<double>(slopes.count);
+  if (sums.slope_count > 0) {
+    const auto slope_count = static_cast<double>(sums.slope_count);
+    parameters.sdq = std::sqrt(sums.slope_squares / slope_count);
+    parameters.sdr = sums.excess_area / slope_count;
   }
   return parameters;
 }
