@@ -71,6 +71,9 @@ class BlockConvolution {
     return {rowCount() - 2 * margin_.rows, 2 * (colCount() - 2 * margin_.cols)};
   }
 
+  /// Cells beyond its own that the noise of a block is asked for, on each side.
+  BlockSize margin() const { return margin_; }
+
   /// Block number (block_row, block_col), row by row.
   void make(NumberedNoise& noise, std::int64_t block_row, std::int64_t block_col,
             ConvolutionMemory& memory, float* values) const;

@@ -1,5 +1,6 @@
 #include "surface/numbered_noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -114,7 +115,36 @@ MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::u
 
 }  // namespace
 
+void NumberedNoise::reseed(std::uint64_t seed) {
+  seed_ = seed;
+  std::fill(known_.begin(), known_.end(), KnownRow());
+}
+
+void NumberedNoise::remember(std::int64_t rows, std::int64_t col, std::int64_t cols) {
+  known_.assign(static_cast<std::size_t>(rows), {});
+  kept_col_ = col;
+  kept_cols_ = cols;
+  kept_.resize(known_.size() * static_cast<std::size_t>(cols));
+}
+
 void NumberedNoise::fill(std::int64_t row, std::int64_t col, int count, float* values) {
+  if (known_.empty() || col < kept_col_ || col + count > kept_col_ + kept_cols_) {
+    make(row, col, count, values);
+    return;
+  }
+  const auto rows = static_cast<std::int64_t>(known_.size());
+  const auto place = static_cast<std::size_t>((row % rows + rows) % rows);
+  KnownRow& known = known_[place];
+  if (known.row != row || col < known.begin || col > known.end) known = {row, col, col};
+  float* const kept = &kept_[place * static_cast<std::size_t>(kept_cols_)];
+  if (known.end < col + count) {
+    make(row, known.end, static_cast<int>(col + count - known.end), kept + (known.end - kept_col_));
+    known.end = col + count;
+  }
+  std::copy_n(kept + (col - kept_col_), count, values);
+}
+
+void NumberedNoise::make(std::int64_t row, std::int64_t col, int count, float* values) {
   const auto pairs = static_cast<std::size_t>(count) / 2;
   radii_.resize(pairs);
   angles_.resize(pairs);

@@ -22,15 +22,34 @@ class NumberedNoise {
  public:
   NumberedNoise(std::uint64_t seed, std::uint32_t layer) : seed_(seed), layer_(layer) {}
 
+  /// Goes on as the noise of another seed.
+  void reseed(std::uint64_t seed);
+  /// Remembers rows that were asked for until those `rows` further are, in `cols` columns from
+  /// `col` on: parts that overlap are then made once.
+  void remember(std::int64_t rows, std::int64_t col, std::int64_t cols);
+
   /// Standard normal numbers of the cells (row, col) to (row, col + count - 1).
   /// - @p col, @p count multiples of 8; rows and columns are taken modulo 2^32 and 2^34
   void fill(std::int64_t row, std::int64_t col, int count, float* values);
 
  private:
+  /// What is known of a row: columns [begin, end).
+  struct KnownRow {
+    std::int64_t row = 0;
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+  };
+
+  void make(std::int64_t row, std::int64_t col, int count, float* values);
+
   std::uint64_t seed_;
   std::uint32_t layer_;
   std::vector<std::uint32_t> radii_;
   std::vector<std::uint32_t> angles_;
+  std::vector<KnownRow> known_;  ///< a row at its number modulo their count; none: nothing is kept
+  std::vector<float> kept_;      ///< their values
+  std::int64_t kept_col_ = 0;
+  std::int64_t kept_cols_ = 0;
 };
 
 }  // namespace mems_stiction

@@ -23,6 +23,8 @@ constexpr double kWholeCells =
 constexpr int kMostLevels = 24;
 constexpr double kLargestCount = 1e9;
 constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
+/// Of noise, on each level: wider surfaces make what blocks share anew.
+constexpr std::int64_t kRememberedNoise = std::int64_t{8} << 20U;
 /// Blocks that meet at a corner: with fewer, each of them would make those of the coarser level
 /// anew.
 constexpr std::size_t kLeastRemembered = 4;
@@ -131,25 +133,44 @@ struct CellRange {
   std::int64_t cols;
 };
 
+/// Cells of the coarser level of which those of a block are made.
+CellRange cellsAround(std::int64_t row, std::int64_t col, const BlockSize& block) {
+  return {row / kRefinedCells - kSplineBefore, col / kRefinedCells - kSplineBefore,
+          block.rows / kRefinedCells + kSplineAround, block.cols / kRefinedCells + kSplineAround};
+}
+
 /// One level: its own waves and those of all coarser levels.
 class Level {
  public:
   /// - @p coarser nullptr on the last level; outlives this one
-  Level(const WaveGain& gain, const BlockLayout& layout, NumberedNoise noise,
+  Level(const WaveGain& gain, const BlockLayout& layout, const NumberedNoise& noise,
         SplineRefinement refinement, Level* coarser)
-      : convolution_(gain, layout),
-        noise_(std::move(noise)),
-        refinement_(refinement),
-        coarser_(coarser) {
+      : convolution_(gain, layout), noise_(noise), refinement_(refinement), coarser_(coarser) {
     const auto bytes = static_cast<std::size_t>(block().rows) *
                        static_cast<std::size_t>(block().cols) * sizeof(float);
     most_blocks_ = std::max(kLeastRemembered, kRememberedBytes / bytes);
   }
 
   /// Forgets what was made, and goes on with other noise.
-  void setNoise(NumberedNoise noise) {
-    noise_ = std::move(noise);
+  void reseed(std::uint64_t seed) {
+    noise_.reseed(seed);
     blocks_.clear();
+  }
+
+  /// Blocks overlap in the noise that they are made of, which is made once where blocks come row by
+  /// row.
+  /// - @p first, @p end columns that will be asked for
+  void rememberNoise(std::int64_t first, std::int64_t end) {
+    const BlockSize margin = convolution_.margin();
+    const std::int64_t rows = block().rows + 2 * margin.rows;
+    const std::int64_t cols = block().cols;
+    const std::int64_t begin = floorDivide(first, cols) * cols;
+    const std::int64_t count = (floorDivide(end - 1, cols) + 1) * cols - begin;
+    if (rows * (count + 2 * margin.cols) <= kRememberedNoise)
+      noise_.remember(rows, begin - margin.cols, count + 2 * margin.cols);
+    if (coarser_ == nullptr) return;
+    const CellRange around = cellsAround(0, begin, {0, static_cast<int>(count)});
+    coarser_->rememberNoise(around.col, around.col + around.cols);
   }
 
   BlockSize block() const { return convolution_.block(); }
@@ -209,10 +230,7 @@ class Level {
   void make(Block& made, ConvolutionMemory& memory) {
     convolution_.make(noise_, made.row, made.col, memory, made.values.data());
     if (coarser_ == nullptr) return;
-    const CellRange around{made.row * block().rows / kRefinedCells - kSplineBefore,
-                           made.col * block().cols / kRefinedCells - kSplineBefore,
-                           block().rows / kRefinedCells + kSplineAround,
-                           block().cols / kRefinedCells + kSplineAround};
+    const CellRange around = cellsAround(made.row * block().rows, made.col * block().cols, block());
     coarse_.resize(static_cast<std::size_t>(around.rows * around.cols));
     line_.resize(static_cast<std::size_t>(around.cols));
     coarser_->visit(around, memory,
@@ -297,6 +315,7 @@ class TiledSurface::Levels {
           level == last ? nullptr : levels_[index + 1].get());
       variance_ += levels_[index]->variance();
     }
+    levels_.front()->rememberNoise(0, cols);
     checkVariance(pitch_x, pitch_y);
   }
 
@@ -310,8 +329,7 @@ class TiledSurface::Levels {
 
   void reseed(std::uint64_t seed) {
     if (whole_) whole_->make(noiseOf(seed, 0));
-    for (std::size_t level = 0; level < levels_.size(); ++level)
-      levels_[level]->setNoise(noiseOf(seed, level));
+    for (const std::unique_ptr<Level>& level : levels_) level->reseed(seed);
   }
 
   void heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {

@@ -60,6 +60,27 @@ TEST(NumberedNoise, doesNotDependOnWhatWasAskedFor) {
   for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(part[i], row[i + 80]);
 }
 
+TEST(NumberedNoise, isTheSameWhereItIsRemembered) {
+  NumberedNoise noise(1, 0);
+  noise.remember(4, -64, 256);
+  const auto expectSame = [&](std::int64_t row, std::int64_t col, int count, std::uint64_t seed) {
+    std::vector<float> expected(static_cast<std::size_t>(count));
+    NumberedNoise(seed, 0).fill(row, col, count, expected.data());
+    std::vector<float> values(expected.size());
+    noise.fill(row, col, count, values.data());
+    EXPECT_EQ(values, expected) << row << ", " << col;
+  };
+  for (const std::int64_t row : {0, -1, 3, 4, -1, 0}) {  // 4 takes the place of 0, and 0 that of 4
+    expectSame(row, 0, 64, 1);
+    expectSame(row, 32, 64, 1);    // goes on
+    expectSame(row, -64, 256, 1);  // from before
+    expectSame(row, 120, 64, 1);
+    expectSame(row, -128, 512, 1);  // more than is remembered
+  }
+  noise.reseed(2);
+  expectSame(0, 0, 64, 2);
+}
+
 TEST(NumberedNoise, isNormalAndIndependentOfItsNeighboursLayersAndSeeds) {
   constexpr int kCount = 1 << 16;
   constexpr int kRows = 16;
