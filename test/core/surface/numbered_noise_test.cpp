@@ -72,7 +72,7 @@ TEST(NumberedNoise, isTheSameWhereItIsRemembered) {
   };
   for (const std::int64_t row : {0, -1, 3, 4, -1, 0}) {  // 4 takes the place of 0, and 0 that of 4
     expectSame(row, 0, 64, 1);
-    expectSame(row, 32, 64, 1);    // goes on
+    expectSame(row, 32, 72, 1);    // goes on
     expectSame(row, -64, 256, 1);  // from before
     expectSame(row, 120, 64, 1);
     expectSame(row, -128, 512, 1);  // more than is remembered
