@@ -123,13 +123,13 @@ void NumberedNoise::reseed(std::uint64_t seed) {
 
 void NumberedNoise::remember(std::int64_t rows, std::int64_t col, std::int64_t cols) {
   known_.assign(static_cast<std::size_t>(rows), {});
-  kept_col_ = col;
-  kept_cols_ = cols;
-  kept_.resize(known_.size() * static_cast<std::size_t>(cols));
+  first_col_ = col;
+  col_count_ = cols;
+  remembered_.resize(known_.size() * static_cast<std::size_t>(cols));
 }
 
 void NumberedNoise::fill(std::int64_t row, std::int64_t col, int count, float* values) {
-  if (known_.empty() || col < kept_col_ || col + count > kept_col_ + kept_cols_) {
+  if (known_.empty() || col < first_col_ || col + count > first_col_ + col_count_) {
     make(row, col, count, values);
     return;
   }
@@ -137,12 +137,13 @@ void NumberedNoise::fill(std::int64_t row, std::int64_t col, int count, float* v
   const auto place = static_cast<std::size_t>((row % rows + rows) % rows);
   KnownRow& known = known_[place];
   if (known.row != row || col < known.begin || col > known.end) known = {row, col, col};
-  float* const kept = &kept_[place * static_cast<std::size_t>(kept_cols_)];
+  float* const line = &remembered_[place * static_cast<std::size_t>(col_count_)];
   if (known.end < col + count) {
-    make(row, known.end, static_cast<int>(col + count - known.end), kept + (known.end - kept_col_));
+    make(row, known.end, static_cast<int>(col + count - known.end),
+         line + (known.end - first_col_));
     known.end = col + count;
   }
-  std::copy_n(kept + (col - kept_col_), count, values);
+  std::copy_n(line + (col - first_col_), count, values);
 }
 
 void NumberedNoise::make(std::int64_t row, std::int64_t col, int count, float* values) {

@@ -46,10 +46,11 @@ class NumberedNoise {
   std::uint32_t layer_;
   std::vector<std::uint32_t> radii_;
   std::vector<std::uint32_t> angles_;
-  std::vector<KnownRow> known_;  ///< a row at its number modulo their count; none: nothing is kept
-  std::vector<float> kept_;      ///< their values
-  std::int64_t kept_col_ = 0;
-  std::int64_t kept_cols_ = 0;
+  std::vector<KnownRow>
+      known_;  ///< a row at its number modulo their count; none: no row is remembered
+  std::vector<float> remembered_;  ///< their values
+  std::int64_t first_col_ = 0;
+  std::int64_t col_count_ = 0;
 };
 
 }  // namespace mems_stiction
