@@ -169,8 +169,12 @@ def main(group, folder, port, minutes, seed):
         if time.monotonic() < next_sample:
             continue
         next_sample += 10.0
-        for process in processes.values():
-            process.sample()
+        for name, process in processes.items():
+            try:
+                process.sample()
+            except FileNotFoundError:
+                print("%s has ended: see its log below %s" % (name, os.environ["ROS_HOME"]))
+                return 1
         if len(processes["stiction_node"].samples) % 12 == 1:
             print(
                 "%6.1f %6d %12d  %s"
