@@ -103,7 +103,7 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
     placed_ = tiltedFlat(scan, pose.tilt_x, pose.tilt_y);
     return placed_;
   }
-  const HeightMap surface = unplaced(scan);
+  HeightMap surface = unplaced(scan);
   const bool is_on_the_grid = haveSameGrid(surface, scan);
   if (is_measured && !is_on_the_grid) return surface;
   const Beyond beyond =

@@ -115,7 +115,7 @@ void ClosingPlaces::sumBlocks() {
     while (row_of_line_[line] >= firstOf(i + 1, down_, rows)) ++i;
     const double* gaps = rows_.data() + line * static_cast<std::size_t>(cols);
     for (int j = 0; j < along_; ++j) {
-      GapSum& block = blocks_[static_cast<std::size_t>(i * along_ + j)];
+      GapSum& block = blocks_[blockAt(i, j)];
       const int from = firstOf(j, along_, cols);
       const auto count = static_cast<std::size_t>(firstOf(j + 1, along_, cols) - from);
       block.cells += static_cast<double>(count);
@@ -153,7 +153,7 @@ void ClosingPlaces::takePlaces(int divisions) {
       GapSum sum;
       for (int k = i * down_ / down; k < (i + 1) * down_ / down; ++k) {
         for (int l = j * along_ / along; l < (j + 1) * along_ / along; ++l) {
-          const GapSum& block = blocks_[static_cast<std::size_t>(k * along_ + l)];
+          const GapSum& block = blocks_[blockAt(k, l)];
           sum.cells += block.cells;
           sum.known += block.known;
           sum.gaps += block.gaps;

@@ -20,6 +20,7 @@
 /// hold the part. What is in contact (d = 0) pulls nothing: the curve has it. Derivation and
 /// figures: doc/separation_curve.md.
 
+#include <cstddef>
 #include <vector>
 
 #include "approach/gap_field.hpp"
@@ -67,6 +68,10 @@ class ClosingPlaces {
   void start(const GapField& field, double contact_modulus);
   void readRows();
   void sumBlocks();
+  std::size_t blockAt(int row, int col) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(along_) +
+           static_cast<std::size_t>(col);
+  }
   void readColumns();
   /// The places of one size; none if their sides would be too short.
   void takePlaces(int divisions);

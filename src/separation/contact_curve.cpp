@@ -136,9 +136,9 @@ void ContactCurve::takeFlow(const FlowingPlaces& flow) {
   regime_of_dale_.assign(static_cast<std::size_t>(sweep.daleCount()), Regime::kElastic);
   for (int dale = 0; dale < sweep.daleCount(); ++dale) {
     const std::int32_t place = sweep.livePlace(sweep.patchOfDale(dale));
-    if (place >= 0)
-      regime_of_dale_[static_cast<std::size_t>(dale)] =
-          contacts_[static_cast<std::size_t>(place)].regime;
+    if (place < 0) continue;
+    regime_of_dale_[static_cast<std::size_t>(dale)] =
+        contacts_[static_cast<std::size_t>(place)].regime;
   }
 }
 
