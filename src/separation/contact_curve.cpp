@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "numeric/constants.hpp"
+#include "numeric/packet.hpp"
 #include "separation/real_area.hpp"
 
 #include "chosen_constants.hpp"
@@ -22,29 +23,50 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 /// time alone.
 constexpr double kMoreInReach = 2.0;
 
+/// Squares of differences between cells that have a gap, and how many there are.
+struct Differences {
+  double squares = 0.0;
+  double count = 0.0;
+};
+
+MEMS_STICTION_VECTORIZED void addDifferences(const double* gaps, const double* others,
+                                             std::size_t count, Differences& differences) {
+  constexpr double kNone = GapField::kInvalidGap;
+  Packet squares = 0.0;
+  Packet counted = 0.0;
+  const auto add = [&](const Packet& difference) {
+    const Packet square = difference * difference;
+    const PacketMask is_known = square < kNone;
+    squares += select(is_known, square, Packet(0.0));
+    counted += oneWhere(is_known);
+  };
+  const std::size_t in_packets = count / Packet::kCount * Packet::kCount;
+  for (std::size_t i = 0; i < in_packets; i += Packet::kCount)
+    add(Packet::load(gaps + i) - Packet::load(others + i));
+  const std::size_t rest = count - in_packets;
+  add(Packet::loadFirst(gaps + in_packets, rest, kNone) -
+      Packet::loadFirst(others + in_packets, rest, 0.0));
+  differences.squares += squares.sum();
+  differences.count += counted.sum();
+}
+
 /// Rms slope of the gap from cell to cell [-].
 double rmsSlope(const GapField& field) {
   const auto cols = static_cast<std::size_t>(field.cols());
   std::vector<double> row(cols);
   std::vector<double> above(cols, GapField::kInvalidGap);
-  double along = 0.0;
-  double down = 0.0;
-  double along_count = 0.0;
-  double down_count = 0.0;
-  const auto add = [](double difference, double& sum, double& count) {
-    if (!std::isfinite(difference)) return;
-    sum += difference * difference;
-    count += 1.0;
-  };
+  Differences along;
+  Differences down;
   for (int i = 0; i < field.rows(); ++i) {
     field.gapsOfRow(i, row.data());
-    for (std::size_t col = 0; col < cols; ++col) {
-      add((row[col] - above[col]) / field.pitchY(), down, down_count);
-      if (col > 0) add((row[col] - row[col - 1]) / field.pitchX(), along, along_count);
-    }
+    addDifferences(row.data(), above.data(), cols, down);
+    addDifferences(row.data() + 1, row.data(), cols - 1, along);
     row.swap(above);
   }
-  return std::sqrt(along / std::max(along_count, 1.0) + down / std::max(down_count, 1.0));
+  const auto meanSquare = [](const Differences& all, double pitch) {
+    return all.squares / (std::max(all.count, 1.0) * pitch * pitch);
+  };
+  return std::sqrt(meanSquare(along, field.pitchX()) + meanSquare(down, field.pitchY()));
 }
 
 /// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges,
