@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 
 #include "contact/prepared_maps.hpp"
@@ -21,6 +23,9 @@ namespace {
 double carriedAtRest(const SeparationState& rest, const LoadOptions& load) {
   return rest.force() + rest.carried + load.mechanical_load;
 }
+
+/// So many cells are asked at once whether they overlap.
+using Marks = std::uint64_t;
 
 /// Whether the longest wave of a frame reaches through the bodies, so that it meets another
 /// stiffness than a half-space's.
@@ -208,17 +213,26 @@ template <typename Taker>
 void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
   const double approach = curve_.rest().approach;
   OverlapSweep& sweep = curve_.frame().contactsAt(approach);
-  row_gaps_.resize(static_cast<std::size_t>(field.cols()));
-  columns_.resize(static_cast<std::size_t>(field.cols()));
+  const auto cols = static_cast<std::size_t>(field.cols());
+  // the order knows them by gap: each marks its place in the frame
+  overlaps_.assign(static_cast<std::size_t>(field.cellCount()) + sizeof(Marks), 0);
+  const OrderedCell* const ordered = curve_.frame().orderedCells().data();
+  for (int i = 0; i < sweep.cellCount(); ++i)
+    overlaps_[static_cast<std::size_t>(ordered[i].cell)] = 1;
   for (int row = 0; row < field.rows(); ++row) {
-    field.gapsOfRow(row, row_gaps_.data());
-    const int count =
-        columnsBetween(0.0, approach, row_gaps_.data(), field.cols(), columns_.data());
-    for (int i = 0; i < count; ++i) {
-      const std::int32_t col = columns_[static_cast<std::size_t>(i)];
-      const std::int32_t id = sweep.patchOf(field.cellAt(row, col));
-      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)],
-           static_cast<std::size_t>(sweep.livePlace(id)));
+    const std::uint8_t* const line = &overlaps_[static_cast<std::size_t>(row) * cols];
+    for (std::size_t first = 0; first < cols; first += sizeof(Marks)) {
+      Marks marks;
+      std::memcpy(&marks, line + first, sizeof marks);
+      if (marks == 0) continue;
+      const std::size_t end = std::min(first + sizeof(Marks), cols);
+      for (std::size_t col = first; col < end; ++col) {
+        if (line[col] == 0) continue;
+        const GridCell cell = field.cellAt(row, static_cast<int>(col));
+        const std::int32_t id = sweep.patchOf(cell);
+        take(row, cell.col, approach - field.gap(cell.index),
+             static_cast<std::size_t>(sweep.livePlace(id)));
+      }
     }
   }
 }
@@ -286,14 +300,21 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
                                settings.interface.hardness_ratio_limit);
   const OverlapSweep& sweep = curve_.frame().contactsAt(curve_.rest().approach);
   if (wants_map) takeLeastOverlaps(field);
-  flowed_line_.resize(static_cast<std::size_t>(field.cols()));
-  pressure_line_.resize(static_cast<std::size_t>(field.cols()));
+  flowed_line_.assign(static_cast<std::size_t>(field.cols()), 0.0);
+  pressure_line_.assign(static_cast<std::size_t>(field.cols()), 0.0);
+  const auto take = [&](int col, double flowed, double pressure) {
+    flowed_line_[static_cast<std::size_t>(col)] = flowed;
+    pressure_line_[static_cast<std::size_t>(col)] = pressure;
+  };
+  const auto takeAway = [&](int col, double, double) { take(col, 0.0, 0.0); };
   int last_row = -1;
   visitOverlaps(field, [&](int row, int col, double overlap, std::size_t place) {
     const ContactCurve::Contact& contact = curve_.contacts()[place];
     if (wants_map) {
-      if (has_flowed_ && row != last_row)
-        places_that_flow_.readRow(row, flowed_line_.data(), pressure_line_.data());
+      if (has_flowed_ && row != last_row) {
+        if (last_row >= 0) places_that_flow_.visitRow(last_row, takeAway);
+        places_that_flow_.visitRow(row, take);
+      }
       last_row = row;
       const bool touches = contact.is_of_places
                                ? pressure_line_[static_cast<std::size_t>(col)] > 0.0

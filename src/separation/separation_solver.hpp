@@ -78,11 +78,10 @@ class SeparationSolver : public ContactSolver {
   /// By flow, so much more than without that how far they flow is not sure.
   bool attracts_more_ = false;
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
-  std::vector<double> row_gaps_;
-  std::vector<double> least_overlaps_;  ///< of the contacts at rest [m]
+  std::vector<std::uint8_t> overlaps_;      ///< by cell
+  std::vector<double> least_overlaps_;      ///< of the contacts at rest [m]
   std::vector<double> flowed_line_;
   std::vector<double> pressure_line_;
-  std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
   ClosingPlaces places_;
