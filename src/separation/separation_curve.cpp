@@ -241,7 +241,10 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   curve.status = Status::kNoEquilibrium;
   for (int step = 0; step < settings.approach.max_steps; ++step) {
     const double approach = loadingAfter(frame, step);
-    curve.states.push_back(stateAt(frame, approach, curve.way, expectedRest(curve.states, load)));
+    const double expected_rest = expectedRest(curve.states, load);
+    // the force falls ever more steeply: rest may come a step before
+    if (expected_rest > 0.0 && expected_rest < loadingAfter(frame, step + 1)) frame.mark();
+    curve.states.push_back(stateAt(frame, approach, curve.way, expected_rest));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
