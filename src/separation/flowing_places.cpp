@@ -83,9 +83,8 @@ MEMS_STICTION_VECTORIZED void movesTo(double by_place, double hardness, const do
 
 /// s of pressures from 0 to the hardness.
 /// - @p of_steps s of equal steps of the pressure
-MEMS_STICTION_VECTORIZED void layersUnder(const std::vector<double>& of_steps, double hardness,
-                                          const double* pressures, std::size_t count,
-                                          double* layers) {
+void layersUnder(const std::vector<double>& of_steps, double hardness, const double* pressures,
+                 std::size_t count, double* layers) {
   const double* const layer = of_steps.data();
   const auto last = static_cast<std::int32_t>(of_steps.size() - 2);
   const double per_pressure = (last + 1) / hardness;
