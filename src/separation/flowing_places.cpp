@@ -81,24 +81,18 @@ MEMS_STICTION_VECTORIZED void movesTo(double by_place, double hardness, const do
   }
 }
 
-/// s of pressures from 0 to the hardness.
+/// s of pressures + share moves, from 0 to the hardness. Not in vectors: it takes longer to gather.
 /// - @p of_steps s of equal steps of the pressure
 void layersUnder(const std::vector<double>& of_steps, double hardness, const double* pressures,
-                 std::size_t count, double* layers) {
+                 double share, const double* moves, std::size_t count, double* layers) {
   const double* const layer = of_steps.data();
   const auto last = static_cast<std::int32_t>(of_steps.size() - 2);
   const double per_pressure = (last + 1) / hardness;
   for (std::size_t i = 0; i < count; ++i) {
-    const double place = per_pressure * pressures[i];
+    const double place = per_pressure * (pressures[i] + share * moves[i]);
     const std::int32_t before = std::min(static_cast<std::int32_t>(place), last);
     layers[i] = layer[before] + (place - before) * (layer[before + 1] - layer[before]);
   }
-}
-
-/// values + share steps
-MEMS_STICTION_VECTORIZED void sumOf(double share, const double* values, const double* steps,
-                                    std::size_t count, double* sums) {
-  for (std::size_t i = 0; i < count; ++i) sums[i] = values[i] + share * steps[i];
 }
 
 /// How E falls along the moves at first, and how its slope grows on the way.
@@ -136,7 +130,7 @@ struct Growth {
 
 MEMS_STICTION_VECTORIZED Growth grow(double share, const double* moves, const double* yields,
                                      const double* layers, const double* next_layers,
-                                     std::size_t count, double* rises) {
+                                     std::size_t count, double* pressures, double* rises) {
   Packet square_of_moves = 0.0;
   Packet product = 0.0;
   Packet square = 0.0;
@@ -146,6 +140,7 @@ MEMS_STICTION_VECTORIZED Growth grow(double share, const double* moves, const do
     const Packet growth =
         share * Packet::load(yields + i) + Packet::load(next_layers + i) - Packet::load(layers + i);
     (Packet::load(rises + i) + growth).store(rises + i);
+    (Packet::load(pressures + i) + move).store(pressures + i);
     square_of_moves += move * move;
     product += move * growth;
     square += growth * growth;
@@ -155,6 +150,7 @@ MEMS_STICTION_VECTORIZED Growth grow(double share, const double* moves, const do
     const double move = share * moves[i];
     const double growth = share * yields[i] + next_layers[i] - layers[i];
     rises[i] += growth;
+    pressures[i] += move;
     sums.square_of_moves += move * move;
     sums.product += move * growth;
     sums.square += growth * growth;
@@ -170,6 +166,10 @@ void FlowingPlaces::takeCells(const GapField& field, double approach) {
   cells_.row_begin.assign(1, 0);
   cells_.columns.clear();
   gaps_.clear();
+  if (approach == GapField::kInvalidGap) {  // all of them
+    cells_.columns.reserve(static_cast<std::size_t>(field.validCount()));
+    gaps_.reserve(static_cast<std::size_t>(field.validCount()));
+  }
   std::vector<std::int32_t> columns(static_cast<std::size_t>(cols));
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, line_.data());
@@ -191,7 +191,7 @@ void FlowingPlaces::raise(PeriodicCompliance& bodies) {
   const std::size_t count = gaps_.size();
   bodies.give(cells_, pressures_, contact_modulus_, yields_);
   layers_.resize(count);
-  layersUnder(layer_, hardness_, pressures_.data(), count, layers_.data());
+  layersUnder(layer_, hardness_, pressures_.data(), 0.0, pressures_.data(), count, layers_.data());
   rises_.resize(count);
   for (std::size_t i = 0; i < count; ++i) rises_[i] = gaps_[i] + yields_[i] + layers_[i];
 }
@@ -226,23 +226,21 @@ void FlowingPlaces::moveTo(double place, double stiffness) {
 double FlowingPlaces::follow(PeriodicCompliance& bodies, int steps, double stiffness) {
   const std::size_t count = gaps_.size();
   next_layers_.resize(count);
-  next_pressures_.resize(count);
   for (int step = 0; step < steps; ++step) {
     moveTo(displacement(stiffness), stiffness);
     bodies.give(cells_, moves_, contact_modulus_, yields_);
-    sumOf(1.0, pressures_.data(), moves_.data(), count, next_pressures_.data());
-    layersUnder(layer_, hardness_, next_pressures_.data(), count, next_layers_.data());
+    layersUnder(layer_, hardness_, pressures_.data(), 1.0, moves_.data(), count,
+                next_layers_.data());
     const Descent descent = descentOf(rises_.data(), moves_.data(), yields_.data(), layers_.data(),
                                       next_layers_.data(), count);
     if (!(descent.fall > 0.0) || !(descent.bend > 0.0)) break;
     const double share = std::min(1.0, descent.fall / descent.bend);
     if (share < 1.0) {
-      sumOf(share, pressures_.data(), moves_.data(), count, next_pressures_.data());
-      layersUnder(layer_, hardness_, next_pressures_.data(), count, next_layers_.data());
+      layersUnder(layer_, hardness_, pressures_.data(), share, moves_.data(), count,
+                  next_layers_.data());
     }
-    pressures_.swap(next_pressures_);
     const Growth growth = grow(share, moves_.data(), yields_.data(), layers_.data(),
-                               next_layers_.data(), count, rises_.data());
+                               next_layers_.data(), count, pressures_.data(), rises_.data());
     layers_.swap(next_layers_);
     stiffness =
         step % 2 == 0 ? growth.square_of_moves / growth.product : growth.product / growth.square;

@@ -95,7 +95,6 @@ class FlowingPlaces {
   std::vector<double> moves_;
   std::vector<double> layers_;       ///< s of the pressures [m]
   std::vector<double> next_layers_;  ///< after the moves
-  std::vector<double> next_pressures_;
   std::vector<double> yields_;
   std::vector<double> line_;
   PeriodicCompliance by_blocks_;
