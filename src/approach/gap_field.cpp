@@ -175,23 +175,15 @@ void GapField::lower(const GapField& field, const PressedCells& cells,
   takeGrid(field);
   upper_is_flat_ = field.upper_is_flat_;
   if (!upper_is_flat_) lower_ = field.lower_;
-  const auto lowerFrom = [&](const auto& source, auto& relief) {
-    fillRelief(relief, [&](int row, auto* line) {
-      using Scalar = std::remove_reference_t<decltype(*line)>;
-      std::copy_n(source.data() + static_cast<std::ptrdiff_t>(row) * cols_, cols_, line);
-      const auto place = static_cast<std::size_t>(row);
-      for (int i = cells.row_begin[place]; i < cells.row_begin[place + 1]; ++i) {
-        const auto cell = static_cast<std::size_t>(i);
-        Scalar& height = line[cells.columns[cell]];
-        height = static_cast<Scalar>(height - lowering[cell]);
-      }
-    });
-  };
-  if (field.is_single_) {
-    lowerFrom(field.single_relief_, single_relief_);
-  } else {
-    lowerFrom(field.relief_, relief_);
-  }
+  fillRelief(relief_, [&](int row, double* line) {
+    field.gapsOfRow(row, line);
+    for (int col = 0; col < cols_; ++col) line[col] = -line[col];
+    const auto place = static_cast<std::size_t>(row);
+    for (int i = cells.row_begin[place]; i < cells.row_begin[place + 1]; ++i) {
+      const auto cell = static_cast<std::size_t>(i);
+      line[cells.columns[cell]] -= lowering[cell];
+    }
+  });
 }
 
 void GapField::computeAgainstPlane(const HeightMap& lower) {

@@ -48,7 +48,7 @@ class GapField {
   /// The gaps of another field whose relief has been lowered cell by cell [m], as a plate that
   /// tilts or bends does for itself.
   void lower(const GapField& field, const cv::Mat1d& lowering);
-  /// The same of some cells alone, in the other field's precision.
+  /// The same of some cells alone.
   void lower(const GapField& field, const PressedCells& cells, const std::vector<double>& lowering);
 
   int rows() const { return rows_; }
