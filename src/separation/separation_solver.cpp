@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "contact/prepared_maps.hpp"
 #include "deformation/modified_topography.hpp"
@@ -23,9 +24,6 @@ namespace {
 double carriedAtRest(const SeparationState& rest, const LoadOptions& load) {
   return rest.force() + rest.carried + load.mechanical_load;
 }
-
-/// So many cells are asked at once whether they overlap.
-using Marks = std::uint64_t;
 
 /// Whether the longest wave of a frame reaches through the bodies, so that it meets another
 /// stiffness than a half-space's.
@@ -110,19 +108,14 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
   FlowingPlaces::Press press = {forces.contactModulus(), forces.hardness(),
                                 carriedAtRest(curve_.rest(), load),
                                 is_reached ? curve_.rest().approach : GapField::kInvalidGap};
-  attracts_more_ = false;
   bool has_flowed = false;
+  double carried = 0.0;
   for (int round = 0; round < chosen::kFlowRounds; ++round) {
     if (!places_that_flow_.press(problem.gap, law, press)) break;
     has_flowed = true;
     curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
     // flattened summits bring the surfaces nearer to each other, which attract the more
-    const double carried = carriedAtRest(curve_.rest(), load);
-    const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
-    attracts_more_ =
-        carried > chosen::kDoubtedTimes * pressed_by &&
-        carried > chosen::kDoubtedTimes *
-                      carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
+    carried = carriedAtRest(curve_.rest(), load);
     if (carried < chosen::kMoreCarried * press.load) break;
     press.load = carried;
     const double approach = curve_.rest().approach + places_that_flow_.lowering();
@@ -130,6 +123,10 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
                          ? std::max(press.approach, approach)
                          : GapField::kInvalidGap;
   }
+  const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
+  attracts_more_ = has_flowed && carried > chosen::kDoubtedTimes * pressed_by &&
+                   carried > chosen::kDoubtedTimes *
+                                 carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
   return has_flowed;
 }
 
@@ -215,24 +212,21 @@ void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
   OverlapSweep& sweep = curve_.frame().contactsAt(approach);
   const auto cols = static_cast<std::size_t>(field.cols());
   // the order knows them by gap: each marks its place in the frame
-  overlaps_.assign(static_cast<std::size_t>(field.cellCount()) + sizeof(Marks), 0);
+  overlaps_.assign(static_cast<std::size_t>(field.cellCount()), 0);
   const OrderedCell* const ordered = curve_.frame().orderedCells().data();
   for (int i = 0; i < sweep.cellCount(); ++i)
     overlaps_[static_cast<std::size_t>(ordered[i].cell)] = 1;
   for (int row = 0; row < field.rows(); ++row) {
-    const std::uint8_t* const line = &overlaps_[static_cast<std::size_t>(row) * cols];
-    for (std::size_t first = 0; first < cols; first += sizeof(Marks)) {
-      Marks marks;
-      std::memcpy(&marks, line + first, sizeof marks);
-      if (marks == 0) continue;
-      const std::size_t end = std::min(first + sizeof(Marks), cols);
-      for (std::size_t col = first; col < end; ++col) {
-        if (line[col] == 0) continue;
-        const GridCell cell = field.cellAt(row, static_cast<int>(col));
-        const std::int32_t id = sweep.patchOf(cell);
-        take(row, cell.col, approach - field.gap(cell.index),
-             static_cast<std::size_t>(sweep.livePlace(id)));
-      }
+    const std::uint8_t* const line = overlaps_.data() + static_cast<std::size_t>(row) * cols;
+    const auto next = [&](const std::uint8_t* from) {
+      const auto left = static_cast<std::size_t>(line + cols - from);
+      return static_cast<const std::uint8_t*>(std::memchr(from, 1, left));
+    };
+    for (const std::uint8_t* at = next(line); at != nullptr; at = next(at + 1)) {
+      const GridCell cell = field.cellAt(row, static_cast<int>(at - line));
+      const std::int32_t id = sweep.patchOf(cell);
+      take(row, cell.col, approach - field.gap(cell.index),
+           static_cast<std::size_t>(sweep.livePlace(id)));
     }
   }
 }
@@ -300,22 +294,14 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
                                settings.interface.hardness_ratio_limit);
   const OverlapSweep& sweep = curve_.frame().contactsAt(curve_.rest().approach);
   if (wants_map) takeLeastOverlaps(field);
-  flowed_line_.assign(static_cast<std::size_t>(field.cols()), 0.0);
-  pressure_line_.assign(static_cast<std::size_t>(field.cols()), 0.0);
-  const auto take = [&](int col, double flowed, double pressure) {
-    flowed_line_[static_cast<std::size_t>(col)] = flowed;
-    pressure_line_[static_cast<std::size_t>(col)] = pressure;
-  };
-  const auto takeAway = [&](int col, double, double) { take(col, 0.0, 0.0); };
+  flowed_line_.resize(static_cast<std::size_t>(field.cols()));
+  pressure_line_.resize(static_cast<std::size_t>(field.cols()));
   int last_row = -1;
   visitOverlaps(field, [&](int row, int col, double overlap, std::size_t place) {
     const ContactCurve::Contact& contact = curve_.contacts()[place];
     if (wants_map) {
-      if (has_flowed_ && row != last_row) {
-        if (last_row >= 0) places_that_flow_.visitRow(last_row, takeAway);
-        places_that_flow_.visitRow(row, take);
-      }
-      last_row = row;
+      if (has_flowed_ && row != std::exchange(last_row, row))
+        places_that_flow_.readRow(row, flowed_line_.data(), pressure_line_.data());
       const bool touches = contact.is_of_places
                                ? pressure_line_[static_cast<std::size_t>(col)] > 0.0
                                : overlap >= least_overlaps_[place];
