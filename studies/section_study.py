@@ -4,6 +4,7 @@ import argparse
 import pathlib
 import re
 import sys
+import textwrap
 import warnings
 
 import mems_stiction
@@ -30,10 +31,20 @@ def run(arguments, study, section_of, heading):
     ):  # of heights and materials that are as drawn
         warnings.simplefilter("ignore", of_draws)
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    section = section_of(study(arguments), arguments)
+    section = wrapped(section_of(study(arguments), arguments))
     print(section, end="")
     if arguments.page:
         put(section, arguments.page, heading)
+
+
+def wrapped(section):
+    """Its paragraphs in the pages' 100 columns; tables and lists as they are."""
+    return "".join(
+        line
+        if line[0] in "|-#!\n"
+        else textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False) + "\n"
+        for line in section.splitlines(keepends=True)
+    )
 
 
 def put(section, page, heading):
