@@ -1,5 +1,7 @@
 """Predictions and half-spaces as a notebook shows them: a few figures, and a picture inside the
-page."""
+page.
+
+prediction is a Prediction, solution a HalfSpace; both import this file when they are shown."""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ import base64
 import html
 import io
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, List, Tuple
+from typing import Any, List, Tuple
 
 import matplotlib.pyplot  # noqa: F401  (before plots, which else chooses where pyplot draws)
 import numpy as np
@@ -19,15 +21,11 @@ from mems_stiction.curve_figure import draw_curves
 from mems_stiction.prediction_text import flag_words
 from mems_stiction.quantities import area, length_scale, literal, percent, ratio
 
-if TYPE_CHECKING:
-    from mems_stiction._half_space import HalfSpace
-    from mems_stiction._prediction import Prediction
-
 STATUS_CODES = {"EQUILIBRIUM": 0, "BONDED": 1, "NO_EQUILIBRIUM": 2}
 DPI = 72
 
 
-def picture_of(prediction: Prediction) -> Any:
+def picture_of(prediction: Any) -> Any:
     """For plots.save_picture() and its parts, which know the records of messages: columns along x,
     statuses as numbers."""
     back: Any = np.transpose if prediction._is_transposed else np.asarray
@@ -79,7 +77,7 @@ def _table(rows: List[Tuple[str, str]]) -> str:
     return "<table>%s</table>" % cells
 
 
-def prediction_html(prediction: Prediction) -> str:
+def prediction_html(prediction: Any) -> str:
     rows = [
         ("status", prediction.status.lower().replace("_", " ")),
         ("pull-off force", plots.with_unit(prediction.pull_off_force, "N")),
@@ -110,7 +108,7 @@ def prediction_html(prediction: Prediction) -> str:
     return _table(rows) + _embedded(_prediction_figure(prediction))
 
 
-def _prediction_figure(prediction: Prediction) -> Figure:
+def _prediction_figure(prediction: Any) -> Figure:
     picture = picture_of(prediction)
     curve = prediction.curve_over_height
     figure = Figure(figsize=(15 if len(curve) else 10, 4.8), dpi=DPI)
@@ -128,7 +126,7 @@ def _prediction_figure(prediction: Prediction) -> Figure:
     return figure
 
 
-def half_space_html(solution: HalfSpace) -> str:
+def half_space_html(solution: Any) -> str:
     rows = [
         ("half-space", solution.status.lower().replace("_", " ")),
         ("pull-off force", plots.with_unit(solution.pull_off_force, "N")),
@@ -154,7 +152,7 @@ def half_space_html(solution: HalfSpace) -> str:
     return _table(rows) + _embedded(_half_space_figure(solution))
 
 
-def save_half_space(solution: HalfSpace, path: str) -> None:
+def save_half_space(solution: Any, path: str) -> None:
     """As the notebook shows it, on a page of its own."""
     figure = _half_space_figure(solution)
     figure.set_dpi(2 * DPI)
@@ -171,7 +169,7 @@ def save_half_space(solution: HalfSpace, path: str) -> None:
     plots.save(figure, path)
 
 
-def _half_space_figure(solution: HalfSpace) -> Figure:
+def _half_space_figure(solution: Any) -> Figure:
     figure = Figure(figsize=(10, 4.8), dpi=DPI)
     grid = figure.add_gridspec(1, 2, left=0.07, right=0.985, top=0.88, bottom=0.14, wspace=0.3)
     left, right = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])

@@ -8,6 +8,7 @@ from typing import Any, Dict, List, Optional, Union
 
 from mems_stiction import _core
 from mems_stiction._warnings import SettingsWarning, warn
+from mems_stiction.other_packages import require_package
 from mems_stiction.yaml_text import MOST_LEVELS, MOST_VALUES
 
 Error = _core.Error
@@ -159,8 +160,6 @@ def _lines(text: str) -> Any:
 
 def values_of(settings: Settings) -> Dict[str, Any]:
     """Every setting with its value, by "section/key"."""
-    from mems_stiction.other_packages import require_package
-
     require_package("yaml", "a setting by its name")
     import yaml  # type: ignore[import]
 

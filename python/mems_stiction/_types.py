@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence, Tuple, Union
 
 import numpy as np
 
-from mems_stiction._arrays import Pitch
+from mems_stiction._arrays import Pitch, Surface
 
 if TYPE_CHECKING:
     from typing import Protocol
 
-    from mems_stiction._scans import Scan
+    class ScanLike(Protocol):
+        """Scan of this package."""
+
+        _surface: Surface
 
     class TopographyLike(Protocol):
         """Of SurfaceTopography: the first index is x, lengths are in its unit."""
@@ -39,7 +42,7 @@ if TYPE_CHECKING:
 Heights = Union[
     np.ndarray,
     Sequence[Sequence[float]],
-    "Scan",
+    "ScanLike",
     "TopographyLike",
     "DataArrayLike",
     str,

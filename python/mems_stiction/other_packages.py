@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import importlib
 
-from mems_stiction._settings import Error
+from mems_stiction._core import Error
 
 # Which extra of setup.py brings it.
 EXTRAS = {
