@@ -21,8 +21,5 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
-#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/paper/paper_options.hpp"
-#include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/verdict/verdict.hpp"

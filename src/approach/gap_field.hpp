@@ -12,7 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "approach/cell_order.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 #include "numeric/large_pages.hpp"
 
 namespace mems_stiction {

@@ -5,7 +5,7 @@
 
 #include "approach/gap_field.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
 

@@ -4,6 +4,11 @@
 
 namespace mems_stiction {
 
+const char* word(Status status) {
+  constexpr const char* kWords[] = {"EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"};
+  return kWords[static_cast<int>(status)];
+}
+
 void ContactSolution::clear() {
   ContactSolution fresh;
   fresh.asperities.swap(asperities);

@@ -18,7 +18,6 @@
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/prediction/options.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 

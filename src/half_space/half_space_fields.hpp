@@ -17,13 +17,6 @@
 
 namespace mems_stiction {
 
-/// "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED"
-inline const char* word(HalfSpaceStatus status) {
-  constexpr const char* kWords[] = {"SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED",
-                                    "TOO_MANY_STATES", "CANCELLED"};
-  return kWords[static_cast<int>(status)];
-}
-
 /// The points of both ways in the order in which they were met; the one at rest is there twice.
 inline std::vector<CurvePoint> curveOf(const SolvedHalfSpace& solution) {
   std::vector<CurvePoint> curve;

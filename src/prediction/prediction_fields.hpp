@@ -16,30 +16,6 @@
 
 namespace mems_stiction {
 
-/// "EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"
-inline const char* word(Status status) {
-  constexpr const char* kWords[] = {"EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"};
-  return kWords[static_cast<int>(status)];
-}
-
-/// "APART", "ELASTIC", "ELASTO_PLASTIC", "PLASTIC"
-inline const char* word(Regime regime) {
-  constexpr const char* kWords[] = {"APART", "ELASTIC", "ELASTO_PLASTIC", "PLASTIC"};
-  return kWords[static_cast<int>(regime)];
-}
-
-/// "BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"
-inline const char* word(BondingRegime regime) {
-  constexpr const char* kWords[] = {"BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"};
-  return kWords[static_cast<int>(regime)];
-}
-
-/// "DMT", "TRANSITION", "JKR", "UNKNOWN"
-inline const char* word(ContactTheory theory) {
-  constexpr const char* kWords[] = {"DMT", "TRANSITION", "JKR", "UNKNOWN"};
-  return kWords[static_cast<int>(theory)];
-}
-
 /// @param roughness ArealParameters, const or not
 /// @param visit called with (Figure, value) for each
 template <typename Parameters, typename Visitor>

@@ -47,7 +47,7 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "station/measured_scan.hpp"
 #include "station/run_control.hpp"

@@ -14,7 +14,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
 

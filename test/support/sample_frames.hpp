@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "approach/gap_field.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
 namespace samples {

@@ -46,6 +46,9 @@ enum class Status : std::uint8_t {
   kNoEquilibrium = 2,  ///< the search range ended first: results are those of the last step
 };
 
+/// "EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"
+const char* word(Status status);
+
 /// One step of the approach, for the energy curve.
 struct EnergyPoint {
   double approach = 0.0;           ///< D [m]

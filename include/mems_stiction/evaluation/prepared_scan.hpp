@@ -21,11 +21,11 @@
 #include <vector>
 
 #include "mems_stiction/configuration/configuration.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/roughness/unresolved_waves.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 

@@ -40,6 +40,9 @@ enum class HalfSpaceStatus : std::uint8_t {
   kCancelled
 };
 
+/// "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED"
+const char* word(HalfSpaceStatus status);
+
 /// The answer. Figures that were not reached are NaN; the curves have every state that was solved.
 /// Forces and areas are of the frame; attraction is positive.
 struct SolvedHalfSpace {

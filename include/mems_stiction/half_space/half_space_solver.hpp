@@ -25,10 +25,10 @@
 
 #include "mems_stiction/half_space/half_space_options.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// A surface on a regular grid: heights, pitch and validity.
+/// A surface on a regular grid: heights, pitch and validity; and two of them that meet.
 ///
 /// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z
 /// points out of the lower body towards the upper one. Heights are metres; a pixel that is not
@@ -9,8 +9,10 @@
 ///
 ///     const HeightMap scan(heights, 10e-9, 10e-9);  // [m]; NaN: not measured
 ///     print(heightStatistics(scan).rms_height);
+///     const SurfacePair pair(scan);  // on a level plane; with a second map, on that
 
 #include <memory>
+#include <utility>
 
 #include <opencv2/core.hpp>
 
@@ -60,6 +62,21 @@ class HeightMap {
   cv::Mat heights_;
   double pitch_x_ = 0.0;
   double pitch_y_ = 0.0;
+};
+
+/// Two surfaces in one frame: z of both points from lower to upper. Without an upper surface there
+/// is a level plane at z = 0 in its place. An empty `upper` is the one way to say so.
+struct SurfacePair {
+  SurfacePair() = default;
+  SurfacePair(
+      HeightMap lower_in,
+      HeightMap upper_in = {})  // NOLINT(google-explicit-constructor): one surface is a pair
+      : lower(std::move(lower_in)), upper(std::move(upper_in)) {}
+
+  bool upperIsPlane() const { return upper.empty(); }
+
+  HeightMap lower;
+  HeightMap upper;  ///< same rows, cols and pitch; empty for a level plane
 };
 
 /// Height figures of one surface over its valid pixels.

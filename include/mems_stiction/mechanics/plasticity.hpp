@@ -17,8 +17,6 @@
 ///         composite_rms_height, radius);
 ///     const double stored_share = regimeFactor(phi);
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace mems_stiction {
@@ -31,29 +29,25 @@ inline constexpr double kPlasticLimit = 1.1;
 /// The values are those of the contact map.
 enum class Regime : std::uint8_t { kApart = 0, kElastic = 1, kElastoPlastic = 2, kPlastic = 3 };
 
+/// "APART", "ELASTIC", "ELASTO_PLASTIC", "PLASTIC"
+const char* word(Regime regime);
+
 /// Whether hardness plays a part. kElastic keeps every contact elastic.
 enum class Deformation { kThreeRegimes, kElastic };
 
 /// That of one asperity.
-inline Regime regimeOf(double plasticity_index) {
-  if (plasticity_index <= kElasticLimit) return Regime::kElastic;
-  return plasticity_index < kPlasticLimit ? Regime::kElastoPlastic : Regime::kPlastic;
-}
+Regime regimeOf(double plasticity_index);
 
 /// phi of (9) [-].
 /// @param contact_modulus E [Pa], > 0
 /// @param hardness Ha of the softer body [Pa], > 0
 /// @param composite_rms_height sigma of the pair [m], >= 0
 /// @param radius composite radius R of the asperity [m], > 0
-inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height,
-                              double radius) {
-  return contact_modulus / hardness * std::sqrt(composite_rms_height / radius);
-}
+double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height,
+                       double radius);
 
 /// chi of (10.2), the elastic share [-]: 1 elastic, 0 fully plastic.
 /// @param plasticity_index phi of (9) [-]
-inline double regimeFactor(double plasticity_index) {
-  return std::clamp((kPlasticLimit - plasticity_index) / (kPlasticLimit - kElasticLimit), 0.0, 1.0);
-}
+double regimeFactor(double plasticity_index);
 
 }  // namespace mems_stiction

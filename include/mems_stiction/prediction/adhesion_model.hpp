@@ -19,9 +19,9 @@
 
 #include <memory>
 
+#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 

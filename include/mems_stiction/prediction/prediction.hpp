@@ -45,6 +45,11 @@ enum class BondingRegime : std::uint8_t {
 /// JKR above 5, DMT below 0.1, the transition between.
 enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2, kUnknown = 3 };
 
+/// "BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"
+const char* word(BondingRegime regime);
+/// "DMT", "TRANSITION", "JKR", "UNKNOWN"
+const char* word(ContactTheory theory);
+
 /// What a scan leaves out, against what adhesion bridges (verdict/missing_scan.hpp). NaN: not
 /// known.
 struct ShortWaves {
@@ -120,20 +125,16 @@ struct Prediction {
   ModelStatement model;  ///< what the solver says of these figures
   /// Whether the pull-off force is a lower bound: the search ended before the contacts stopped
   /// growing.
-  bool isLowerBound() const { return status == Status::kBonded && model.is_bound_where_bonded; }
+  bool isLowerBound() const;
   /// Whether `asperities` lists every contact: it does not if the solver knows none, or
   /// output/asperities is off.
-  bool listsContacts() const {
-    return has_asperities && static_cast<int>(asperities.size()) == asperity_count;
-  }
+  bool listsContacts() const;
   std::vector<Asperity> asperities;
   std::vector<Asperity> pull_off_contacts;  ///< that hold at the pull-off (contact_solution.hpp),
                                             ///< also with output/asperities off
   /// Those that a verdict rests on: at the pull-off, or at rest where the formulation knows no
   /// others.
-  const std::vector<Asperity>& holdingContacts() const {
-    return pull_off_contacts.empty() ? asperities : pull_off_contacts;
-  }
+  const std::vector<Asperity>& holdingContacts() const;
   std::vector<EnergyPoint> energy_curve;
   std::vector<SeparationCurvePoint>
       curve;               ///< force over displacement; empty if the formulation does not follow it
