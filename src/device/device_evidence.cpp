@@ -43,12 +43,42 @@ void takeFactors(std::vector<double> of_force, std::vector<double> of_work, Devi
       force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
 }
 
+DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
+  if (isScale(force_factor)) {
+    for (double* const value : {&force.pull_off_force, &force.pull_off_force_lower,
+                                &force.pull_off_force_upper, &force.linear_pull_off_force}) {
+      *value *= force_factor;
+    }
+    for (Realisation& made : force.realisations) made.pull_off_force *= force_factor;
+  }
+  if (isScale(work_factor)) {
+    for (double* const value :
+         {&force.apparent_work_of_adhesion, &force.apparent_work_of_adhesion_lower,
+          &force.apparent_work_of_adhesion_upper}) {
+      *value *= work_factor;
+    }
+  }
+  return force;
+}
+
+DeviceForce judgedByHalfSpace(DeviceForce force, const Prediction& frame, const Options& options,
+                              const UncertaintyOptions& uncertainty, const Evidence& evidence) {
+  const SolvedHalfSpace& solution = *evidence.half_space;
+  force = scaled(std::move(force), solution.pull_off_force / frame.pull_off_force,
+                 solution.work_of_adhesion / frame.apparent_work_of_adhesion);
+  AdhesionSpread spread = adhesionSpread(frame, options, uncertainty, evidence);
+  takeFactors(std::move(spread.pull_off), std::move(spread.apparent_work), force);
+  return force;
+}
+
 DeviceEvidence deviceEvidence(const DeviceForce& force) {
   DeviceEvidence evidence;
   evidence.pull_off_force = force.pull_off_force;
   evidence.apparent_work_of_adhesion = force.apparent_work_of_adhesion;
   evidence.force_factors = force.force_factors;
   evidence.work_factors = force.work_factors;
+  evidence.force_factors_without_doubt = force.force_factors_without_doubt;
+  evidence.work_factors_without_doubt = force.work_factors_without_doubt;
   if (force.is_cut_from_scans) evidence.contacts = force.contacts_of_scans;
   if (force.realisations.size() > 1) {
     const double freedom = static_cast<double>(force.realisations.size()) - 1.0;

@@ -20,6 +20,16 @@ bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& opt
 /// are their quantiles.
 void takeFactors(std::vector<double> of_force, std::vector<double> of_work, DeviceForce& force);
 
+/// Force and work with their intervals times the factors, as of scaled() in evidence.hpp.
+DeviceForce scaled(DeviceForce force, double force_factor, double work_factor);
+
+/// The force as a verdict by the half-space has it: the device's figures move as those of the
+/// frame do, and the half-space has answered what the curve doubts.
+/// - @p frame the prediction of the scan that was solved
+/// - @p evidence with device and half_space, which judge
+DeviceForce judgedByHalfSpace(DeviceForce force, const Prediction& frame, const Options& options,
+                              const UncertaintyOptions& uncertainty, const Evidence& evidence);
+
 /// The figures of the force that a verdict needs.
 DeviceEvidence deviceEvidence(const DeviceForce& force);
 

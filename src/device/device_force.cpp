@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "device/area_load.hpp"
@@ -136,16 +137,23 @@ class StatedSurfaces {
   std::map<const DeviceLaws*, std::optional<DeviceSurface>> surfaces_;
 };
 
+/// What stands for the logarithm of nothing.
+const double kLogOfNothing = std::log(std::numeric_limits<double>::min());
+
+/// The median of figures, by their logarithms.
+double medianFigure(std::vector<double>& logs) {
+  const double median = medianOf(logs);
+  return median > kLogOfNothing ? std::exp(median) : 0.0;
+}
+
 /// Logarithms of figures, by realisation.
 struct Logs {
   std::vector<double> force;
   std::vector<double> work;
 
   void add(const Realisation& realisation) {
-    force.push_back(
-        std::log(std::max(realisation.pull_off_force, std::numeric_limits<double>::min())));
-    work.push_back(std::log(
-        std::max(realisation.apparent_work_of_adhesion, std::numeric_limits<double>::min())));
+    force.push_back(std::max(std::log(realisation.pull_off_force), kLogOfNothing));
+    work.push_back(std::max(std::log(realisation.apparent_work_of_adhesion), kLogOfNothing));
   }
 };
 
@@ -182,12 +190,19 @@ FactorRange surfaceRange(double reach, double excess) {
 void takeIntervals(const Prediction& like, const Options& model,
                    const UncertaintyOptions& constants, double student, const PlaceExcess& places,
                    DeviceForce& force) {
-  AdhesionSpread spread = adhesionSpread(like, model, constants);
-  takeFactors(factorsOf(std::move(spread.pull_off), constants.samples,
-                        surfaceRange(student * force.force_deviation, places.force)),
-              factorsOf(std::move(spread.apparent_work), constants.samples,
-                        surfaceRange(student * force.work_deviation, places.work)),
-              force);
+  const auto factors = [&](const Prediction& prediction) {
+    AdhesionSpread spread = adhesionSpread(prediction, model, constants);
+    return std::pair(factorsOf(std::move(spread.pull_off), constants.samples,
+                               surfaceRange(student * force.force_deviation, places.force)),
+                     factorsOf(std::move(spread.apparent_work), constants.samples,
+                               surfaceRange(student * force.work_deviation, places.work)));
+  };
+  auto [of_force, of_work] = factors(like);
+  takeFactors(std::move(of_force), std::move(of_work), force);
+  if (like.model.doubt == nullptr) return;
+  Prediction sure = like;
+  sure.model.error = like.model.error_without_doubt;
+  std::tie(force.force_factors_without_doubt, force.work_factors_without_doubt) = factors(sure);
 }
 
 /// What chi^2/freedom is not below, or above, in 2.5 % of cases (Wilson and Hilferty).
@@ -425,8 +440,8 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
     realisation.pull_off_force *= growth.force;
     realisation.apparent_work_of_adhesion *= growth.work;
   }
-  force.pull_off_force = std::exp(medianOf(run.stated.force)) * growth.force;
-  force.apparent_work_of_adhesion = std::exp(medianOf(run.stated.work)) * growth.work;
+  force.pull_off_force = medianFigure(run.stated.force) * growth.force;
+  force.apparent_work_of_adhesion = medianFigure(run.stated.work) * growth.work;
   force.contacts = medianOf(run.counts);
   force.separation_at_rest = medianOf(run.gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / realisations);

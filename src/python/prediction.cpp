@@ -109,6 +109,11 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
       predicted->extras.verdict =
           verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
                     on_frame, scan.cellArea(), evidence);
+      if (evidence.device && predicted->extras.verdict->judge == Judge::kHalfSpace) {
+        std::optional<DeviceForce>& force = predicted->extras.device_force;
+        force = judgedByHalfSpace(std::move(*force), predicted->prediction, on_frame,
+                                  configuration.uncertainty, evidence);
+      }
     }
   }
   predicted->curve = curveOf(predicted->prediction, configuration.model);

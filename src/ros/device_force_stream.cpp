@@ -13,7 +13,6 @@
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/time_limit.hpp"
-#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -44,22 +43,6 @@ std::string forceHash(const Configuration& settings, bool with_load) {
   counted.device.contacts = settings.device.contacts;
   if (!with_load) counted.model.load = LoadOptions();
   return settingsHash(counted);
-}
-
-/// The force that has been found under one load, under another.
-DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
-  for (double* const value : {&force.pull_off_force, &force.pull_off_force_lower,
-                              &force.pull_off_force_upper, &force.linear_pull_off_force}) {
-    *value *= force_factor;
-  }
-  for (double* const value :
-       {&force.apparent_work_of_adhesion, &force.apparent_work_of_adhesion_lower,
-        &force.apparent_work_of_adhesion_upper}) {
-    *value *= work_factor;
-  }
-  for (Realisation& made : force.realisations) made.pull_off_force *= force_factor;
-  force.separation_at_rest = DeviceForce::kUnknown;
-  return force;
 }
 
 }  // namespace
@@ -261,6 +244,7 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     const double by_work =
         evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
     force = scaled(std::move(force), by_force, by_work);
+    force.separation_at_rest = DeviceForce::kUnknown;
   }
   std::optional<HalfSpaceOfScan> half_space;
   SolvedHalfSpace unsolved;
@@ -287,15 +271,9 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   }
   verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model,
                       task.newest.surfaces.lower.cellArea(), evidence);
-  if (verdict->judge ==
-      Judge::kHalfSpace) {  // the device's own figures moved as those of the scan did
-    const double separation = force.separation_at_rest;
-    force = scaled(
-        std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
-        half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
-    force.separation_at_rest = separation;
-    AdhesionSpread spread = adhesionSpread(task.prediction, model, settings.uncertainty, evidence);
-    takeFactors(std::move(spread.pull_off), std::move(spread.apparent_work), force);
+  if (verdict->judge == Judge::kHalfSpace) {
+    force =
+        judgedByHalfSpace(std::move(force), task.prediction, model, settings.uncertainty, evidence);
   }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;

@@ -26,6 +26,7 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double gained
                    // ratio
     statement.doubt = "the bodies are thin, and the curve takes them as thick";
     statement.error = chosen::kDoubtError;
+    statement.error_without_doubt = chosen::kSureError;
     return statement;
   }
   statement.doubt = solution.model.doubt;
@@ -35,10 +36,13 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double gained
         "bonded surfaces have less energy than the contacts that were found on the way to them";
   }
   const ModelError& of_doubt = solution.is_conforming ? chosen::kBondedError : chosen::kDoubtError;
+  statement.error_without_doubt = chosen::kSureError;
   statement.error = statement.doubt == nullptr ? chosen::kSureError : of_doubt;
   if (flattening_ratio > 1.0 && std::isfinite(flattening_ratio)) {
     const double share = std::pow(flattening_ratio, -chosen::kErrorPower);
-    statement.error = {share * statement.error.pull_off, share * statement.error.work};
+    for (ModelError* error : {&statement.error, &statement.error_without_doubt}) {
+      *error = {share * error->pull_off, share * error->work};
+    }
   }
   return statement;
 }

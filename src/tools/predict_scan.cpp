@@ -337,6 +337,10 @@ void predictScan(const std::string& path, const Arguments& arguments,
     if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
     extras.verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, options,
                                scan.surface.cellArea(), evidence);
+    if (evidence.device && extras.verdict->judge == Judge::kHalfSpace) {
+      extras.device_force = judgedByHalfSpace(std::move(*extras.device_force), prediction, options,
+                                              configuration.uncertainty, evidence);
+    }
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (!curve_files.formulation.empty()) {

@@ -35,13 +35,14 @@ Prediction withHalfSpace(const Prediction& prediction, const SolvedHalfSpace& so
   return judged;
 }
 
+bool isScale(double factor) { return std::isfinite(factor) && factor > 0.0; }
+
 DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_factor) {
-  const auto isFactor = [](double factor) { return std::isfinite(factor) && factor > 0.0; };
-  if (isFactor(force_factor)) {
+  if (isScale(force_factor)) {
     device.pull_off_force *= force_factor;
     device.linear_pull_off_force *= force_factor;
   }
-  if (isFactor(work_factor)) device.apparent_work_of_adhesion *= work_factor;
+  if (isScale(work_factor)) device.apparent_work_of_adhesion *= work_factor;
   return device;
 }
 

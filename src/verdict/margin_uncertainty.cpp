@@ -186,8 +186,11 @@ AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& optio
                               const UncertaintyOptions& uncertainty, const Evidence& evidence) {
   AdhesionSpread spread;
   if (evidence.device) {
-    spread.pull_off = evidence.device->force_factors;
-    spread.apparent_work = evidence.device->work_factors;
+    const DeviceEvidence& device = *evidence.device;
+    const bool is_answered =
+        evidence.half_space != nullptr && !device.force_factors_without_doubt.empty();
+    spread.pull_off = is_answered ? device.force_factors_without_doubt : device.force_factors;
+    spread.apparent_work = is_answered ? device.work_factors_without_doubt : device.work_factors;
   } else {
     const ModelError error = evidence.half_space != nullptr ? ModelError() : prediction.model.error;
     spread = samplesOf(prediction, options, uncertainty, error);

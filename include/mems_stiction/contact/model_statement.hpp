@@ -81,6 +81,7 @@ struct UnusedSetting {
 /// A solver that says nothing claims nothing.
 struct ModelStatement {
   ModelError error;
+  ModelError error_without_doubt;  ///< where something better has answered what is doubted
   bool is_bound_where_bonded =
       true;  ///< bonded surfaces hold with the pull-off force or more: the search ended there
   bool knows_every_load =

@@ -98,6 +98,9 @@ struct DeviceForce {
   /// ascending [-]. A verdict takes its margin from them.
   std::vector<double> force_factors;
   std::vector<double> work_factors;
+  /// The same where a half-space has answered what the curve doubts; empty: it doubts nothing.
+  std::vector<double> force_factors_without_doubt;
+  std::vector<double> work_factors_without_doubt;
   std::vector<Realisation> realisations;
   std::vector<PartOfScan> parts_of_scans;
   int contacts_of_scans = 0;  ///< that hold at the pull-off in all scans together

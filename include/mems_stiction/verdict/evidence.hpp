@@ -44,6 +44,9 @@ struct DeviceEvidence {
   /// the scans leave open.
   std::vector<double> force_factors;
   std::vector<double> work_factors;
+  /// The same where a half-space has answered what the curve doubts; empty: it doubts nothing.
+  std::vector<double> force_factors_without_doubt;
+  std::vector<double> work_factors_without_doubt;
   /// Contacts that the force rests on: those of the scans where the device's places are cut from
   /// them, as many as that stands for where surfaces were made, whose scatter is in the samples.
   int contacts = std::numeric_limits<int>::max();
@@ -76,6 +79,9 @@ struct DeviceScale {
   /// - @p contact of the same frame
   DeviceEvidence under(const Prediction& contact) const;
 };
+
+/// Whether figures can be multiplied with it: a number > 0.
+bool isScale(double factor);
 
 /// Force, work and linear rule times the given factors; samples and warnings stay. A factor that is
 /// not a number > 0 leaves its figure as it is.

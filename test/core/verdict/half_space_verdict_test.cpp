@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "device/device_evidence.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -162,6 +164,45 @@ TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   const Verdict wider = verdictWith(coarser, near_bonding, 1.2);
   EXPECT_NEAR(std::log(wider.margin / wider.margin_lower), 1.96 * 0.025,
               0.03 * 1.96 * 0.025);  // hypot(0.02, 0.015)
+}
+
+/// What the curve doubts is in the device's force, too, until the half-space has answered.
+TEST(HalfSpaceVerdict, AnswersTheDoubtInTheForceOfADevice) {
+  constexpr double kDoubted = 0.5;
+  constexpr double kSure = 0.1;
+  Prediction doubted = predicted();
+  doubted.model.doubt = "it tears";
+  DeviceEvidence device;
+  device.pull_off_force = 100.0 * kPullOff;
+  device.apparent_work_of_adhesion = 0.01;
+  for (std::vector<double>* const factors : {&device.force_factors, &device.work_factors}) {
+    factors->assign(20000, 1.0);
+    widen(*factors, factorsWithin(1.96 * kDoubted));
+  }
+  for (std::vector<double>* const factors :
+       {&device.force_factors_without_doubt, &device.work_factors_without_doubt}) {
+    factors->assign(20000, 1.0);
+    widen(*factors, factorsWithin(1.96 * kSure));
+  }
+  Evidence evidence;
+  evidence.device = device;
+  const auto reach = [](const Verdict& verdict) {
+    return std::log(verdict.margin / verdict.margin_lower);
+  };
+  EXPECT_NEAR(reach(verdictWith(evidence, doubted, 3.0)), 1.96 * kDoubted, 0.03);
+  const SolvedHalfSpace solution = solved(2.0);
+  evidence.half_space = &solution;
+  const Verdict judged = verdictWith(evidence, doubted, 3.0);
+  EXPECT_EQ(judged.judge, Judge::kHalfSpace);
+  EXPECT_NEAR(reach(judged), 1.96 * std::hypot(kSure, 0.02), 0.01);
+
+  DeviceForce force;
+  force.pull_off_force = device.pull_off_force;
+  force.apparent_work_of_adhesion = device.apparent_work_of_adhesion;
+  const DeviceForce moved = judgedByHalfSpace(force, doubted, Options(), exact(), evidence);
+  EXPECT_DOUBLE_EQ(moved.pull_off_force, judged.device_pull_off_force);
+  EXPECT_DOUBLE_EQ(moved.pull_off_force_upper, judged.device_pull_off_force_upper);
+  EXPECT_DOUBLE_EQ(moved.pull_off_force_lower, judged.device_pull_off_force_lower);
 }
 
 TEST(HalfSpaceVerdict, ConstantsMoveItAsTheyMoveThePrediction) {
