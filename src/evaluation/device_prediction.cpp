@@ -4,8 +4,10 @@
 
 #include "device/device_evidence.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "prediction/asked_output.hpp"
 
 namespace mems_stiction {
@@ -98,8 +100,12 @@ DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_
   prediction.provenance = provenanceOfAll(prediction.identities, stated_);
   prediction.settings_warnings = settingsWarnings(configuration_);
   prediction.force = scans_.force(on_progress);
+  return prediction;
+}
+
+void DevicePredictor::judge(DevicePrediction& prediction, const HalfSpaceRun& run) {
   const DeviceOptions& device = configuration_.device;
-  if (!device.hasSpring() && !device.hasBeam()) return prediction;
+  if (!device.hasSpring() && !device.hasBeam()) return;
   const std::size_t place = scans_.finest();
   const PreparedScan& finest = prepared_[place];
   const Prediction of_scan =
@@ -107,9 +113,22 @@ DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_
   Evidence evidence;
   evidence.device = deviceEvidence(prediction.force);
   const Options options = onFrame(configuration_.model, device, finest.surfaces);
+  const HalfSpaceCall call = halfSpaceCall(of_scan, finest, options, configuration_);
+  SolvedHalfSpace solution;
+  if (call.is_made) {
+    solution = run([&](const HalfSpaceControl& control) {
+      return answerOf(call, HalfSpaceSolver(configuration_.half_space),
+                      halfSpaceProblem(finest, options), control);
+    });
+    evidence.half_space = &solution;
+    evidence.why_half_space = call.why;
+  }
   prediction.verdict = verdictOf(of_scan, device, configuration_.uncertainty, options,
                                  finest.surfaces.lower.cellArea(), evidence);
-  return prediction;
+  if (prediction.verdict->judge == Judge::kHalfSpace) {
+    prediction.force = judgedByHalfSpace(std::move(prediction.force), of_scan, options,
+                                         configuration_.uncertainty, evidence);
+  }
 }
 
 std::vector<DeviceForce> DevicePredictor::forces(

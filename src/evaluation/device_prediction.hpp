@@ -6,7 +6,9 @@
 ///
 ///     DevicePredictor predictor(configuration);
 ///     for (const ScanFile& file : files) predictor.add(file.name, file.surface, file.notes);
-///     std::cout << deviceYamlRecord(predictor.predict());
+///     DevicePrediction prediction = predictor.predict();
+///     predictor.judge(prediction, [](const auto& solve) { return solve({}); });
+///     std::cout << deviceYamlRecord(prediction);
 
 #include <functional>
 #include <optional>
@@ -18,6 +20,7 @@
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -38,6 +41,10 @@ struct DevicePrediction {
   /// Both, and those of the force.
   std::vector<std::string> warnings() const;
 };
+
+/// Watches a solution of the half-space while it is made.
+using HalfSpaceRun = std::function<SolvedHalfSpace(
+    const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve)>;
 
 /// One device with device/contact_area. One object serves one thread.
 class DevicePredictor {
@@ -65,8 +72,14 @@ class DevicePredictor {
   /// What looks wrong in the scans, each with its name.
   const std::vector<std::string>& scanWarnings() const { return prediction_.scan_warnings; }
 
+  /// Without a verdict.
   /// @throw as deviceForce()
   DevicePrediction predict(const std::function<void(double)>& on_progress = {});
+  /// The verdict, where the device states what is to open it. Where the flags of the finest scan
+  /// ask for the half-space, that judges, as for a prediction of the scan alone, and moves the
+  /// device's figures.
+  /// - @p run calls what it is given, and returns what that returns
+  void judge(DevicePrediction& prediction, const HalfSpaceRun& run);
 
   /// The forces alone, by each of several models: the surfaces are made once.
   /// @throw as deviceForces()

@@ -39,7 +39,13 @@ SharedDevice predictDevice(const std::vector<DeviceScan>& scans,
     const Cancellation check(cancel);
     DevicePredictor predictor(configuration);
     addScans(scans, counter_surface, check, predictor);
-    return std::make_shared<DevicePrediction>(predictor.predict(check));
+    auto predicted = std::make_shared<DevicePrediction>(predictor.predict(check));
+    predictor.judge(*predicted, [&](const auto& solve) {
+      HalfSpaceControl control;
+      control.cancel = &cancel;
+      return solve(control);
+    });
+    return predicted;
   });
 }
 

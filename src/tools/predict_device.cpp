@@ -13,6 +13,7 @@
 #include "device_picture.hpp"
 #include "evaluation/device_prediction.hpp"
 #include "evaluation/plausibility.hpp"
+#include "half_space_run.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
@@ -190,8 +191,9 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
   }
   const std::string what =
       std::to_string(inputs.size()) + (inputs.size() == 1 ? " scan" : " scans");
-  const DevicePrediction prediction = whileSayingShare(
+  DevicePrediction prediction = whileSayingShare(
       what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
+  predictor.judge(prediction, &withHalfSpaceProgress);
   for (const std::string& line : prediction.force.warnings) warn("predict_device", line);
   const std::string json = deviceJsonRecord(prediction);
   if (arguments.json) {

@@ -161,7 +161,9 @@ TEST(CoarseScan, servesAsAWideOneBesideFineScans) {
                     {});
     }
     predictor.add("wide", wide, {}, {});
-    return predictor.predict();
+    DevicePrediction prediction = predictor.predict();
+    predictor.judge(prediction, [](const auto& solve) { return solve({}); });
+    return prediction;
   };
   const DevicePrediction alone = predicted(0);
   EXPECT_EQ(alone.verdict->sticks, Sticks::kUnknown);
