@@ -14,6 +14,7 @@
 #include "evaluation/plausibility.hpp"
 #include "half_space_run.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
+#include "numeric/words.hpp"
 #include "prediction/force_curve.hpp"
 
 namespace mems_stiction {
@@ -76,14 +77,16 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     append(stateFields(state), row.fields);
     return row;
   }
-  row.is_warned = !subject.warnings.empty();
   beside_ = Evidence();
   if (arguments_.rowsHaveDeviceForce()) {
-    beside_ =
-        evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
+    DeviceForce force;
+    beside_ = evidenceOfScan(
+        prepared_, configuration_, [&](double share) { tell(deviceText(share)); }, &force);
+    addMissing(force.warnings, subject.warnings);
   } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
     beside_.why_no_device = kRowsOfScans;
   }
+  row.is_warned = !subject.warnings.empty();
   HalfSpaceAnswer half_space;
   const bool has_half_space = mayCallHalfSpace(configuration_);
   if (has_half_space) {

@@ -1119,6 +1119,8 @@ class BatchTest(unittest.TestCase):
         )
         record = json.loads(done.stdout)
         self.assertEqual(record["device_force"]["pull_off_force"], row["device_pull_off_force"])
+        self.assertIn("device_force/max_cells", row["warnings"])
+        self.assertEqual(row["warnings"], "; ".join(record["warnings"]))
         self.assertEqual(
             [row[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")],
             [record[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")],
