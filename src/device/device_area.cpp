@@ -29,6 +29,8 @@ constexpr double kRounding = 0.05;
 constexpr std::int64_t kFrameSide = 4096;
 /// The same of a plate that tilts, which comes to rest again and again.
 constexpr std::int64_t kTiltedSide = 2048;
+/// So many contacts of a frame tell how those of a larger area flow.
+constexpr double kManyContacts = 100.0;
 /// So many of the highest cells tell nearly always: all others are kept only if they do not.
 constexpr std::int64_t kFewCells = 1 << 16;
 /// Pixels along the side of what is shown of a surface, at most.
@@ -81,6 +83,21 @@ cv::Mat frameOf(DeviceSurface& surface) {
   const int side = static_cast<int>(std::min(size.rows, kFrameSide));
   cv::Mat frame(side, side, CV_32FC1);
   surface.heights(surface.rows() - size.rows, 0, frame);
+  return frame;
+}
+
+/// Rows of a frame whose contacts flow, from piece to piece.
+std::int64_t flowingRows(const DevicePieces& pieces) {
+  const std::int64_t cols = std::min(pieces.size.cols, kTiltedSide);
+  return std::min(pieces.count * pieces.size.rows, kTiltedSide * kTiltedSide / cols);
+}
+
+/// The last pieces, one after another.
+cv::Mat flowingFrameOf(DeviceSurface& surface) {
+  const std::int64_t rows = flowingRows(surface.pieces());
+  cv::Mat frame(static_cast<int>(rows), static_cast<int>(std::min(surface.cols(), kTiltedSide)),
+                CV_32FC1);
+  surface.heights(surface.rows() - rows, 0, frame);
   return frame;
 }
 
@@ -174,11 +191,17 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   std::optional<ShownSurface> shown;
   if (solvers.front()->made_surface_.empty()) shown.emplace(pieces.size);
   std::vector<Realisation> found;
+  cv::Mat whole;
+  cv::Mat flowing;
+  const auto frame = [&](const DeviceAreaSolver& solver) {
+    cv::Mat& made = solver.flows_ ? flowing : whole;
+    if (made.empty()) made = solver.flows_ ? flowingFrameOf(surface) : frameOf(surface);
+    return made;
+  };
   if (std::all_of(solvers.begin(), solvers.end(),
-                  [](const auto* solver) { return solver->tilts(); })) {
-    const cv::Mat frame = frameOf(surface);
-    if (shown) shown->add(0, 0, frame);
-    for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame));
+                  [](const auto* solver) { return solver->takesFrames(); })) {
+    if (shown) shown->add(0, 0, frame(*solvers.front()));
+    for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame(*solver)));
   } else {
     AreaCellLimits few_cells;
     few_cells.most_cells = kFewCells;
@@ -189,16 +212,15 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                          if (shown && piece == 0) shown->add(row, col, tile);
                        });
     std::optional<Gatherer> all;
-    const auto frame = [&] { return frameOf(surface); };
     for (DeviceAreaSolver* solver : solvers) {
       std::optional<Realisation> by_few;
-      if (!few.keepsAll() && !solver->tilts())
+      if (!few.keepsAll() && !solver->takesFrames())
         by_few = solver->followCells(few.cells(), few.quarters(), false);
       if (by_few) {
         found.push_back(*by_few);
         continue;
       }
-      if (!few.keepsAll() && !all) {
+      if (!few.keepsAll() && !solver->takesFrames() && !all) {
         all.emplace(pieces);
         surface.visitTiles(0, surface.rows(),
                            [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
@@ -206,7 +228,8 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                            });
       }
       const Gatherer& gatherer = all ? *all : few;
-      found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), frame));
+      found.push_back(
+          solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return frame(*solver); }));
     }
   }
   if (shown) {
@@ -216,7 +239,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
 }
 
 Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {
-  return follow(cells, {}, [&] { return frameOf(surface); });
+  return follow(cells, {}, [&] { return flows_ ? flowingFrameOf(surface) : frameOf(surface); });
 }
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
@@ -251,22 +274,25 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   };
   Gatherer gatherer(pieces);
   cv::Mat relief;
+  cv::Mat flowing;
   for (int piece = 0; piece < pieces.count; ++piece) {
     relief = partOf(lower);
     if (!upper.empty()) relief -= partOf(upper);
     gatherer.add(piece, 0, 0, relief);
+    if (flowing.rows + relief.rows <= flowingRows(pieces)) flowing.push_back(relief);
   }
   std::vector<Realisation> found;
   found.reserve(solvers.size());
   for (DeviceAreaSolver* solver : solvers) {
-    found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return relief; }));
+    found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(),
+                                   [&] { return solver->flows_ ? flowing : relief; }));
   }
   return found;
 }
 
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                                      const std::function<cv::Mat()>& frame) {
-  if (tilts()) return followFrame(frame());
+  if (takesFrames()) return followFrame(frame());
   const std::optional<Realisation> found = followCells(cells, quarters, true);
   return found ? *found : followFrame(frame());
 }
@@ -280,6 +306,9 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (!isEnough(found)) return std::nullopt;
+  const bool is_flowing = found.flows && model_.load.presses();
+  flows_ = is_flowing && framesTell(found.contact_count);
+  if (flows_) return std::nullopt;
   double force = 0.0;
   double work = 0.0;
   for (const AreaCells& quarter : quarters) {
@@ -289,11 +318,10 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
   }
-  if (found.flows && model_.load.presses()) {
+  if (is_flowing) {
     warnOnce(
-        "the load makes contacts flow, and of the device's own they flow as whole contacts: a "
-        "scan's prediction, by "
-        "places, tells better what the load does");
+        "the load makes contacts flow, and of the device's own, which are few, they flow as whole "
+        "contacts: a scan's prediction, by places, tells better what the load does");
   }
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
@@ -309,6 +337,14 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) /
                           std::log(1.0 * kQuarters));
   return realisation;
+}
+
+bool DeviceAreaSolver::framesTell(int contacts) const {
+  const double cells = static_cast<double>(flowingRows(pieces_)) *
+                       static_cast<double>(std::min(pieces_.size.cols, kTiltedSide));
+  const double share = cells / (static_cast<double>(pieces_.count * pieces_.size.rows) *
+                                static_cast<double>(pieces_.size.cols));
+  return share >= 1.0 || contacts * share >= kManyContacts;
 }
 
 Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {

@@ -83,11 +83,15 @@ class DeviceAreaSolver {
                                          const std::vector<AreaCells>& quarters, bool are_all);
   Realisation followFrame(const cv::Mat& relief);
   bool tilts() const { return model_.guidance != Guidance::kGuided; }
+  bool takesFrames() const { return tilts() || flows_; }
+  /// Whether a frame has room for the surface, or for enough of its contacts.
+  bool framesTell(int contacts) const;
   void warnOnce(const std::string& warning);
 
   Options model_;
   double loaded_area_;
   DevicePieces pieces_;
+  bool flows_ = false;  ///< by its load, and frames tell where: cells know whole contacts alone
   Exponents force_exponents_;
   Exponents work_exponents_;
   double stiffness_ = 0.0;             ///< [Pa/m]

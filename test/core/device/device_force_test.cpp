@@ -383,6 +383,32 @@ TEST_F(DeviceForceTest, ALargerScanMayBePressedByMoreThanTheLargestLoadThatMayBe
   EXPECT_GT(force(areaOfPixels(420)).pull_off_force, 0.0);
 }
 
+/// Many contacts of a soft metal flow place by place, on made surfaces as on the whole one.
+TEST_F(DeviceForceTest, ALoadThatMakesPlacesFlowMakesItHoldMore) {
+  model_.lower.hardness = model_.upper.hardness = 1.5e9;
+  const double side = areaOfPixels(kSide);
+  double before = force(side).pull_off_force;
+  for (const double pressure : {20e6, 100e6}) {
+    model_.load.mechanical_load = pressure * areaOfPixels(256);
+    const DeviceForce pressed = force(side);
+    EXPECT_GT(pressed.pull_off_force, 1.2 * before) << pressure;
+    EXPECT_FALSE(isTold(pressed, "whole contacts"));
+    before = pressed.pull_off_force;
+    Options of_whole = model_;
+    of_whole.load.mechanical_load = pressure * side;
+    const double truth =
+        AdhesionModel(of_whole).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+    EXPECT_NEAR(std::log(pressed.pull_off_force / truth), 0.0, std::log(2.0)) << pressure;
+  }
+}
+
+TEST_F(DeviceForceTest, WithoutAdhesionNothingHolds) {
+  model_.interface.work_of_adhesion = 0.0;
+  const DeviceForce found = force(areaOfPixels(420));
+  EXPECT_EQ(found.pull_off_force, 0.0);
+  EXPECT_EQ(found.pull_off_force_upper, 0.0);
+}
+
 TEST_F(DeviceForceTest, TwoRoughBodiesHoldLessThanOne) {
   const DeviceForce one = force(areaOfPixels(420));
   surfaces_.counter_surface = {part("counter", surfaceOf(512, 60e-9, 5e-9, 8), 0, 0, 256)};
