@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/constants.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -44,6 +46,12 @@ double sShapeWork(const Beam& beam, double unstuck_length) {
 double arcWork(const Beam& beam, double unstuck_length) {
   return 0.375 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap /
          std::pow(unstuck_length, 4);
+}
+
+double bucklingStress(const Beam& beam) {
+  if (beam.type != BeamType::kDoublyClamped) return -std::numeric_limits<double>::infinity();
+  const double slenderness = beam.length / beam.thickness;
+  return -kPi * kPi * beam.modulus / (3.0 * slenderness * slenderness);
 }
 
 double peelNumber(const Beam& beam, double work) {

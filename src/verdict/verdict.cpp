@@ -215,6 +215,13 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
     finding.reason +=
         "; by the scan's work of adhesion: with device/contact_area it would be that of the device";
   }
+  const bool is_force_known = is_measured || device.hasSpring() || device.hasBeamContact();
+  if (finding.sticks == Sticks::kNo && device.contact_area > 0.0 && !is_force_known) {
+    finding.sticks = Sticks::kUnknown;
+    finding.reason +=
+        "; but the force that opens a contact of device/contact_area is not known without "
+        "device/beam_width";
+  }
   return finding;
 }
 
@@ -260,8 +267,10 @@ Finding governingFinding(const Holding& holding, Finding of_force, Finding of_wo
   const double reach = holding.device.beamContactLength();
   const PeelReach peeled = peelReach(holding, verdict);
   const bool is_open = reach > peeled.shortest && reach < peeled.longest;
-  const int worse_force = is_open ? gravity(of_force.sticks) - gravity(of_work.sticks) : 0;
-  const bool is_force = worse_force != 0 ? worse_force > 0 : reach < peeled.length;
+  const int worse_force = gravity(of_force.sticks) - gravity(of_work.sticks);
+  const bool is_worse_by_force =
+      worse_force != 0 ? worse_force > 0 : verdict.margin < verdict.peel_number;
+  const bool is_force = is_open ? is_worse_by_force : reach < peeled.length;
   verdict.governed_by = is_force ? kGovernedByForce : kGovernedByPeeling;
   Finding finding = is_force ? std::move(of_force) : std::move(of_work);
   const std::string whole =
@@ -321,6 +330,14 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
                      (missing.empty() ? ": it needs device/spring_stiffness with device/travel and "
                                         "device/contact_area; or a beam"
                                       : " in full: " + missing + " must be > 0");
+    return verdict;
+  }
+  if (device.hasBeam() && device.beam_residual_stress < bucklingStress(device.beam())) {
+    verdict.restoring_force = verdict.pull_in_voltage = Verdict::kNotStated;
+    verdict.reason = "the beam buckles: device/beam_residual_stress of " +
+                     shortNumber(device.beam_residual_stress, 3) + " Pa is below " +
+                     shortNumber(bucklingStress(device.beam()), 3) +
+                     " Pa, and a beam that is not straight has no such restoring force";
     return verdict;
   }
   const DeviceEvidence* of_device = evidence.device ? &*evidence.device : nullptr;

@@ -24,7 +24,7 @@
 /// rigid clamps; the doubly clamped beam keeps the shape of pure bending, u = h (3 x^2/s^2 - 2
 /// x^3/s^3), while it is stretched (an upper bound of the energy, good while the bracket is not
 /// much above 1), and what is stuck does not slide. sigma is the residual stress, tensile positive;
-/// a beam that buckles (sigma < -pi^2 E t^2/(3 l^2)) is out of range. Sources: de Boer and
+/// a beam that buckles (bucklingStress()) is out of range. Sources: de Boer and
 /// Michalske, J. Appl. Phys. 86 (1999) 817 for the shapes; Mastrangelo and Hsu, J. MEMS 2 (1993) 33
 /// and 44 for the peel number and the idea of the doubly clamped form. That form is derived here
 /// from the exact clamped-guided arm: the trial shape of one polynomial, u = 16 h x^2 (l -
@@ -58,6 +58,12 @@ double sShapeWork(const Beam& beam, double unstuck_length);
 
 /// G at which a cantilever that touches with its tip only is about to come off, l = s [J/m^2].
 double arcWork(const Beam& beam, double unstuck_length);
+
+/// The residual stress below which a doubly clamped beam is not straight [Pa], < 0; -infinity for
+/// others (Timoshenko and Gere, Theory of Elastic Stability, 1961: clamped ends).
+///
+///     -pi^2 E t^2/(3 l^2)
+double bucklingStress(const Beam& beam);
 
 /// N [-]; NaN for BeamType::kNone.
 double peelNumber(const Beam& beam, double work);

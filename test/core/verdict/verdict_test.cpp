@@ -315,6 +315,39 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   EXPECT_TRUE(std::isnan(unstated.margin));
 }
 
+/// A contact that would open with its force may hold more than the beam peels off.
+TEST(Verdict, ofABeamWithoutItsWidthIsNoPlainNo) {
+  const Spheres spheres;
+  DeviceOptions device = cantilever(30e-6);
+  EXPECT_EQ(verdictFor(spheres, device).sticks, Sticks::kNo) << "no contact is stated";
+  device.contact_area = spheres.prediction.nominal_area;
+  const Verdict verdict = verdictFor(spheres, device);
+  EXPECT_GT(verdict.peel_number_lower, 1.0);
+  EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+  EXPECT_NE(verdict.reason.find("device/beam_width"), std::string::npos) << verdict.reason;
+}
+
+TEST(Verdict, ofABeamThatBucklesIsUnknown) {
+  const Spheres spheres;
+  DeviceOptions device = cantilever(300e-6);
+  device.beam_type = BeamType::kDoublyClamped;
+  device.beam_width = 20e-6;
+  device.contact_area = spheres.prediction.nominal_area;
+  const double limit = bucklingStress(device.beam());
+  EXPECT_NEAR(limit, -kPi * kPi * 169e9 * 4e-12 / (3.0 * 9e-8), 1e-6 * std::abs(limit));
+  device.beam_residual_stress = 0.9 * limit;
+  EXPECT_GT(verdictFor(spheres, device).margin, 0.0);
+  EXPECT_GT(verdictFor(spheres, device).peel_number, 0.0);
+  device.beam_residual_stress = 1.1 * limit;
+  const Verdict verdict = verdictFor(spheres, device);
+  EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+  EXPECT_EQ(verdict.reason.rfind("the beam buckles: ", 0), 0U) << verdict.reason;
+  EXPECT_TRUE(std::isnan(verdict.margin));
+  EXPECT_TRUE(std::isnan(verdict.restoring_force));
+  device.beam_type = BeamType::kCantilever;
+  EXPECT_TRUE(std::isinf(bucklingStress(device.beam())));
+}
+
 /// Widths that take the contact from beyond all lengths over which adhesion may give way to below
 /// them: between, no answer is better than the worse of force and peeling.
 TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOpen) {
@@ -341,6 +374,10 @@ TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOp
         EXPECT_EQ(verdict.governed_by, is_force_worse ? kGovernedByForce : kGovernedByPeeling)
             << verdict.reason;
         last = verdict.reason;
+      } else {
+        EXPECT_EQ(verdict.governed_by,
+                  verdict.margin < verdict.peel_number ? kGovernedByForce : kGovernedByPeeling)
+            << verdict.reason;
       }
     }
   }
