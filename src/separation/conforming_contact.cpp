@@ -88,30 +88,30 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
   unloading.force_exponents =
       lawExponents(field_.isOn() ? area() * field_.pressure(strongest) / unloading.force : 0.0,
                    std::min(1.0, area() * water_.pressure(strongest) / unloading.force));
-  if (mayTear())
+  const double by_waves = waves_.of(*gap_, contact_modulus_);
+  if (mayTear(flattening_energy_) || mayTear(by_waves))
     unloading.doubt = "the surfaces are bonded, and long waves of their relief may tear them apart";
   for (auto state = rest; state != branch_.cend(); ++state) {
     unloading.curve.push_back({law_->range() - state->height, area() * state->traction, true});
   }
-  takeWork(by_contacts, unloading);
+  takeWork(by_contacts, by_waves, unloading);
   return unloading;
 }
 
-bool ConformingContact::mayTear() const {
+bool ConformingContact::mayTear(double flattening_energy) const {
   const double rms_height = gap_->rmsGap();
-  if (!(flattening_energy_ > 0.0 && rms_height > 0.0)) return false;
+  if (!(flattening_energy > 0.0 && rms_height > 0.0)) return false;
   const double strength = law_->strength();
-  const double wave_number =
-      4.0 * flattening_energy_ / (contact_modulus_ * rms_height * rms_height);
+  const double wave_number = 4.0 * flattening_energy / (contact_modulus_ * rms_height * rms_height);
   const double crack_radius =
       0.5 * kPi * contact_modulus_ * law_->workOfAdhesion() / (strength * strength);
-  const double tension = 2.0 * flattening_energy_ / rms_height;
+  const double tension = 2.0 * flattening_energy / rms_height;
   return kPi / wave_number > crack_radius && tension > chosen::kHardlyTense * strength;
 }
 
 // (S10a)
-void ConformingContact::takeWork(const Unloading& by_contacts, Unloading& unloading) {
-  const double flattening = waves_.of(*gap_, contact_modulus_);
+void ConformingContact::takeWork(const Unloading& by_contacts, double flattening,
+                                 Unloading& unloading) {
   const double by_field = field_.isOn() ? field_.energy(0.0) : 0.0;
   const double by_water = water_.energy(0.0);
   // the surfaces rest in the state of the least energy, and contacts jump in either

@@ -13,6 +13,8 @@
 ///     pi/q > a0 = pi E Gamma/(2 s^2),  q = 4 U/(A E sigma^2)  a crack has room in half a wave
 ///     2 U/(A sigma) > 0.05 s                                  the tension of the waves     (S10b)
 ///
+/// with U by lines or by waves (flattening_waves.hpp).
+///
 /// s is the strength of the law, sigma the rms height, a0 the radius from which a crack needs less
 /// than s. The work is that of the springs with the flattening energy of all waves, and of what
 /// jumps lose, (S10a).
@@ -50,9 +52,11 @@ class ConformingContact {
   const std::vector<SpringState>& branch();
   /// By springs and law without a load, per area [J/m^2].
   static double energyGained(const std::vector<SpringState>& springs);
-  void takeWork(const Unloading& by_contacts, Unloading& unloading);
-  /// (S10b): whether the interface may tear before all springs pull at their best.
-  bool mayTear() const;
+  /// - @p flattening_energy U/A by waves [J/m^2]
+  void takeWork(const Unloading& by_contacts, double flattening_energy, Unloading& unloading);
+  /// (S10b): whether the interface may tear before all springs pull at their best. Lines see no
+  /// waves that are long against the frame, blocks none that are short: both are asked.
+  bool mayTear(double flattening_energy) const;
   double area() const { return gap_->validCount() * gap_->cellArea(); }
 
   const GapField* gap_ = nullptr;
