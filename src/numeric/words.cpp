@@ -103,6 +103,16 @@ std::string suggestion(const std::string& unknown, const std::vector<std::string
     }
     if (distance == best && best <= farthest) nearest.push_back(key);
   }
+  if (nearest.size() > 1 && unknown_end != unknown) {  // of those that share the last part
+    const auto whole = [&](const std::string& key) {
+      return editDistance(unknown, key, std::max(key.size(), unknown.size()));
+    };
+    std::size_t least = whole(nearest.front());
+    for (const std::string& key : nearest) least = std::min(least, whole(key));
+    nearest.erase(std::remove_if(nearest.begin(), nearest.end(),
+                                 [&](const std::string& key) { return whole(key) > least; }),
+                  nearest.end());
+  }
   if (nearest.empty() || nearest.size() > 3) return "";
   std::string text = " (did you mean ";
   for (std::size_t i = 0; i < nearest.size(); ++i) text += (i == 0 ? "" : " or ") + nearest[i];

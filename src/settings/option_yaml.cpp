@@ -249,12 +249,17 @@ class YamlReader : public OptionVisitor {
     std::size_t unknown_count = 0;
     for (const Leaf& leaf : leaves_) {
       const std::string section = leaf.key + "/";
-      const bool empty_section =
-          leaf.node.IsNull() &&
+      const bool is_section =
           std::any_of(known_.begin(), known_.end(),
                       [&](const std::string& key) { return startsWith(key, section); });
+      const bool empty_section = leaf.node.IsNull() && is_section;
       if (leaf.uses == 0 && !empty_section) {
         if (++unknown_count > kMostUnknown) continue;
+        if (is_section) {
+          lines.push_back(leaf.key + ": " + shown(leaf.node) +
+                          " is given, must be a section with settings of its own");
+          continue;
+        }
         const auto former = former_names_.find(leaf.key);
         if (former != former_names_.end()) {
           lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but its name is " +

@@ -158,6 +158,10 @@ TEST(Configuration, UnknownKeyIsNamedWithTheOneThatWasMeant) {
   EXPECT_TRUE(mentions(spelling, "did you mean lower/youngs_modulus?")) << spelling;
   const std::string section = refusal("work_of_adhesion: 0.1");
   EXPECT_TRUE(mentions(section, "did you mean interface/work_of_adhesion")) << section;
+  const std::string of_section = refusal("lowr: {youngs_modulus: 78e9}");
+  EXPECT_TRUE(mentions(of_section, "did you mean lower/youngs_modulus?")) << of_section;
+  const std::string list = refusal("device: [1, 2]");
+  EXPECT_TRUE(mentions(list, "device: a list is given, must be a section")) << list;
   const std::string far = refusal("colour: blue");
   EXPECT_TRUE(mentions(far, "colour: 'blue'")) << far;
   EXPECT_FALSE(mentions(far, "did you mean")) << far;
