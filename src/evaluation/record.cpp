@@ -121,7 +121,7 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
     fields.map("device_force",
                [&](Fields& force) { visitDeviceForceFields(*extras.device_force, force); });
   }
-  if (!extras.warnings.empty()) fields.texts("warnings", extras.warnings);
+  fields.texts("warnings", extras.warnings);
   add_list(fields, "preprocessing", extras.preprocessing.steps, kVisitStep);
   if (hasTipStep(extras.preprocessing)) {
     fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);

@@ -103,7 +103,7 @@ class ArchiveTest(unittest.TestCase):
             self.assertEqual(
                 {name: row[name] for name in common}, {name: record[name] for name in common}
             )
-            self.assertEqual(row["warnings"], "; ".join(record.get("warnings", [])))
+            self.assertEqual(row["warnings"], "; ".join(record["warnings"]))
 
     def test_several_workers_go_on_behind_half_a_line_and_write_the_rows_of_one(self):
         path = self.folder / "torn.jsonl"
