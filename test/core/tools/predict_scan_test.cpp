@@ -300,7 +300,8 @@ TEST_F(PredictScan, WithoutOptionsItSaysWhatPeopleAskFor) {
   const std::string& text = outcome.output;
   EXPECT_EQ(text.find(sphere() + "\n"), 0U) << text;
   for (const std::string& line :
-       {std::string("\n  status: bonded, 1 contact\n"), std::string("\n  pull-off force: "),
+       {std::string("\n  status: bonded by the load, 1 contact\n"),
+        std::string("\n  pull-off force: "),
         "\n  Does it stick? Marginal: " + record["reason"].get<std::string>() + ". ",
         std::string("\n  outside the model's range: few contacts: another place of the surface "
                     "may differ much\n"),
