@@ -127,6 +127,8 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
   attracts_more_ = has_flowed && carried > chosen::kDoubtedTimes * pressed_by &&
                    carried > chosen::kDoubtedTimes *
                                  carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
+  is_overloaded_ = has_flowed && curve_.loading().status == Status::kBonded &&
+                   load.mechanical_load > chosen::kDoubtedTimes * curve_.rest().carried;
   return has_flowed;
 }
 
@@ -149,10 +151,15 @@ void SeparationSolver::takeUnloading(const Unloading& unloading, ContactSolution
 }
 
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
-  if (solution.model.doubt != nullptr || !has_flowed_ || !attracts_more_) return;
-  solution.model.doubt =
-      "contacts have flowed until the surfaces attract each other much more, and how far is not "
-      "sure";
+  if (solution.model.doubt != nullptr || !has_flowed_) return;
+  if (attracts_more_) {
+    solution.model.doubt =
+        "contacts have flowed until the surfaces attract each other much more, and how far is not "
+        "sure";
+  } else if (is_overloaded_) {
+    solution.model.doubt =
+        "contacts have flowed under a load that presses the surfaces together nearly everywhere";
+  }
 }
 
 void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {

@@ -77,6 +77,7 @@ class SeparationSolver : public ContactSolver {
   bool has_flowed_ = false;  ///< place by place
   /// By flow, so much more than without that how far they flow is not sure.
   bool attracts_more_ = false;
+  bool is_overloaded_ = false;              ///< by more than the contacts of the curve carry
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<std::uint8_t> overlaps_;      ///< by cell
   std::vector<double> least_overlaps_;      ///< of the contacts at rest [m]

@@ -45,6 +45,29 @@ TEST(ConformingContact, longWavesTearSoonerThanSpringsAndAreDoubted) {
   EXPECT_LE(prediction.pull_off_force, strength);
 }
 
+/// Lines end at a quarter of the frame and miss most of a bow, half a wave of which lies inside.
+TEST(ConformingContact, aBowTearsAsTheWaveThatItIsHalfOf) {
+  const double modulus = 10e9;
+  const Options options = elastic(modulus);
+  const double pitch = 2.5e-9;
+  constexpr int kRows = 8;
+  constexpr int kCols = 128;
+  const double amplitude = amplitudeFor(0.15, 2 * kCols * pitch, options, modulus);
+  cv::Mat1d heights(kRows, 2 * kCols);
+  for (int col = 0; col < heights.cols; ++col) {
+    heights.col(col) = amplitude * std::cos(kPi * (col + 0.5) / kCols);
+  }
+  const Prediction prediction =
+      AdhesionModel(options).predict(HeightMap(heights.colRange(0, kCols).clone(), pitch, pitch));
+  ASSERT_TRUE(prediction.is_conforming);
+  ASSERT_NE(prediction.model.doubt, nullptr);
+  EXPECT_NE(std::string(prediction.model.doubt).find("long waves"), std::string::npos)
+      << prediction.model.doubt;
+  const SolvedHalfSpace solved = halfSpaceOf(HeightMap(heights, pitch, pitch), options);
+  ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+  EXPECT_GT(2.0 * prediction.pull_off_force, 1.1 * solved.pull_off_force);
+}
+
 TEST(ConformingContact, shortWavesBreakAsAWhole) {
   // waves of 2.5 cohesive lengths (52 nm): each place hears of the others
   const double modulus = 100e9;

@@ -251,6 +251,14 @@ TEST(SeparationFlow, isDoubtedWhereAttractionGrowsByIt) {
   EXPECT_FALSE(isDoubted(surface, options, "have flowed"));
 }
 
+TEST(SeparationFlow, isDoubtedUnderMoreThanContactsOfTheCurveCarry) {
+  const HeightMap surface = gaussianFrame(1.2e-9, 4);
+  const double area = surface.rows() * surface.cols() * surface.cellArea();
+  const char* const kWords = "under a load that presses the surfaces together";
+  EXPECT_TRUE(isDoubted(surface, flowing(47e9, 1.5e9, 500e6 * area), kWords));
+  EXPECT_FALSE(isDoubted(surface, flowing(47e9, 1.5e9, 100e6 * area), kWords));
+}
+
 TEST(SeparationFlow, isDoubtedWhereASmoothPartMayHoldALittleMore) {
   // a quarter is ten times smoother than the rest, and may hold 1.3 to 1.6 times what contacts do
   cv::Mat1d heights = gaussianFrame(0.5e-9, 2).asDouble().heights().clone();
