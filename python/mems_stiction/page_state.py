@@ -11,7 +11,7 @@ import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
-from mems_stiction.page_places import Wafers
+from mems_stiction.page_places import Wafers, is_same_part, named_part_of
 from mems_stiction.page_words import (
     AWAITED,
     NO_EQUILIBRIUM,
@@ -131,6 +131,7 @@ class PageState:
         self._periods = collections.deque(maxlen=MOST_PERIODS)  # between predictions [s]
         self._half_space = None
         self._device = None
+        self._device_part = None
         self._answers = collections.OrderedDict()  # stamp [ns] -> newest DeviceVerdict on its scan
         self._judged = None  # (number, verdict, ratio) of the newest scan that a device judged
         self._part = None
@@ -165,6 +166,7 @@ class PageState:
                 {
                     "number": self._count,
                     "stamp": stamp,
+                    "part": named_part_of(prediction),
                     "force": finite(prediction.pull_off_force),
                     "device_force": finite(device_force),
                     "restoring_force": finite(prediction.restoring_force),
@@ -229,7 +231,7 @@ class PageState:
         with self._lock:
             shown = dict(device_of(device), stamp=stamp)
             if not self._is_earlier(stamp, self._device):
-                self._device = shown
+                self._device, self._device_part = shown, named_part_of(device)
             if shown["is_found"]:
                 self._wafers.judge(stamp, device)
                 number = self._number_of(stamp)
@@ -237,7 +239,9 @@ class PageState:
                     self._judged = (number, shown["verdict"], shown["ratio"])
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
-                    if row.get("stamp") == stamp:
+                    if row.get("stamp") == stamp and is_same_part(
+                        row["part"], named_part_of(device)
+                    ):
                         row.update(
                             device_force=shown["force"],
                             restoring_force=shown["restoring_force"],
@@ -275,7 +279,7 @@ class PageState:
         with self._lock:
             return self._latest and dict(
                 number=self._latest[0],
-                stamp="%.9f" % (self._latest[1] * 1e-9),
+                stamp="%d.%09d" % divmod(self._latest[1], 10**9),
                 **flattened(self._latest[2]),
             )
 
@@ -511,7 +515,9 @@ class PageState:
     def _device_of_newest(self):
         """What is told of the device by the newest scan; None before that is told."""
         device = self._device
-        return device if device and self._latest and device["stamp"] == self._latest[1] else None
+        if not device or not self._latest or device["stamp"] != self._latest[1]:
+            return None
+        return device if is_same_part(named_part_of(self._latest[2]), self._device_part) else None
 
     def _is_awaiting(self):
         """Whether the force of the whole device that will judge the newest scan is on its way."""

@@ -697,6 +697,20 @@ class StateTest(unittest.TestCase):
         state.add_device(1 * SECOND, device_message())
         self.assertEqual(state.snapshot()["device"]["number"], 3)
 
+    def test_parts_whose_bags_begin_at_one_time_keep_their_own_forces(self):
+        state = PageState()
+        for part in "PQ":
+            state.add_prediction(SECOND, prediction(part_id=part))
+        state.add_device(SECOND, device_message(part_id="Q", margin=7.0))
+        state.add_device(SECOND, device_message(part_id="P", margin=5.0))
+        shown = state.snapshot()
+        self.assertEqual([row["ratio"] for row in shown["trend"]], [5.0, 7.0])
+
+    def test_the_stamp_of_the_row_is_exact(self):
+        state = PageState()
+        state.add_prediction(1000000003 * SECOND + 5, prediction())
+        self.assertEqual(state.scan_row()["stamp"], "1000000003.000000005")
+
     def test_parts_are_bounded(self):
         state = PageState()
         for number in range(2 * MOST_PARTS):
@@ -849,7 +863,7 @@ class WafersTest(unittest.TestCase):
     def test_the_force_of_the_whole_device_judges_the_place_of_its_scan(self):
         for x in (0, 1):
             self.state.add_prediction((x + 1) * SECOND, on_wafer(x, 0, NAN, pull_off_force=1e-7))
-        self.state.add_device(2 * SECOND, device_message())
+        self.state.add_device(2 * SECOND, device_message(part_id="row 0"))
         shown = self.told()
         self.assertEqual([place["values"].get("margin") for place in shown["places"]], [None, 5.0])
         self.assertEqual(
