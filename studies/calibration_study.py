@@ -167,7 +167,7 @@ def study(name, draws, make, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument(
         "cases", nargs="*", metavar="CASE", help="of: %s" % ", ".join([*CASES, *PARTS])
     )

@@ -220,7 +220,7 @@ def section_of(lines, arguments):
 
 
 def main():
-    parser = section_study.parser_of(__doc__.splitlines()[0], 64, 10.0, "a half-space may take")
+    parser = section_study.parser_of(__doc__.split("\n\n")[0], 64, 10.0, "a half-space may take")
     parser.add_argument("--seed", type=int, default=SEED)
     section_study.run(parser.parse_args(), study, section_of, HEADING)
 

@@ -195,7 +195,7 @@ def section_of(lines, arguments):
 
 def main():
     parser = section_study.parser_of(
-        __doc__.splitlines()[0], 96, 60.0, "the half-spaces of a frame may take"
+        __doc__.split("\n\n")[0], 96, 60.0, "the half-spaces of a frame may take"
     )
     parser.add_argument("--seeds", default=SEEDS, help="sets of frames, in turn")
     section_study.run(parser.parse_args(), study, section_of, HEADING)

@@ -258,7 +258,7 @@ def section_of(lines, arguments):
 
 def main():
     parser = section_study.parser_of(
-        __doc__.splitlines()[0],
+        __doc__.split("\n\n")[0],
         96,
         30.0,
         "the usual steps may take; the fine ones four times as many",

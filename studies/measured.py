@@ -427,7 +427,7 @@ def page(study):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("page", type=pathlib.Path)
     parser.add_argument("--seeds", type=int, default=12)
     parser.add_argument(

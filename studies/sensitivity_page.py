@@ -573,7 +573,7 @@ def draw(study, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("study", metavar="STUDY.json")
     parser.add_argument("page", metavar="PAGE.md", type=pathlib.Path)
     parser.add_argument("figure", metavar="FIGURE.png", type=pathlib.Path)

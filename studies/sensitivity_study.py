@@ -427,7 +427,7 @@ def run(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scan_files", nargs="*", metavar="SCAN")
     parser.add_argument("--config", metavar="FILE.yaml", help="what everything else is set to")
     parser.add_argument("--scans", type=int, default=12, help="of each generated surface (12)")

@@ -51,7 +51,7 @@ def positive(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("inputs", nargs="+", metavar="BAG|SCAN")
     parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv|ROWS.jsonl")
     parser.add_argument("-c", "--config", metavar="FILE.yaml")

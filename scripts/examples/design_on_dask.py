@@ -36,7 +36,7 @@ def show_progress(share):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scans", nargs="+", metavar="SCAN")
     parser.add_argument(
         "--axis",

@@ -39,7 +39,7 @@ def arrived(futures):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scans", nargs="+", metavar="SCAN")
     parser.add_argument(
         "-a",

@@ -48,7 +48,7 @@ def solved(number, pixels):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("rows", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=3 * len(trust_kinds.ALIKE))
     parser.add_argument("--pixels", type=int, default=160)

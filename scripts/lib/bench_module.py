@@ -51,7 +51,7 @@ def by_predictor(frames):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("program", metavar="PREDICT_SCAN")
     parser.add_argument("--frames", type=int, default=1000, metavar="N")
     parser.add_argument("--pixels", type=int, default=128, metavar="N", help="of a side")

@@ -237,7 +237,7 @@ def library_of(program):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("vectorized", type=pathlib.Path, metavar="VECTORIZED-PREDICT_SCAN")
     parser.add_argument("portable", type=pathlib.Path, metavar="PORTABLE-PREDICT_SCAN")
     arguments = parser.parse_args()

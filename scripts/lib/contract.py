@@ -305,7 +305,7 @@ def compare_frames(before, now):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("what", choices=("store", "compare"))
     parser.add_argument("file", type=pathlib.Path)
     parser.add_argument(

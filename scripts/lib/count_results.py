@@ -192,7 +192,7 @@ def show_skipped(cases):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--total", metavar="CHECKS.tsv")
     parser.add_argument("--ctest", metavar="CTEST.xml")
     parser.add_argument("folders", nargs="*")

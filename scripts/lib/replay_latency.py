@@ -66,7 +66,7 @@ def percentile(values, share):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--bag", required=True)
     parser.add_argument("--rate", type=float, required=True, help="scans per second")
     parser.add_argument("--shell", required=True, help="name of the row: node or nodelet")

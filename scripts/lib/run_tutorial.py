@@ -162,7 +162,7 @@ def rewritten(text, steps):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("page", type=pathlib.Path)
     parser.add_argument(
         "--write", action="store_true", help="put what the commands said into the page"

@@ -124,7 +124,7 @@ def run(source, build):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("build", type=pathlib.Path, metavar="BUILD-FOLDER")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument(
