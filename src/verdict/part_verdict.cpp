@@ -333,7 +333,8 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Ver
   static_cast<JudgedRatio&>(part.margin) = judged.margin;
   static_cast<JudgedRatio&>(part.peel_number) = judged.peel_number;
   part.sticks = of_device.sticks;
-  part.reason = of_device.reason + "; " + countText(part.scan_count, "scan") + " together";
+  part.reason = of_device.reason;
+  if (part.scan_count > 1) part.reason += "; " + countText(part.scan_count, "scan") + " together";
   part.verdict_by = judgeText(of_device.judge);
   part.counted_scans = part.scan_count;
   part.regime_flags |= of_device.regime_flags;
