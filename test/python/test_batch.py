@@ -235,7 +235,9 @@ class BatchTest(unittest.TestCase):
         )
         record = json.loads(done.stdout)
         row = json.loads((self.folder / "rows.jsonl").read_text().splitlines()[0])
-        common = set(row) & set(record) - {"file", "checksum"}  # a bag has no sum of a file
+        self.assertEqual(row["warnings"], "; ".join(record["warnings"]))
+        # a bag has no sum of a file
+        common = set(row) & set(record) - {"file", "checksum", "warnings"}
         self.assertIn("reason", common)
         self.assertGreater(len(common), 30)
         self.assertEqual(
@@ -835,6 +837,39 @@ class BatchTest(unittest.TestCase):
             done = run([program("export_predictions"), "-o", self.folder / output] + bags)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertRegex(done.stderr, r"^export_predictions: .*\n$")
+
+    def test_an_exported_verdict_is_that_of_the_device_whose_force_was_recorded(self):
+        bag_path = self.folder / "station.bag"
+        with rosbag.Bag(str(bag_path), "w") as bag:
+            for second, part in ((1, "P"), (1, "Q"), (2, "P")):
+                message = StictionPrediction(
+                    sticks=StictionPrediction.STICKS_MARGINAL,
+                    reason="margin 0.8; it waits on device_force",
+                    margin=0.8,
+                    part_id=part,
+                )
+                message.header.stamp = rospy.Time(second)
+                bag.write("/line1/prediction", message, rospy.Time(second + 10))
+            for part, margin, status in (("P", 4.0, 0), ("Q", 0.1, 2), ("P", 5.0, 1)):
+                device = DeviceAdhesion(
+                    sticks=StictionPrediction.STICKS_NO,
+                    reason="margin",
+                    margin=margin,
+                    pull_off_force=2e-7,
+                    part_id=part,
+                    status=status,
+                )
+                device.header.stamp = rospy.Time(1)
+                bag.write("/line1/device_force", device, rospy.Time(14))
+        done = run([program("export_predictions"), "-o", self.folder / "day.csv", bag_path])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("day.csv")
+        self.assertEqual(
+            [(row["sticks"], float(row["margin"]), row["is_final"]) for row in rows],
+            [("0", 5.0, "1"), ("1", 0.8, "0"), ("1", 0.8, "0")],
+        )
+        self.assertEqual(float(rows[0]["device_pull_off_force"]), 2e-7)
+        self.assertEqual(float(rows[0]["pull_off_force"]), 0.0)
 
     def test_a_disk_that_is_full_is_one_line(self):
         for call in (
