@@ -42,7 +42,7 @@ struct LawMisfit {
 /// Collects the forces of scans that a law has made.
 class LawCheck {
  public:
-  /// - @p model its load is that of a frame as large as the first of the scans
+  /// - @p model its load is that of a frame as large as the first of the scans, the finest
   /// - @p scans only those with the finest pixels are looked at
   LawCheck(const Options& model, const std::vector<HeightMap>& scans,
            const std::vector<HeightMap>& counter_surface);

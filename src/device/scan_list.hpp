@@ -19,6 +19,10 @@ inline double longerPitch(const HeightMap& surface) {
   return std::max(surface.pitchX(), surface.pitchY());
 }
 
+/// An order of scans by what they show, so that none hangs on that in which they were given: finer
+/// pixels first, then larger areas, then by the heights. Of the same heights neither comes before.
+bool comesBefore(const HeightMap& one, const HeightMap& other);
+
 /// Without their names; the pixels are shared.
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans);
 /// The shortest of their longer pitches [m]; infinity for none.

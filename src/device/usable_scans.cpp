@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "device/scan_list.hpp"
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "roughness/filled_surface.hpp"
@@ -58,8 +59,10 @@ void checkMeasured(const NamedScan& scan) {
                      "measure it again");
 }
 
-std::vector<NamedScan> usable(const std::vector<NamedScan>& scans,
-                              std::vector<std::string>& remarks) {
+std::vector<NamedScan> usable(std::vector<NamedScan> scans, std::vector<std::string>& remarks) {
+  std::stable_sort(scans.begin(), scans.end(), [](const NamedScan& one, const NamedScan& other) {
+    return comesBefore(one.surface, other.surface);
+  });
   std::vector<NamedScan> distinct;
   for (const NamedScan& scan : scans) {
     checkMeasured(scan);

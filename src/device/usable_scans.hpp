@@ -4,9 +4,10 @@
 /// What of the scans that were given does the force of a device come from, and what is to be said
 /// about them?
 ///
-/// A scan that is there twice has been measured once. Pixels that are missing are filled where
-/// every pixel is needed (roughness/filled_surface.hpp); the frames themselves are predicted with
-/// their holes.
+/// Scans stand in an order of their own (comesBefore()): that in which they were given tells
+/// nothing. A scan that is there twice has been measured once. Pixels that are missing are filled
+/// where every pixel is needed (roughness/filled_surface.hpp); the frames themselves are predicted
+/// with their holes.
 
 #include <string>
 #include <vector>

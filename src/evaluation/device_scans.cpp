@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "device/device_evidence.hpp"
+#include "device/scan_list.hpp"
+#include "errors/short_number.hpp"
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
@@ -19,10 +21,6 @@ HeightMap reliefBetween(const SurfacePair& surfaces) {
   return {relief, lower.pitchX(), lower.pitchY()};
 }
 
-double pixelOf(const NamedScan& scan) {
-  return std::max(scan.surface.pitchX(), scan.surface.pitchY());
-}
-
 /// For a counter-surface by itself, on its own grid.
 Configuration ofCounterSurface(Configuration configuration) {
   configuration.counter_surface.type = CounterSurfaceType::kTopic;
@@ -35,7 +33,7 @@ Configuration ofCounterSurface(Configuration configuration) {
 }  // namespace
 
 void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
-  if (surfaces_.scans.empty()) first_ = prepared.surfaces;
+  frames_.push_back(prepared.surfaces);
   if (configuration_.counter_surface.fitsScan()) {
     surfaces_.scans.push_back({name, reliefBetween(prepared.model_surfaces), prepared.short_waves});
     return;
@@ -72,14 +70,31 @@ std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name,
 }
 
 std::size_t DeviceScans::finest() const {
-  const auto found = std::min_element(
-      surfaces_.scans.begin(), surfaces_.scans.end(),
-      [](const auto& one, const auto& other) { return pixelOf(one) < pixelOf(other); });
+  const auto found = std::min_element(surfaces_.scans.begin(), surfaces_.scans.end(),
+                                      [](const NamedScan& one, const NamedScan& other) {
+                                        return comesBefore(one.surface, other.surface);
+                                      });
   return static_cast<std::size_t>(found - surfaces_.scans.begin());
 }
 
 Options DeviceScans::loaded(const Options& model) const {
-  return surfaces_.scans.empty() ? model : onFrame(model, configuration_.device, first_);
+  return frames_.empty() ? model : onFrame(model, configuration_.device, frames_[finest()]);
+}
+
+std::string DeviceScans::whichScanIsLoaded(const Options& model) const {
+  constexpr double kSameArea = 1.05;
+  const double load = model.load.mechanical_load;
+  if (model.load.isPerArea() || load == 0.0) return "";
+  const auto [least, most] =
+      std::minmax_element(surfaces_.scans.begin(), surfaces_.scans.end(),
+                          [](const NamedScan& one, const NamedScan& other) {
+                            return areaOf(one.surface) < areaOf(other.surface);
+                          });
+  if (areaOf(most->surface) < kSameArea * areaOf(least->surface)) return "";
+  const NamedScan& scan = surfaces_.scans[finest()];
+  return "load/mechanical_load of " + shortNumber(load) + " N presses the area of " + scan.name +
+         ", the scan with the finest pixels, with " + shortNumber(load / areaOf(scan.surface)) +
+         " Pa: load/pressure is the same for scans of any area";
 }
 
 DividedSurface DeviceScans::surface(int number, std::optional<double> depth) const {
@@ -96,8 +111,13 @@ std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
   std::vector<Options> all;
   all.reserve(models.size());
   for (const Options& model : models) all.push_back(loaded(model));
-  return deviceForces(surfaces_, area(), all, configuration_.uncertainty,
-                      configuration_.device_force, on_progress);
+  std::vector<DeviceForce> found = deviceForces(surfaces_, area(), all, configuration_.uncertainty,
+                                                configuration_.device_force, on_progress);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const std::string loaded_scan = whichScanIsLoaded(models[i]);
+    if (!loaded_scan.empty()) found[i].warnings.push_back(loaded_scan);
+  }
+  return found;
 }
 
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,

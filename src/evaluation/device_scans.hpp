@@ -37,7 +37,8 @@ class DeviceScans {
   /// @return what looks wrong in it
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured);
 
-  /// Place of the scan with the smallest pixels, the first of several.
+  /// Place of the scan with the finest pixels; of several the one that comes before the others
+  /// (comesBefore()).
   std::size_t finest() const;
 
   /// One of the surfaces that are made for it, the whole of it, to be made in strips.
@@ -46,7 +47,7 @@ class DeviceScans {
   /// @throw as DividedSurface()
   DividedSurface surface(int number, std::optional<double> depth) const;
   /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the
-  /// first scan.
+  /// finest scan.
   /// @throw as deviceForce()
   DeviceForce force(const std::function<void(double)>& on_progress = {}) const;
   /// The same by each of several models.
@@ -57,12 +58,14 @@ class DeviceScans {
   DeviceArea area() const {
     return {configuration_.device.contact_area, configuration_.device.contacts};
   }
-  /// With the load on the first scan.
+  /// A warning where scans of several areas leave it open which one a load in newtons presses.
+  std::string whichScanIsLoaded(const Options& model) const;
+  /// With the load on the finest scan.
   Options loaded(const Options& model) const;
 
   Configuration configuration_;
   DeviceSurfaces surfaces_;
-  SurfacePair first_;
+  std::vector<SurfacePair> frames_;  ///< of the scans
   bool has_own_counter_surface_ = false;
 };
 

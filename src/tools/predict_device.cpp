@@ -75,9 +75,9 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "pixels of one made surface at most; goes before device_force/max_cells")
       ->type_name("N");
   app.add_option("-p,--pitch", arguments.pitches,
-                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Once "
-                 "for all scans, or as "
-                 "often as there are scans, in their order. Goes before what files say")
+                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Given "
+                 "once it counts for all scans; else give the option again for each, in their "
+                 "order. Goes before what files say")
       ->type_name("M")
       ->allow_extra_args(false);
   app.add_option("--counter-surface", arguments.counter_surface,
@@ -207,7 +207,19 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
   }
 }
 
+/// @throw OptionsError for a number in the place of a scan, as behind "--pitch 1e-8 2e-8"
+void requireNoNumbers(const std::vector<std::string>& scans) {
+  for (const std::string& scan : scans) {
+    const bool is_number = scan.find_first_not_of("0123456789.,eE+-") == std::string::npos;
+    if (is_number && !std::filesystem::exists(scan)) {
+      throw OptionsError({"--pitch: '" + scan +
+                          "' stands in the place of a scan; give the option again for each value"});
+    }
+  }
+}
+
 int run(const Arguments& arguments) {
+  requireNoNumbers(arguments.scans);
   const std::vector<std::string> paths = scansOf(arguments.scans);
   const std::vector<InputScan> inputs = inputsOf(arguments, paths, false);
   const std::vector<InputScan> counter_inputs =

@@ -103,6 +103,22 @@ TEST_F(DeviceForceTest, TheForceOfALargeSurfaceFromPartsOfIt) {
   EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
 }
 
+TEST_F(DeviceForceTest, TheOrderOfTheScansTellsNothing) {
+  surfaces_.scans.push_back(part("third", large_, 200, 100, 256));
+  surfaces_.scans.push_back(part("wide", large_, 0, 0, kSide));
+  const DeviceForce first = force(areaOfPixels(420));
+  for (int rotation = 1; rotation < 4; ++rotation) {
+    std::rotate(surfaces_.scans.begin(), surfaces_.scans.begin() + 1, surfaces_.scans.end());
+    if (rotation == 2) std::swap(surfaces_.scans[0], surfaces_.scans[2]);
+    const DeviceForce found = force(areaOfPixels(420));
+    EXPECT_EQ(found.pull_off_force, first.pull_off_force) << rotation;
+    EXPECT_EQ(found.pull_off_force_lower, first.pull_off_force_lower);
+    EXPECT_EQ(found.pull_off_force_upper, first.pull_off_force_upper);
+    EXPECT_EQ(found.apparent_work_of_adhesion, first.apparent_work_of_adhesion);
+    EXPECT_EQ(found.linear_pull_off_force, first.linear_pull_off_force);
+  }
+}
+
 TEST_F(DeviceForceTest, TheSameSeedGivesTheSameFigures) {
   const DeviceForce one = force(areaOfPixels(300));
   const DeviceForce again = force(areaOfPixels(300));

@@ -1,6 +1,7 @@
 /// Scans of one surface by pixels of several sizes: which of them a verdict rests on, in every
 /// face.
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -149,6 +150,38 @@ TEST(CoarseScan, ofABluntTipIsUnknownByTheTip) {
   const Verdict verdict = judged(fine, blunt);
   EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
   EXPECT_NE(verdict.reason.find("sharper tip"), std::string::npos) << verdict.reason;
+}
+
+TEST(DeviceOfScans, isJudgedAlikeInAnyOrderAndSaysWhichScanALoadPresses) {
+  const SurfaceSpectrum rough = spectrumOf(0.8, 2e-6, 10e-9, 4e-9);
+  const std::vector<HeightMap> scans = {scanOfSurface(rough, kFinePitch, 128, 10),
+                                        scanOfSurface(rough, kFinePitch, 128, 11),
+                                        scanOfSurface(rough, kFinePitch, 192, 12)};
+  Configuration configuration = stated();
+  configuration.model.load.mechanical_load = 1e-6;
+  configuration.device_force.realisations = 3;
+  const auto judged = [&](const std::vector<int>& order) {
+    DevicePredictor predictor(configuration);
+    for (const int number : order) {
+      predictor.add("scan " + std::to_string(number), scans[static_cast<std::size_t>(number)], {},
+                    {});
+    }
+    DevicePrediction prediction = predictor.predict();
+    predictor.judge(prediction, [](const auto& solve) { return solve({}); });
+    return prediction;
+  };
+  const DevicePrediction first = judged({0, 1, 2});
+  const auto& warnings = first.force.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.rfind("load/mechanical_load of 1e-06 N presses the area of scan 2,", 0) == 0;
+  }));
+  for (const std::vector<int>& order : {std::vector<int>{2, 0, 1}, std::vector<int>{1, 2, 0}}) {
+    const DevicePrediction other = judged(order);
+    EXPECT_EQ(other.force.pull_off_force, first.force.pull_off_force);
+    EXPECT_EQ(other.force.warnings, first.force.warnings);
+    EXPECT_EQ(other.verdict->margin_lower, first.verdict->margin_lower);
+    EXPECT_EQ(other.verdict->reason, first.verdict->reason);
+  }
 }
 
 TEST(CoarseScan, servesAsAWideOneBesideFineScans) {

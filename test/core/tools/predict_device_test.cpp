@@ -117,6 +117,10 @@ TEST_F(PredictDevice, takesAPitchForEachScan) {
   ASSERT_EQ(three.errors.size(), 1u);
   EXPECT_NE(three.errors[0].find("--pitch: 3 are given for 2 scans"), std::string::npos)
       << three.errors[0];
+  const Outcome number = run("--pitch 1e-8 2e-8" + std::string(kArea) + scans);
+  EXPECT_EQ(number.status, 2);
+  ASSERT_EQ(number.errors.size(), 1u);
+  EXPECT_NE(number.errors[0].find("give the option again"), std::string::npos) << number.errors[0];
 }
 
 TEST_F(PredictDevice, needsAnArea) {
