@@ -17,16 +17,6 @@ def has_site(row):
     return abs(row["site_x"]) <= LARGEST_WAFER and abs(row["site_y"]) <= LARGEST_WAFER
 
 
-def named_part_of(message):
-    """Of a prediction or a device's force: (part, serial number)."""
-    return message.part_id, message.serial_id
-
-
-def is_same_part(one, other):
-    """Whether two scans of one stamp are the same: bags of several parts may begin at one time."""
-    return one == other or not any(one) or not any(other)
-
-
 class Wafers:
     """The newest prediction of each place. Where there are too many, those heard of last are kept,
     and it is said how many went."""
@@ -57,7 +47,7 @@ class Wafers:
         # a site of a wafer is one place whoever lies there; one of a part without a wafer is the
         # part's
         place = (
-            "" if row["wafer_id"] and has_site(row) else (row["part_id"], row["serial_id"]),
+            "" if row["wafer_id"] else (row["part_id"], row["serial_id"]),
             (row["site_x"], row["site_y"]) if has_site(row) else stamp,
         )
         places.pop(place, None)
@@ -70,11 +60,12 @@ class Wafers:
             self._lost_wafers += 1
 
     def judge(self, stamp, device):
-        """The scan of this stamp [ns] is judged by the force of the whole device."""
+        """The scan of this stamp [ns] and of the device's part is judged by the force of the whole
+        device."""
+        scan = {"stamp": stamp, "part_id": device.part_id, "serial_id": device.serial_id}
         for places in self._wafers.values():
             for place, row in places.items():
-                part = row["part_id"], row["serial_id"]
-                if row["stamp"] == stamp and is_same_part(part, named_part_of(device)):
+                if all(row[name] == value for name, value in scan.items()):
                     places[place] = dict(
                         row,
                         device_pull_off_force=device.pull_off_force,

@@ -11,7 +11,7 @@ import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
-from mems_stiction.page_places import Wafers, is_same_part, named_part_of
+from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (
     AWAITED,
     NO_EQUILIBRIUM,
@@ -39,6 +39,7 @@ from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
 from mems_stiction.prediction_text import contact_area_of, ratio_name, ratio_value
 from mems_stiction.quantities import typeset
+from mems_stiction.row_table import Stamp
 from mems_stiction.station_text import (
     area_label,
     cycle_sentences,
@@ -61,6 +62,7 @@ STALE_UNTIL_KNOWN = (
 )
 STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
 SILENT_SOURCE = 10.0  # without its diagnostics for so long, a source is perhaps gone [s]
+SCAN = ("stamp", "part_id", "serial_id")  # what says which scan a message is of
 UP = 0  # SweepPoint.UP
 
 
@@ -69,6 +71,16 @@ def stamp_of_reason(reason):
     no stamp."""
     match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
     return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
+
+
+def scan_of(stamp, message):
+    """Which scan a message is of: two parts may have scans of the same stamp [ns]."""
+    return {"stamp": stamp, "part_id": message.part_id, "serial_id": message.serial_id}
+
+
+def is_of_scan(shown, scan):
+    """Whether a dictionary with the names of scan_of() is of this scan."""
+    return all(shown.get(name) == value for name, value in scan.items())
 
 
 def count_of(text):
@@ -131,8 +143,7 @@ class PageState:
         self._periods = collections.deque(maxlen=MOST_PERIODS)  # between predictions [s]
         self._half_space = None
         self._device = None
-        self._device_part = None
-        self._answers = collections.OrderedDict()  # stamp [ns] -> newest DeviceVerdict on its scan
+        self._answers = collections.OrderedDict()  # scan -> newest DeviceVerdict on it
         self._judged = None  # (number, verdict, ratio) of the newest scan that a device judged
         self._part = None
         # newest last: (part, serial number) -> (what the page shows, message, when)
@@ -165,8 +176,7 @@ class PageState:
             self._trend.append(
                 {
                     "number": self._count,
-                    "stamp": stamp,
-                    "part": named_part_of(prediction),
+                    **scan_of(stamp, prediction),
                     "force": finite(prediction.pull_off_force),
                     "device_force": finite(device_force),
                     "restoring_force": finite(prediction.restoring_force),
@@ -222,26 +232,25 @@ class PageState:
 
     def add_half_space(self, stamp, solution):
         with self._lock:
-            self._half_space = dict(half_space_of(solution), stamp=stamp)
+            self._half_space = dict(half_space_of(solution), **scan_of(stamp, solution))
             self._changed()
 
     def add_device(self, stamp, device):
         """The force of the whole device, by the scan of this stamp [ns] and those of its part
         before."""
         with self._lock:
-            shown = dict(device_of(device), stamp=stamp)
-            if not self._is_earlier(stamp, self._device):
-                self._device, self._device_part = shown, named_part_of(device)
+            scan = scan_of(stamp, device)
+            shown = dict(device_of(device), **scan)
+            if not self._is_earlier(scan, self._device):
+                self._device = shown
             if shown["is_found"]:
                 self._wafers.judge(stamp, device)
-                number = self._number_of(stamp)
+                number = self._number_of(scan)
                 if number is not None and (self._judged is None or number >= self._judged[0]):
                     self._judged = (number, shown["verdict"], shown["ratio"])
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
-                    if row.get("stamp") == stamp and is_same_part(
-                        row["part"], named_part_of(device)
-                    ):
+                    if is_of_scan(row, scan):
                         row.update(
                             device_force=shown["force"],
                             restoring_force=shown["restoring_force"],
@@ -255,8 +264,9 @@ class PageState:
     def add_answer(self, stamp, answer):
         """What the node says by now of the device of this scan [ns], and what that waits for."""
         with self._lock:
-            self._answers.pop(stamp, None)
-            self._answers[stamp] = answer
+            scan = tuple(scan_of(stamp, answer).values())
+            self._answers.pop(scan, None)
+            self._answers[scan] = answer
             while len(self._answers) > MOST_ANSWERS:
                 self._answers.popitem(last=False)
             self._changed()
@@ -264,8 +274,9 @@ class PageState:
     def add_part(self, stamp, part):
         """What all scans of a part say together. stamp: of its last scan [ns]."""
         with self._lock:
-            shown = dict(part_of(part), stamp=stamp)
-            if not self._is_earlier(stamp, self._part):
+            scan = scan_of(stamp, part)
+            shown = dict(part_of(part), **scan)
+            if not self._is_earlier(scan, self._part):
                 self._part = shown
             self._parts.pop((part.part_id, part.serial_id), None)
             self._parts[part.part_id, part.serial_id] = (shown, part, self._clock())
@@ -279,7 +290,7 @@ class PageState:
         with self._lock:
             return self._latest and dict(
                 number=self._latest[0],
-                stamp="%d.%09d" % divmod(self._latest[1], 10**9),
+                stamp=str(Stamp(self._latest[1])),
                 **flattened(self._latest[2]),
             )
 
@@ -421,7 +432,7 @@ class PageState:
                 "part": (self._shown_part, None),
                 "parts": (
                     lambda: [
-                        dict(shown, number=self._number_of(shown["stamp"]), age=now - heard)
+                        dict(shown, number=self._number_of_shown(shown), age=now - heard)
                         for shown, _, heard in self._parts.values()
                     ],
                     [],
@@ -493,7 +504,7 @@ class PageState:
         )
         device = self._device_of_newest()
         if self._is_awaiting():
-            verdict, ratio = provisional_of(prediction, self._answers.get(stamp), self._judged)
+            verdict, ratio = provisional_of(prediction, self._answer_of_newest(), self._judged)
         elif device is not None and not device["is_found"] and AWAITED in prediction.reason:
             verdict = dict(verdict, reason=device["message"])
         elif device is not None and device["is_found"]:
@@ -505,7 +516,7 @@ class PageState:
         return dict(
             told,
             number=number,
-            stamp="%.3f" % (stamp * 1e-9),
+            stamp="%d.%03d" % divmod((stamp + 500000) // 10**6, 1000),
             verdict=verdict,
             ratio=ratio,
             warnings=warnings,
@@ -514,18 +525,21 @@ class PageState:
 
     def _device_of_newest(self):
         """What is told of the device by the newest scan; None before that is told."""
-        device = self._device
-        if not device or not self._latest or device["stamp"] != self._latest[1]:
-            return None
-        return device if is_same_part(named_part_of(self._latest[2]), self._device_part) else None
+        return self._device if self._is_of_newest(self._device) else None
+
+    def _is_of_newest(self, shown):
+        return bool(shown and self._latest and is_of_scan(shown, scan_of(*self._latest[1:3])))
+
+    def _answer_of_newest(self):
+        return self._answers.get(tuple(scan_of(*self._latest[1:3]).values()))
 
     def _is_awaiting(self):
         """Whether the force of the whole device that will judge the newest scan is on its way."""
         if self._latest is None or self._device_of_newest() is not None:
             return False
-        _, stamp, prediction, _ = self._latest
+        prediction = self._latest[2]
         return prediction.status != NO_EQUILIBRIUM and awaits_device(
-            prediction, self._answers.get(stamp)
+            prediction, self._answer_of_newest()
         )
 
     def _control(self):
@@ -553,31 +567,32 @@ class PageState:
     def _shown_part(self):
         """is_newest: whether the newest scan is one of its own; is_provisional: whether what will
         judge that scan is on its way."""
-        is_newest = bool(self._part and self._latest and self._latest[1] == self._part["stamp"])
+        is_newest = self._is_of_newest(self._part)
         return self._part and dict(
             self._part, is_newest=is_newest, is_provisional=is_newest and self._is_awaiting()
         )
 
     def _with_number(self, of_scan):
-        return of_scan and dict(of_scan, number=self._number_of(of_scan["stamp"]))
+        return of_scan and dict(of_scan, number=self._number_of_shown(of_scan))
 
-    def _is_earlier(self, stamp, shown):
+    def _is_earlier(self, scan, shown):
         """Whether what comes is of a scan before that of what is shown: when that was solved as a
         half-space it is judged again, and hides no later one. By the order in which scans came,
         since a bag brings the stamps of its day."""
-        number, other = self._number_of(stamp), shown and self._number_of(shown["stamp"])
+        number, other = self._number_of(scan), shown and self._number_of_shown(shown)
         return number is not None and other is not None and number < other
 
-    def _number_of(self, stamp):
-        return next(
-            (row["number"] for row in reversed(self._trend) if row.get("stamp") == stamp), None
-        )
+    def _number_of(self, scan):
+        return next((row["number"] for row in reversed(self._trend) if is_of_scan(row, scan)), None)
+
+    def _number_of_shown(self, shown):
+        return self._number_of({name: shown[name] for name in SCAN})
 
     def _shown_maps(self):
         return {
             name: {
                 "id": str(stamp),
-                "number": self._number_of(stamp),
+                "number": self._number_of({"stamp": stamp}),  # an image names no part
                 "columns": image.width,
                 "rows": image.height,
                 "size": size,

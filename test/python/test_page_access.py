@@ -155,7 +155,14 @@ class AccessTest(unittest.TestCase):
 
     def test_cut_texts_unfold_by_keyboard(self):
         self.page.resize(400, 800)
-        stamp = self.send(made.prediction(1, reason="the whole interval lies above 1, " * 30))
+        stamp = self.send(
+            made.prediction(
+                1,
+                part_id="lot 3",
+                serial_id="0010",
+                reason="the whole interval lies above 1, " * 30,
+            )
+        )
         self.state.add_part(stamp, made.part("0010", 3.0, 1, reason="of the whole part, " * 20))
         self.page.wait("state.part.is_newest")
         for box, text, key in (

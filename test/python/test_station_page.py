@@ -29,6 +29,7 @@ from mems_stiction.msg import (
     CycleContactResult,
     CyclePoint,
     DeviceAdhesion,
+    DeviceVerdict,
     HalfSpacePoint,
     HalfSpaceSolution,
     PartVerdict,
@@ -80,6 +81,7 @@ def has_core():
 
 def prediction(margin=NAN, sticks=StictionPrediction.STICKS_UNKNOWN, **changes):
     message = StictionPrediction(
+        part_id="lot 3",
         pull_off_force=1e-7,
         sticks=sticks,
         reason="because",
@@ -334,7 +336,8 @@ class StateTest(unittest.TestCase):
             1, prediction(scan_name="wafer", settings_hash="00ff", version="1.2.3")
         )
         self.assertEqual(
-            state.snapshot()["scan"]["origin"], "scan wafer, settings 00ff, mems_stiction 1.2.3"
+            state.snapshot()["scan"]["origin"],
+            "scan wafer, part lot 3, settings 00ff, mems_stiction 1.2.3",
         )
 
     def test_a_sentence_of_a_sweep_is_one_line_for_the_browser_to_fold(self):
@@ -681,10 +684,10 @@ class StateTest(unittest.TestCase):
     def test_a_scan_that_is_judged_again_does_not_hide_a_later_one(self):
         state = PageState()
         for stamp in (5, 6):
-            state.add_prediction(stamp * SECOND, prediction())
-            state.add_device(stamp * SECOND, device_message())
+            state.add_prediction(stamp * SECOND, prediction(serial_id=str(stamp)))
+            state.add_device(stamp * SECOND, device_message(serial_id=str(stamp)))
             state.add_part(stamp * SECOND, part_message(serial_id=str(stamp)))
-        state.add_device(5 * SECOND, device_message(margin=7.0))
+        state.add_device(5 * SECOND, device_message(serial_id="5", margin=7.0))
         state.add_part(5 * SECOND, part_message(serial_id="5", margin=7.0))
         shown = state.snapshot()
         self.assertEqual((shown["device"]["number"], shown["part"]["serial"]), (2, "6"))
@@ -697,19 +700,24 @@ class StateTest(unittest.TestCase):
         state.add_device(1 * SECOND, device_message())
         self.assertEqual(state.snapshot()["device"]["number"], 3)
 
-    def test_parts_whose_bags_begin_at_one_time_keep_their_own_forces(self):
+    def test_parts_whose_scans_have_one_stamp_do_not_mix(self):
         state = PageState()
-        for part in "PQ":
-            state.add_prediction(SECOND, prediction(part_id=part))
-        state.add_device(SECOND, device_message(part_id="Q", margin=7.0))
-        state.add_device(SECOND, device_message(part_id="P", margin=5.0))
+        for serial, force in (("1", 2e-7), ("2", 3e-7)):
+            part = dict(part_id="lot 3", serial_id=serial)
+            message = prediction(2.0, 0, **part, site_x=NAN, site_y=NAN)
+            state.add_prediction(SECOND, message)
+            state.add_device(SECOND, device_message(**part, pull_off_force=force))
+            state.add_answer(SECOND, DeviceVerdict(**part))
         shown = state.snapshot()
-        self.assertEqual([row["ratio"] for row in shown["trend"]], [5.0, 7.0])
-
-    def test_the_stamp_of_the_row_is_exact(self):
-        state = PageState()
-        state.add_prediction(1000000003 * SECOND + 5, prediction())
-        self.assertEqual(state.scan_row()["stamp"], "1000000003.000000005")
+        self.assertEqual([row["device_force"] for row in shown["trend"]], [2e-7, 3e-7])
+        self.assertEqual([row["device_pull_off_force"] for row in state.wafers()[0]], [2e-7, 3e-7])
+        self.assertEqual(shown["device"]["number"], 2)
+        state.add_device(
+            SECOND, device_message(part_id="lot 3", serial_id="1", pull_off_force=9e-7)
+        )
+        shown = state.snapshot()
+        self.assertEqual([row["device_force"] for row in shown["trend"]], [9e-7, 3e-7])
+        self.assertEqual(shown["device"]["number"], 2)  # of the newest scan
 
     def test_parts_are_bounded(self):
         state = PageState()
@@ -720,6 +728,17 @@ class StateTest(unittest.TestCase):
             [str(number) for number in range(MOST_PARTS, 2 * MOST_PARTS)],
         )
         self.assertEqual(len(state.part_rows()), MOST_PARTS)
+
+    def test_a_stamp_has_the_digits_of_its_message(self):
+        state = PageState()
+        for stamp, digits, shown in (
+            (1000000003 * SECOND, "1000000003.000000000", "1000000003.000"),
+            (1000000003 * SECOND + 7, "1000000003.000000007", "1000000003.000"),
+            (1000000003 * SECOND + 999999999, "1000000003.999999999", "1000000004.000"),
+        ):
+            state.add_prediction(stamp, prediction())
+            self.assertEqual(state.scan_row()["stamp"], digits)
+            self.assertEqual(state.snapshot()["scan"]["stamp"], shown)
 
     def test_progress_that_comes_after_the_result_is_not_shown(self):
         state = PageState()
@@ -958,8 +977,10 @@ class WordsTest(unittest.TestCase):
     def test_a_part_is_the_newest_scans_or_said_to_be_before_it(self):
         state = PageState()
         state.add_part(1 * SECOND, part_message())
-        state.add_prediction(1 * SECOND, prediction())
+        state.add_prediction(1 * SECOND, prediction(serial_id="0012"))
         self.assertTrue(state.snapshot()["part"]["is_newest"])
+        state.add_prediction(1 * SECOND, prediction(serial_id="0013"))
+        self.assertFalse(state.snapshot()["part"]["is_newest"])
         state.add_prediction(2 * SECOND, prediction())
         self.assertFalse(state.snapshot()["part"]["is_newest"])
         json.dumps(state.snapshot(), allow_nan=False)
