@@ -23,6 +23,7 @@ from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, TRAVEL, Axis
 from mems_stiction.design_points import GAP, POTENTIAL, Holding, axes_of
 from mems_stiction.design_rows import FIGURES, Rows
 from mems_stiction.design_words import statements_of, told_once
+from mems_stiction.quantities import counted
 from mems_stiction.design_workers import Answers, answers_of_processes
 
 OnProgress = Callable[[float], None]
@@ -112,7 +113,7 @@ class DesignSweep(ReadOnly):
     picture = save_picture
 
     def __repr__(self) -> str:
-        lines = ["Design over %s: %d points" % (" and ".join(self.axes), len(self.rows))]
+        lines = ["Design over %s: %s" % (" and ".join(self.axes), counted(len(self.rows), "point"))]
         return "\n".join(lines + ["  " + statement for statement in self.statements])
 
 

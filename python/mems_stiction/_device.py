@@ -26,7 +26,7 @@ from mems_stiction._types import Scans, UpperScans
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.other_packages import require_package
 from mems_stiction.quantities import area as area_text
-from mems_stiction.quantities import with_interval, with_unit
+from mems_stiction.quantities import counted, with_interval, with_unit
 
 Pitches = Union[Pitch, Sequence[Optional[Pitch]]]
 
@@ -97,7 +97,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
         }
 
     def __repr__(self) -> str:
-        lines = ["Device of %s, by %s" % (area_text(self.area), _count(len(self.scans), "scan"))]
+        lines = ["Device of %s, by %s" % (area_text(self.area), counted(len(self.scans), "scan"))]
         lines += [
             "  %s: pixels of %s" % (name or "scan %d" % (place + 1), _pitch_text(pitch))
             for place, (name, pitch) in enumerate(zip(self.scans, self.pitches))
@@ -120,7 +120,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
                     self.apparent_work_of_adhesion_upper,
                     "J/m^2",
                 ),
-                _count(round(self.contacts), "place"),
+                counted(round(self.contacts), "place"),
             )
         )
         if self.verdict is not None:
@@ -132,10 +132,6 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
 def _pitch_text(pitch: Tuple[float, float]) -> str:
     x, y = (with_unit(value, "m") for value in pitch)
     return x if x == y else "%s x %s" % (x, y)
-
-
-def _count(number: int, word: str) -> str:
-    return "%d %s%s" % (number, word, "" if number == 1 else "s")
 
 
 def _is_one(scans: Any) -> bool:
@@ -182,7 +178,7 @@ def _pitches_of(pitch: Any, scans: List[Any]) -> List[Optional[Pitch]]:
     if len(pitch) != len(scans):
         raise SurfaceError(
             "pitch: %d are given for %s; must be one, or one for each; a pair (x, y) of all is a "
-            "tuple" % (len(pitch), _count(len(scans), "scan"))
+            "tuple" % (len(pitch), counted(len(scans), "scan"))
         )
     return [value if _is_number(value) else tuple(value) for value in pitch]
 

@@ -32,6 +32,7 @@ from mems_stiction.lots_words import (
 )
 from mems_stiction.lots_yield import Share, share_of
 from mems_stiction.other_packages import require_package
+from mems_stiction.quantities import counted
 
 UNITS_SHOWN = 60  # of one level, in the text
 FILE_LETTERS = "-_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -153,7 +154,10 @@ class LotComparison(ReadOnly):
                 )
 
     def __repr__(self) -> str:
-        lines = ["Comparison of %d rows by their %s" % (len(self._lots.places), WORDS[self.figure])]
+        lines = [
+            "Comparison of %s by their %s"
+            % (counted(len(self._lots.places), "row"), WORDS[self.figure])
+        ]
         lines += ["  " + statement for statement in self.statements]
         for level in dict.fromkeys(self.units.level):
             units = self.units[self.units.level == level]
@@ -172,7 +176,7 @@ def _unit_line(unit: Any, figure: str) -> str:
     sticking = (
         ", %d of %d stick" % (unit.sticking, unit.places)
         if figure in RELEASING
-        else ", %d places" % unit.places
+        else ", " + counted(unit.places, "place")
     )
     return "  %s: %s %s%s%s" % (
         unit_word(unit),

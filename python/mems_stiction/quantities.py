@@ -22,6 +22,11 @@ _PREFIXES = {
 }
 
 
+def counted(number, word):
+    """ "1 scan", "2 scans"."""
+    return "%d %s%s" % (number, word, "" if number == 1 else "s")
+
+
 def prefix_for(value):
     """The power of ten (a multiple of 3) and the letter with which `value` has one to three digits
     before the point."""

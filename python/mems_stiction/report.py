@@ -27,7 +27,7 @@ from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import digits_of, flag_words, judge_words, ratio_name
-from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
+from mems_stiction.quantities import counted, percent, ratio, typeset, unbroken, with_interval
 from mems_stiction.report_device import area, device_lines, measurements_of
 from mems_stiction.report_figures import number, scan_figure, trend_figure
 from mems_stiction.report_lots import lots_section
@@ -453,7 +453,7 @@ def _ratio_with_interval(row):
 
 def summary(rows, drawn):
     predicted = [row for row in rows if not row["message"]]
-    parts = ["%d scans, %d of them predicted." % (len(rows), len(predicted))]
+    parts = ["%s, %d of them predicted." % (counted(len(rows), "scan"), len(predicted))]
     for word, status in (("bonded", "BONDED"), ("without equilibrium", "NO_EQUILIBRIUM")):
         count = sum(row["status"] == status for row in predicted)
         if count:
@@ -476,7 +476,8 @@ def summary(rows, drawn):
         )
     if len(drawn) < len(predicted):
         parts.append(
-            "Pictures of %d scans, evenly spread; the table and the trends have all." % len(drawn)
+            "Pictures of %s, evenly spread; the table and the trends have all."
+            % counted(len(drawn), "scan")
         )
     return " ".join(parts)
 

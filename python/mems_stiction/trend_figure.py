@@ -14,7 +14,7 @@ from mems_stiction.prediction_text import (
     ratio_name,
 )
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import literal, prefix_for
+from mems_stiction.quantities import counted, literal, prefix_for
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -302,9 +302,10 @@ def _say_latest(figure, trend, decided, hidden):
         figure.text(0.5, 0.93, "no scan yet", ha="center", va="center", fontsize=24, color=QUIET)
         return
     number, scan = decided[-1]
-    counts = "%d scans, %d not predicted" % (trend.decided_count(), trend.lost_count()) + (
-        ", %d older not shown" % hidden if hidden else ""
-    )
+    counts = "%s, %d not predicted" % (
+        counted(trend.decided_count(), "scan"),
+        trend.lost_count(),
+    ) + (", %d older not shown" % hidden if hidden else "")
     figure.text(0.975, 0.938, counts, ha="right", va="center", fontsize=13, color=QUIET)
     if scan.is_lost:
         _headline(

@@ -774,6 +774,16 @@ class BatchTest(unittest.TestCase):
             json.loads((self.folder / "half.jsonl").read_text())["message"],
         )
 
+    def test_a_report_says_once_what_cannot_be_read(self):
+        (self.folder / "bad.di").write_text("x\n")
+        done = run(
+            [program("stiction_report"), "-o", self.folder / "bad.html", self.folder / "bad.di"]
+        )
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("bad.di"), 1, done.stderr)
+        self.assertIn("1 scan, 0 predicted", done.stdout)
+        self.assertIn("1 scan, 0 of them predicted", (self.folder / "bad.html").read_text("utf-8"))
+
     def test_recorded_predictions_come_out_as_a_table(self):
         bag_path = self.folder / "day.bag"
         with rosbag.Bag(str(bag_path), "w") as bag:
@@ -823,7 +833,7 @@ class BatchTest(unittest.TestCase):
             ]
         )
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("1 forces of devices of 1 bags", done.stdout)
+        self.assertIn("1 device force of 1 bag", done.stdout)
         (row,) = self.rows("devices.csv")
         self.assertEqual(
             (float(row["pull_off_force"]), row["realisations"], row["scan_count"]),

@@ -791,7 +791,7 @@ class McapTest(InFolder):
                 bag.write(*written[-1])
         self.assertGreater(len(names), 24)
         done = self.done("bag_to_mcap", "-o", self.folder / "all.mcap", self.folder / "all.bag")
-        self.assertIn("%d messages of 1 bags" % len(written), done.stdout)
+        self.assertIn("%d messages of 1 bag" % len(written), done.stdout)
         self.assertEqual(done.stderr, "")
         read = self.read("all.mcap")
         self.assertEqual(len(read), len(written))
