@@ -142,12 +142,7 @@ def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -
             % (word, _factor(best), _factor(low), _factor(high), percent(share))
         )
         if components.freedoms[place] < FEW:
-            text = "%d %s cannot tell how far %s differ: %s" % (
-                components.counts[place],
-                word,
-                word,
-                text,
-            )
+            text = "a rough estimate, from %d %s alone: %s" % (components.counts[place], word, text)
         elif low <= SMALL and place < len(components.words) - 1:
             text += "; they may not differ at all"
         said.append(text)
