@@ -95,12 +95,12 @@ def _told_of(prediction):
         "verdict": verdict_of(prediction),
         "ratio": ratio_of(prediction),
         "flags": flags_of(prediction),
-        "warnings": list(prediction.warnings),
+        "warnings": [typeset(text) for text in prediction.warnings],
         "figures": figures_of(prediction),
         "trace": trace_of(prediction),
         "origin": provenance_words(prediction),
         "curve": curve_of(prediction),
-        "preprocessing": list(prediction.preprocessing),
+        "preprocessing": [typeset(text) for text in prediction.preprocessing],
     }
 
 

@@ -235,7 +235,7 @@ def part_of(part):
         if math.isnan(worst) or part.counted_scans < 2
         else "lowest %s of %s" % (ratio_text(worst), getattr(part, "worst_%s_scan" % name)),
         "flags": flags_of(part),
-        "warnings": list(part.warnings),
+        "warnings": [typeset(text) for text in part.warnings],
     }
 
 
@@ -333,7 +333,7 @@ def device_of(device):
             for name, label, value, text in rows
             if not math.isnan(value)
         ],
-        "warnings": list(device.warnings),
+        "warnings": [typeset(text) for text in device.warnings],
     }
 
 

@@ -279,7 +279,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
         ),
         "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
         "origin": origin_of(result),
-        "warnings": [row["warnings"]] if row["warnings"] else [],
+        "warnings": [typeset(row["warnings"])] if row["warnings"] else [],
         "sticks": result.get("sticks"),
         "releases": verdict_word(result.get("sticks")),
         "verdict": _sentence(result.get("reason", "")),
@@ -385,7 +385,7 @@ def _flags(row):
 
 def _limits(row):
     """What speaks against relying on a row: flags in words, and warnings."""
-    return "; ".join(text for text in (_flags(row), row.get("warnings", "")) if text)
+    return "; ".join(text for text in (_flags(row), typeset(row.get("warnings") or "")) if text)
 
 
 def _sentence(text):

@@ -33,6 +33,12 @@ def plain(text):
 
 
 class WordsTest(unittest.TestCase):
+    def test_warnings_have_the_micro_of_the_other_figures(self):
+        rows = [{"warnings": "measure a field of 40 um"}, {"warnings": None}, {}]
+        self.assertEqual(
+            [report._limits(row) for row in rows], ["measure a field of 40 µm", "", ""]
+        )
+
     def test_no_line_ends_between_a_number_and_its_unit(self):
         for text in (
             "12.3 nN",

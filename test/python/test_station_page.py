@@ -379,7 +379,7 @@ class StateTest(unittest.TestCase):
             {"level": "releases", "word": "RELEASES", "reason": "Above 1."},
         )
         self.assertEqual(shown["scan"]["ratio"], ratio_of(device_message()))
-        self.assertEqual(shown["scan"]["warnings"], ["measure a field of 40 um"])
+        self.assertEqual(shown["scan"]["warnings"], ["measure a field of 40 µm"])
         self.assertEqual(
             [
                 shown["trend"][0][name]
