@@ -79,9 +79,10 @@ Configuration drawnConfiguration(Draw& draw, double scan_area) {
     device.spring_stiffness = draw.byRatio(1e-3, 10.0);
   } else {
     device.beam_type = BeamType::kCantilever;
-    device.beam_length = draw.byRatio(5e-5, 1e-3);
-    device.beam_width = draw.byRatio(5e-7, 2e-5);
-    device.beam_thickness = 2e-6;
+    device.beam_length = draw.byRatio(1e-5, 3e-4);
+    // the contact reaches over a share of the length
+    device.beam_width = device.contact_area / (draw.byRatio(0.005, 0.9) * device.beam_length);
+    device.beam_thickness = 2e-7;  // short against the contact, so that some peel
     device.beam_gap = 2e-6;
     device.beam_modulus = 160e9;
   }
