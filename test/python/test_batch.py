@@ -2,6 +2,7 @@
 
 import csv
 import hashlib
+import itertools
 import json
 import os
 import pathlib
@@ -25,7 +26,8 @@ from roslib.packages import find_node
 from sensor_msgs.msg import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from tiers import times  # noqa: E402  (the path comes first)
+from module_cases import rough  # noqa: E402  (the path comes first)
+from tiers import times  # noqa: E402
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 CONFIG = """
@@ -1231,6 +1233,31 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(
             (self.folder / "merged_parts.csv").read_text(), (self.folder / "parts.csv").read_text()
         )
+
+    def test_the_order_of_scans_does_not_change_the_verdict_on_their_part(self):
+        config = self.folder / "own.yaml"
+        config.write_text("part: {id: lot 5}\n" + OWN_FORCE)
+        scans = []
+        for name, pitch in (("a", 10e-9), ("b", 10e-9), ("wide", 40e-9)):
+            scans.append(self.folder / (name + ".npy"))
+            np.save(str(scans[-1]), rough(64, 64, 2e-9, len(scans)))
+            (self.folder / (name + ".npy.yaml")).write_text(
+                "pitch_x: %r\npitch_y: %r\n" % (pitch, pitch)
+            )
+        found = set()
+        for inputs in itertools.permutations(scans):
+            for rows in self.folder.glob("rows.csv*"):
+                rows.unlink()
+            self.predict(
+                "rows.csv", "--config", config, "--parts", self.folder / "parts.csv", inputs=inputs
+            )
+            (part,) = self.rows("parts.csv")
+            self.assertEqual(part["counted_scans"], "3", part)
+            found.add(
+                tuple(part[name] for name in ("sticks", "margin", "margin_lower", "margin_upper"))
+            )
+        self.assertEqual(len(found), 1)
+        self.assertNotIn("nan", found.pop())
 
     def test_a_part_whose_scans_are_gone_says_so(self):
         config = self.folder / "own.yaml"
