@@ -219,7 +219,7 @@ void requireNoNumbers(const std::vector<std::string>& scans) {
 }
 
 int run(const Arguments& arguments) {
-  requireNoNumbers(arguments.scans);
+  if (!arguments.pitches.empty()) requireNoNumbers(arguments.scans);
   const std::vector<std::string> paths = scansOf(arguments.scans);
   const std::vector<InputScan> inputs = inputsOf(arguments, paths, false);
   const std::vector<InputScan> counter_inputs =
