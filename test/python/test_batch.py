@@ -778,6 +778,10 @@ class BatchTest(unittest.TestCase):
 
     def test_a_report_says_once_what_cannot_be_read(self):
         (self.folder / "bad.di").write_text("x\n")
+        (self.folder / "worse.di").write_text("y\n")
+        both = [self.folder / "bad.di", self.folder / "worse.di"]
+        done = run([program("stiction_report"), "-o", self.folder / "both.html", *both])
+        self.assertEqual([done.stderr.count(path.name) for path in both], [1, 1], done.stderr)
         done = run(
             [program("stiction_report"), "-o", self.folder / "bad.html", self.folder / "bad.di"]
         )
