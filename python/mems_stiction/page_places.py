@@ -7,6 +7,7 @@ from mems_stiction.page_words import NO_EQUILIBRIUM, VERDICTS
 
 MOST_WAFERS = 12
 MOST_PLACES = 500  # of each wafer
+SCAN = ("stamp", "part_id", "serial_id")  # what says which scan a message is of
 LARGEST_WAFER = 10.0  # [m]: a site beyond is none
 NAMES = ("lot_id", "wafer_id", "part_id", "serial_id")
 FORCES = ("margin", "peel_number", "device_pull_off_force", "pull_off_force")
@@ -15,6 +16,16 @@ COLUMNS = NAMES + FORCES + ("settings_hash", "scan_name", "site_x", "site_y", "r
 
 def has_site(row):
     return abs(row["site_x"]) <= LARGEST_WAFER and abs(row["site_y"]) <= LARGEST_WAFER
+
+
+def scan_of(stamp, message):
+    """Which scan a message is of: two parts may have scans of the same stamp [ns]."""
+    return {"stamp": stamp, "part_id": message.part_id, "serial_id": message.serial_id}
+
+
+def is_of_scan(shown, scan):
+    """Whether a dictionary with the names of scan_of() is of this scan."""
+    return all(shown.get(name) == value for name, value in scan.items())
 
 
 class Wafers:
@@ -62,10 +73,10 @@ class Wafers:
     def judge(self, stamp, device):
         """The scan of this stamp [ns] and of the device's part is judged by the force of the whole
         device."""
-        scan = {"stamp": stamp, "part_id": device.part_id, "serial_id": device.serial_id}
+        scan = scan_of(stamp, device)
         for places in self._wafers.values():
             for place, row in places.items():
-                if all(row[name] == value for name, value in scan.items()):
+                if is_of_scan(row, scan):
                     places[place] = dict(
                         row,
                         device_pull_off_force=device.pull_off_force,

@@ -11,7 +11,7 @@ import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_maps import require_map
-from mems_stiction.page_places import Wafers
+from mems_stiction.page_places import SCAN, Wafers, is_of_scan, scan_of
 from mems_stiction.page_words import (
     AWAITED,
     NO_EQUILIBRIUM,
@@ -62,7 +62,6 @@ STALE_UNTIL_KNOWN = (
 )
 STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
 SILENT_SOURCE = 10.0  # without its diagnostics for so long, a source is perhaps gone [s]
-SCAN = ("stamp", "part_id", "serial_id")  # what says which scan a message is of
 UP = 0  # SweepPoint.UP
 
 
@@ -71,16 +70,6 @@ def stamp_of_reason(reason):
     no stamp."""
     match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
     return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
-
-
-def scan_of(stamp, message):
-    """Which scan a message is of: two parts may have scans of the same stamp [ns]."""
-    return {"stamp": stamp, "part_id": message.part_id, "serial_id": message.serial_id}
-
-
-def is_of_scan(shown, scan):
-    """Whether a dictionary with the names of scan_of() is of this scan."""
-    return all(shown.get(name) == value for name, value in scan.items())
 
 
 def count_of(text):
