@@ -86,18 +86,18 @@ cv::Mat frameOf(DeviceSurface& surface) {
   return frame;
 }
 
-/// Rows of a frame whose contacts flow, from piece to piece.
-std::int64_t flowingRows(const DevicePieces& pieces) {
+/// Of a frame whose contacts flow, from piece to piece.
+cv::Size flowingSize(const DevicePieces& pieces) {
   const std::int64_t cols = std::min(pieces.size.cols, kTiltedSide);
-  return std::min(pieces.count * pieces.size.rows, kTiltedSide * kTiltedSide / cols);
+  const std::int64_t rows =
+      std::min(pieces.count * pieces.size.rows, kTiltedSide * kTiltedSide / cols);
+  return {static_cast<int>(cols), static_cast<int>(rows)};
 }
 
 /// The last pieces, one after another.
 cv::Mat flowingFrameOf(DeviceSurface& surface) {
-  const std::int64_t rows = flowingRows(surface.pieces());
-  cv::Mat frame(static_cast<int>(rows), static_cast<int>(std::min(surface.cols(), kTiltedSide)),
-                CV_32FC1);
-  surface.heights(surface.rows() - rows, 0, frame);
+  cv::Mat frame(flowingSize(surface.pieces()), CV_32FC1);
+  surface.heights(surface.rows() - frame.rows, 0, frame);
   return frame;
 }
 
@@ -195,7 +195,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   cv::Mat flowing;
   const auto frame = [&](const DeviceAreaSolver& solver) {
     cv::Mat& made = solver.flows_ ? flowing : whole;
-    if (made.empty()) made = solver.flows_ ? flowingFrameOf(surface) : frameOf(surface);
+    if (made.empty()) made = solver.frameFrom(surface);
     return made;
   };
   if (std::all_of(solvers.begin(), solvers.end(),
@@ -239,7 +239,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
 }
 
 Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {
-  return follow(cells, {}, [&] { return flows_ ? flowingFrameOf(surface) : frameOf(surface); });
+  return follow(cells, {}, [&] { return frameFrom(surface); });
 }
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
@@ -273,13 +273,16 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                        "preprocessing/fill, help");
   };
   Gatherer gatherer(pieces);
+  const cv::Size flowing_size = flowingSize(pieces);
   cv::Mat relief;
   cv::Mat flowing;
   for (int piece = 0; piece < pieces.count; ++piece) {
     relief = partOf(lower);
     if (!upper.empty()) relief -= partOf(upper);
     gatherer.add(piece, 0, 0, relief);
-    if (flowing.rows + relief.rows <= flowingRows(pieces)) flowing.push_back(relief);
+    const int room = flowing_size.height - flowing.rows;
+    if (room > 0)
+      flowing.push_back(relief(cv::Rect(0, 0, flowing_size.width, std::min(relief.rows, room))));
   }
   std::vector<Realisation> found;
   found.reserve(solvers.size());
@@ -339,11 +342,14 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   return realisation;
 }
 
+cv::Mat DeviceAreaSolver::frameFrom(DeviceSurface& surface) const {
+  return flows_ ? flowingFrameOf(surface) : frameOf(surface);
+}
+
 bool DeviceAreaSolver::framesTell(int contacts) const {
-  const double cells = static_cast<double>(flowingRows(pieces_)) *
-                       static_cast<double>(std::min(pieces_.size.cols, kTiltedSide));
-  const double share = cells / (static_cast<double>(pieces_.count * pieces_.size.rows) *
-                                static_cast<double>(pieces_.size.cols));
+  const double share = static_cast<double>(flowingSize(pieces_).area()) /
+                       (static_cast<double>(pieces_.count * pieces_.size.rows) *
+                        static_cast<double>(pieces_.size.cols));
   return share >= 1.0 || contacts * share >= kManyContacts;
 }
 

@@ -84,6 +84,8 @@ class DeviceAreaSolver {
   Realisation followFrame(const cv::Mat& relief);
   bool tilts() const { return model_.guidance != Guidance::kGuided; }
   bool takesFrames() const { return tilts() || flows_; }
+  /// What followFrame() takes of a made surface.
+  cv::Mat frameFrom(DeviceSurface& surface) const;
   /// Whether a frame has room for the surface, or for enough of its contacts.
   bool framesTell(int contacts) const;
   void warnOnce(const std::string& warning);

@@ -418,6 +418,16 @@ TEST_F(DeviceForceTest, ALoadThatMakesPlacesFlowMakesItHoldMore) {
   }
 }
 
+TEST_F(DeviceForceTest, ContactsThatFlowAreCutToWhatAFrameHolds) {
+  constexpr int kLarge = 2200;
+  surfaces_.scans = {part("large", surfaceOf(kLarge, 60e-9, 5e-9, 3), 0, 0, kLarge)};
+  model_.lower.hardness = model_.upper.hardness = 1.5e9;
+  model_.load.mechanical_load = 20e6 * areaOfPixels(kLarge);
+  const DeviceForce found = force(areaOfPixels(2100));
+  EXPECT_TRUE(found.is_cut_from_scans);
+  EXPECT_GT(found.pull_off_force, 0.0);
+}
+
 TEST_F(DeviceForceTest, WithoutAdhesionNothingHolds) {
   model_.interface.work_of_adhesion = 0.0;
   const DeviceForce found = force(areaOfPixels(420));
