@@ -154,13 +154,20 @@ class DeviceAreaSolver::Gatherer {
 
   void add(int piece, std::int64_t row, std::int64_t col, const cv::Mat& relief) {
     const std::int64_t at = rowInArea(pieces_, piece, row);
-    cells_.add(at, col, relief);
-    if (!goes_on_) return;
+    if (!goes_on_) {
+      cells_.add(at, col, relief);
+      return;
+    }
     // tiles are small against the surface: their first pixel says in which quarter they lie
     const int quarter = pieces_.count >= kQuarters ? piece % kQuarters
                                                    : (2 * row >= pieces_.size.rows ? 2 : 0) +
                                                          (2 * col >= pieces_.size.cols ? 1 : 0);
     quarters_[static_cast<std::size_t>(quarter)].add(at, col, relief);
+  }
+
+  /// Nothing more comes.
+  void finish() {
+    for (const AreaCells& quarter : quarters_) cells_.add(quarter);
   }
 
   /// Whether every cell is kept.
@@ -211,6 +218,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                          few.add(piece, row, col, tile);
                          if (shown && piece == 0) shown->add(row, col, tile);
                        });
+    few.finish();
     std::optional<Gatherer> all;
     for (DeviceAreaSolver* solver : solvers) {
       std::optional<Realisation> by_few;
@@ -226,6 +234,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                            [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
                              all->add(piece, row, col, tile);
                            });
+        all->finish();
       }
       const Gatherer& gatherer = all ? *all : few;
       found.push_back(
@@ -284,6 +293,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     if (room > 0)
       flowing.push_back(relief(cv::Rect(0, 0, flowing_size.width, std::min(relief.rows, room))));
   }
+  gatherer.finish();
   std::vector<Realisation> found;
   found.reserve(solvers.size());
   for (DeviceAreaSolver* solver : solvers) {
