@@ -137,19 +137,19 @@ Settings settingsFor(const std::string& path, const FileChannel& channel,
   return settings;
 }
 
-void checkPitchStated(const std::string& path, const ScanOptions& settings) {
+/// - @p option with which the user can state it; empty = none
+void checkPitchStated(const std::string& path, const ScanOptions& settings,
+                      const std::string& option) {
   if (settings.pitch_x != 0.0 && settings.pitch_y != 0.0) return;
+  const std::string advice = option.empty() ? "give " : "give " + option + ", or ";
   if (settings.pitch_x != 0.0 || settings.pitch_y != 0.0) {
     const std::string missing = settings.pitch_x != 0.0 ? "pitch_y" : "pitch_x";
-    throw FileError(path + ": its " + missing +
-                    " is not stated, only the other pitch: give --pitch, or scan/" + missing +
-                    " where the other is given");
+    throw FileError(path + ": its " + missing + " is not stated, only the other pitch: " + advice +
+                    "scan/" + missing + " where the other is given");
   }
-  throw FileError(
-      path +
-      ": its pixel pitch is not stated: give --pitch, or scan/pitch_x and scan/pitch_y in the "
-      "configuration or in " +
-      fs::path(path).filename().string() + ".yaml");
+  throw FileError(path + ": its pixel pitch is not stated: " + advice +
+                  "scan/pitch_x and scan/pitch_y in the configuration or in " +
+                  fs::path(path).filename().string() + ".yaml");
 }
 
 /// A pitch that is given by hand and one in the file that differ by more than a hundredth: perhaps
@@ -176,9 +176,10 @@ bool isOther(double stated, double taken) {
 /// What configuration and sidecar state and the file's own statements go before, and what else is
 /// odd beside the file.
 /// - @p given by the configuration
-/// - @p has_pitch_option an option goes before all of them
+/// - @p options that go before all of them
 void noteUnused(const std::string& path, const FileChannel& channel, const ScanOptions& given,
-                bool has_pitch_option, const HeightMap& surface, std::vector<std::string>& notes) {
+                const ScanFileOptions& options, const HeightMap& surface,
+                std::vector<std::string>& notes) {
   const std::string sidecar = sidecarOf(path);
   const std::string of_stem = sidecarsOf(path)[1];
   if (sidecar.empty() && of_stem != path && isThere(of_stem)) {
@@ -193,13 +194,15 @@ void noteUnused(const std::string& path, const FileChannel& channel, const ScanO
   const auto sourceOf = [&](bool is_of_sidecar) {
     return is_of_sidecar ? sidecar : "the configuration";
   };
-  if (!has_pitch_option &&
+  const std::string before =
+      options.pitch_option.empty() ? "" : "; " + options.pitch_option + " goes before both";
+  if (!(options.pitch_x > 0.0) &&
       (isOther(stated.pitch_x, surface.pitchX()) || isOther(stated.pitch_y, surface.pitchY()))) {
     const bool is_of_sidecar = stated.pitch_x != given.pitch_x || stated.pitch_y != given.pitch_y;
     notes.push_back("the file states a pitch of " + numberText(surface.pitchX()) + " x " +
                     numberText(surface.pitchY()) + " m, which is taken, " +
                     numberText(stated.pitch_x) + " x " + numberText(stated.pitch_y) + " m of " +
-                    sourceOf(is_of_sidecar) + " is not; --pitch goes before both");
+                    sourceOf(is_of_sidecar) + " is not" + before);
   }
   const bool is_sidecar_applied = channel.takes_settings;
   if (is_sidecar_applied && channel.unit_z != "m") return;
@@ -239,7 +242,7 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
   ScanOptions settings = stated.options;
   if (options.pitch_x > 0.0) settings.pitch_x = options.pitch_x;
   if (options.pitch_y > 0.0) settings.pitch_y = options.pitch_y;
-  checkPitchStated(path, settings);
+  checkPitchStated(path, settings, options.pitch_option);
   return heightMapFromPixels(channel.values, settings);
 }
 
@@ -310,7 +313,7 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan,
         options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";
     if (!others.empty()) file.notes.push_back(others);
     notePitch(channel, file.surface, file.notes);
-    noteUnused(path, channel, scan, options.pitch_x > 0.0, file.surface, file.notes);
+    noteUnused(path, channel, scan, options, file.surface, file.notes);
     return file;
   });
 }

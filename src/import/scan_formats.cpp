@@ -202,7 +202,7 @@ Channels readHdf5(const std::string& path, const ImportOptions& options) {
   } catch (const FileError& error) {
     const std::string arrays = read.arrays.empty() ? "" : "its arrays are " + read.arrays + "; ";
     throw FileError(std::string(error.what()) + " (an HDF5 file: " + arrays +
-                    "write its array of heights as .npy and give --pitch)");
+                    "write its array of heights as .npy and state its pitch)");
   }
 }
 

@@ -40,6 +40,7 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
   ScanFileOptions options;
   options.pitch_x = pitch_x;
   options.pitch_y = pitch_y;
+  options.pitch_option = "pitch";
   options.import.channel = channel;
   options.import.ignore_mask = ignore_mask;
   return options;

@@ -51,6 +51,7 @@ inline void warn(const std::string& path, const std::string& what) {
 
 /// "M" or "MX,MY" into both pitches. @throw OptionsError
 inline void applyPitch(const std::string& text, ScanFileOptions& options) {
+  options.pitch_option = "--pitch";
   if (text.empty()) return;
   std::istringstream stream(text);
   char comma = ',';

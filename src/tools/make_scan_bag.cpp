@@ -248,6 +248,7 @@ int run(const Arguments& arguments) {
   int status = 0;
   ScanFileOptions file_options;
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
+  file_options.pitch_option = "--pitch";
   ScanBag bag(arguments);
   for (const std::string& path : scansOf(arguments.scans)) {
     std::optional<ScanFile> scan;

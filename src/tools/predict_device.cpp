@@ -123,8 +123,10 @@ std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<st
     InputScan input{paths[i], {}};
     input.options.import.channel = arguments.channel;
     input.options.import.ignore_mask = arguments.ignore_mask;
-    if (count == 1) applyPitch(arguments.pitches.front(), input.options);
-    if (count > 1 && !is_counter) applyPitch(arguments.pitches[i], input.options);
+    std::string pitch;
+    if (count == 1) pitch = arguments.pitches.front();
+    if (count > 1 && !is_counter) pitch = arguments.pitches[i];
+    applyPitch(pitch, input.options);
     inputs.push_back(input);
   }
   return inputs;

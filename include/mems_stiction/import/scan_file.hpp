@@ -26,9 +26,10 @@ namespace mems_stiction {
 
 /// What goes before what a file says about itself.
 struct ScanFileOptions {
-  double pitch_x = 0.0;  ///< instead of every other statement of the pitch [m]; 0 = none
-  double pitch_y = 0.0;  ///< the same for rows [m]
-  ImportOptions import;  ///< which channel, and for files that gwyddion reads
+  double pitch_x = 0.0;      ///< instead of every other statement of the pitch [m]; 0 = none
+  double pitch_y = 0.0;      ///< the same for rows [m]
+  ImportOptions import;      ///< which channel, and for files that gwyddion reads
+  std::string pitch_option;  ///< what the user states the pitch with, "--pitch"; empty = nothing
 };
 
 /// A file as heights in metres, and where they came from.

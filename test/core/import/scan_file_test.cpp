@@ -137,9 +137,17 @@ TEST(TextGrid, WhatIsNotAGridIsRefusedWithTheLine) {
 TEST(ScanFile, MissingPitchSaysHowToGiveIt) {
   const ScratchFolder folder;
   const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
-  const std::string text = refusal(path, ScanOptions());
-  EXPECT_TRUE(mentions(text, "--pitch")) << text;
-  EXPECT_TRUE(mentions(text, "scan/pitch_x")) << text;
+  EXPECT_TRUE(mentions(refusal(path, {}),
+                       "its pixel pitch is not stated: give scan/pitch_x and scan/pitch_y in the "
+                       "configuration or in scan.txt.yaml"));
+  ScanFileOptions with_option;
+  with_option.pitch_option = "--pitch";
+  try {
+    readScanFile(path, {}, with_option);
+    FAIL() << "its program has the option, which is advised";
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), "is not stated: give --pitch, or scan/pitch_x"));
+  }
 }
 
 TEST(ScanFile, PitchByOptionGoesBeforeSidecarBeforeConfiguration) {
@@ -202,9 +210,10 @@ TEST(ScanFile, WhatAMakersFileGoesBeforeIsSaid) {
   const std::string sidecar =
       folder.write("scan.gwy.yaml", "pitch_x: 5e-9\npitch_y: 6e-9\nheight_scale: 1e-9\n");
   const std::string notes = notesOn(path);
-  EXPECT_TRUE(
-      mentions(notes, "5e-09 x 6e-09 m of " + sidecar + " is not; --pitch goes before both"))
-      << notes;
+  EXPECT_TRUE(mentions(notes, "5e-09 x 6e-09 m of " + sidecar + " is not\n")) << notes;
+  ScanFileOptions with_option;
+  with_option.pitch_option = "--pitch";
+  EXPECT_TRUE(mentions(notesOn(path, {}, with_option), " is not; --pitch goes before both\n"));
   EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of " + sidecar + " is not applied"))
       << notes;
   ScanFileOptions by_option;
@@ -522,7 +531,7 @@ TEST(GwyddionImport, AnHdf5FileThatItDoesNotKnowIsRefusedWithWhatToDo) {
     openScanFile(folder.write("scan.h5", "\x89HDF\r\n\x1a\n"), {}, options);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and give --pitch"))
+    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and state its pitch"))
         << error.what();
   }
 }
