@@ -25,7 +25,7 @@ from mems_stiction.calibration_statements import (
 )
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.other_packages import require_package
-from mems_stiction.quantities import with_interval, with_unit
+from mems_stiction.quantities import counted, with_interval, with_unit
 
 OnProgress = Callable[[float], None]
 
@@ -168,8 +168,8 @@ class Calibration(ReadOnly):
 
     def __repr__(self) -> str:
         lines = [
-            "Calibration by %d measurements: work of adhesion %s"
-            % (len(self.measurements), self._work_text())
+            "Calibration by %s: work of adhesion %s"
+            % (counted(len(self.measurements), "measurement"), self._work_text())
         ]
         lines += ["  " + statement for statement in self.statements]
         for row in self.measurements:

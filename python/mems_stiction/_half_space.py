@@ -23,7 +23,7 @@ from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
 from mems_stiction._types import Heights, Upper
 from mems_stiction.other_packages import require_package
-from mems_stiction.quantities import percent, with_unit
+from mems_stiction.quantities import counted, percent, with_unit
 
 
 @explained
@@ -112,20 +112,20 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
             % (" of " + self.name if self.name else "", self.status.lower().replace("_", " "))
         ]
         lines.append(
-            "  pull-off force %s; contact %s in %d groups; mean gap %s"
+            "  pull-off force %s; contact %s in %s; mean gap %s"
             % (
                 with_unit(self.pull_off_force, "N"),
                 percent(self.contact_fraction),
-                self.contact_count,
+                counted(self.contact_count, "group"),
                 with_unit(self.mean_gap, "m"),
             )
         )
         lines.append(
-            "  %s, %s; %d states in %s"
+            "  %s, %s; %s in %s"
             % (
                 "converged" if self.is_converged else "not converged",
                 "resolved" if self.is_resolved else "pixels too large",
-                self.state_count,
+                counted(self.state_count, "state"),
                 with_unit(self.processing_time, "s"),
             )
         )

@@ -19,7 +19,7 @@ from mems_stiction import _core, plots
 from mems_stiction.curve import DIRECTIONS, Curve
 from mems_stiction.curve_figure import draw_curves
 from mems_stiction.prediction_text import flag_words
-from mems_stiction.quantities import area, length_scale, literal, percent, ratio
+from mems_stiction.quantities import area, counted, length_scale, literal, percent, ratio
 
 STATUS_CODES = {"EQUILIBRIUM": 0, "BONDED": 1, "NO_EQUILIBRIUM": 2}
 DPI = 72
@@ -132,7 +132,8 @@ def half_space_html(solution: Any) -> str:
         ("pull-off force", plots.with_unit(solution.pull_off_force, "N")),
         (
             "contact",
-            "%s in %d groups" % (percent(solution.contact_fraction), solution.contact_count),
+            "%s in %s"
+            % (percent(solution.contact_fraction), counted(solution.contact_count, "group")),
         ),
         (
             "converged, resolved",

@@ -10,7 +10,7 @@ import copy
 import numpy as np
 
 from mems_stiction.plots import beside, plt, with_unit
-from mems_stiction.quantities import length_scale
+from mems_stiction.quantities import counted, length_scale
 from mems_stiction.report_figures import png_of
 
 # In the order in which they run, with the setting and the value that switches each off.
@@ -231,8 +231,8 @@ def _draw_places(axes, before, after, extent):
     beside(axes).set_axis_off()
     words = []
     for places, colour, text in (
-        (np.isfinite(before) & np.isnan(after), "#d1322f", "%d pixels taken out"),
-        (np.isnan(before) & np.isfinite(after), "#1b7a3d", "%d pixels filled"),
+        (np.isfinite(before) & np.isnan(after), "#d1322f", "%s taken out"),
+        (np.isnan(before) & np.isfinite(after), "#1b7a3d", "%s filled"),
     ):
         rows, columns = np.nonzero(places)
         if rows.size:
@@ -243,7 +243,7 @@ def _draw_places(axes, before, after, extent):
                 color=colour,
                 linewidths=0,
             )
-            words.append(text % rows.size)
+            words.append(text % counted(rows.size, "pixel"))
     axes.set_title(", ".join(words), fontsize=10)
 
 

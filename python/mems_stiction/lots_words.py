@@ -18,7 +18,7 @@ from mems_stiction.lots_data import (
 from mems_stiction.lots_variance import Components, Hierarchy
 from mems_stiction.lots_wafer import CHANCE, BadPlace, Trend, is_steep
 from mems_stiction.lots_yield import BOUND, COUNTED, NORMAL, Share
-from mems_stiction.quantities import percent, ratio, with_unit
+from mems_stiction.quantities import counted, percent, ratio, with_unit
 
 FEW = 4  # degrees of freedom: below, an interval is wider than a factor of three either way
 MANY_WAFERS = 20  # of which one has a bad place by chance
@@ -65,8 +65,8 @@ def of_rows(lots: Lots) -> List[str]:
     free = sum(math.isinf(place.value) for place in lots.chosen)
     if free:
         said.append(
-            "%d rows have an infinite %s, since nothing holds there: they count as releasing, and "
-            "are left out of differences" % (free, WORDS[lots.figure])
+            "with an infinite %s, since nothing holds there: %s, counted as releasing and left out "
+            "of differences" % (WORDS[lots.figure], counted(free, "row"))
         )
     settings = {place.settings for place in lots.chosen if place.settings}
     if len(settings) > 1:

@@ -42,8 +42,7 @@ std::string statusText(const Prediction& prediction) {
   std::string text = lowered(replaced(word(prediction.status), "_", " "));
   if (prediction.is_bonded_by_load) text += " by the load";
   if (prediction.has_asperities) {
-    text += ", " + std::to_string(prediction.asperity_count) +
-            (prediction.asperity_count == 1 ? " contact" : " contacts");
+    text += ", " + countText(prediction.asperity_count, "contact");
   }
   return text;
 }

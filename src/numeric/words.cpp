@@ -62,6 +62,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
+std::string countText(std::size_t count, const std::string& word) {
+  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
+}
+
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;

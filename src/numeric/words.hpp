@@ -3,6 +3,7 @@
 /// @file
 /// Words as people write them: letters of either case, blanks around them, slips.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ bool endsWith(std::string_view text, std::string_view end);
 
 /// With `with` for every `what`.
 std::string replaced(std::string text, const std::string& what, const std::string& with);
+
+/// "1 scan", "2 scans". @param word of one, whose plural ends in s
+std::string countText(std::size_t count, const std::string& word);
 
 /// One after the other, with commas between them.
 std::string listed(const std::vector<std::string>& words);

@@ -26,6 +26,7 @@
 #include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "numeric/words.hpp"
 #include "ros/image_conversion.hpp"
 #include "ros/topic_names.hpp"
 #include "surface/gaussian_surface.hpp"
@@ -270,7 +271,7 @@ int run(const Arguments& arguments) {
     return kBadInput;
   }
   bag.finish();
-  std::cout << oneLine(arguments.bag) << ": " << bag.count() << " scans\n";
+  std::cout << oneLine(arguments.bag) << ": " << countText(bag.count(), "scan") << "\n";
   return status;
 }
 

@@ -17,6 +17,7 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "numeric/words.hpp"
 
 namespace {
 
@@ -191,8 +192,7 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
       return predictor.addCounterSurface(input.path, file.surface, file.notes);
     });
   }
-  const std::string what =
-      std::to_string(inputs.size()) + (inputs.size() == 1 ? " scan" : " scans");
+  const std::string what = countText(inputs.size(), "scan");
   DevicePrediction prediction = whileSayingShare(
       what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
   predictor.judge(prediction, &withHalfSpaceProgress);

@@ -20,6 +20,7 @@
 #include "evaluation/plausibility.hpp"
 #include "files/output_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "part_devices.hpp"
 #include "part_rows.hpp"
 #include "prediction/contact_solvers.hpp"
@@ -77,18 +78,18 @@ void pool(const BatchArguments& arguments, const std::vector<std::string>& input
   PartDevices devices(arguments, inputs, configuration);
   const auto device = [&](const std::vector<RowOfPart>& rows) {
     return whileSayingShare(
-        "a part of " + std::to_string(rows.size()) + " scans",
+        "a part of " + countText(rows.size(), "scan"),
         [&](const auto& on_progress) { return devices.device(rows, on_progress); });
   };
   const std::size_t count = writeParts(arguments.output, arguments.parts, device);
-  std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
+  std::cout << oneLine(arguments.parts) << ": " << countText(count, "part") << "\n";
 }
 
 /// If it is asked for, of the rows that are there. @param sample of the rows
 void tabulate(const BatchArguments& arguments, const RowFields& sample) {
   if (arguments.table.empty()) return;
   const std::size_t count = writeTable(arguments.table, arguments.form, sample);
-  std::cout << oneLine(arguments.table) << ": " << count << " columns of these rows\n";
+  std::cout << oneLine(arguments.table) << ": " << countText(count, "column") << " of these rows\n";
 }
 
 constexpr const char* kGone = "rows are of files that are no longer there";
@@ -213,10 +214,10 @@ int run(const BatchArguments& arguments) {
     }
   }
   rows.settle();
-  std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before
-            << " of them from before, " << failed_count << " scans failed in this run";
+  std::cout << oneLine(arguments.output) << ": " << countText(rows.done(), "row") << ", " << before
+            << " of them from before, " << countText(failed_count, "scan") << " failed in this run";
   if (arguments.half_space || unsolved_count > 0) {
-    std::cout << ", half-space not solved for " << unsolved_count << " others";
+    std::cout << ", half-space not solved for " << countText(unsolved_count, "other");
   }
   std::cout << "\n";
   if (failed_count > 0) {
@@ -268,8 +269,8 @@ int merge(const BatchArguments& arguments) {
   complainOfMany(requireOneState(shards), kGone);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
-  std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size()
-            << " shards\n";
+  std::cout << oneLine(arguments.output) << ": " << countText(total, "row") << " of "
+            << countText(shards.size(), "shard") << "\n";
   tabulate(arguments, sample);
   if (!arguments.parts.empty()) {
     const Configuration& configuration = rowsMade();

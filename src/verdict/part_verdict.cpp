@@ -8,6 +8,7 @@
 #include "errors/short_number.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/mean.hpp"
+#include "numeric/words.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
 
@@ -158,10 +159,6 @@ double pooledTransition(const std::vector<const ScanStatement*>& scans) {
     if (isKnown(scan->margin)) logarithms.push_back(std::log(scan->margin_transition));
   }
   return logarithms.empty() ? Verdict::kNotStated : std::exp(meanOf(logarithms));
-}
-
-std::string countText(int count, const std::string& word) {
-  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
 }
 
 /// Over scans that count.

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "errors/short_number.hpp"
+#include "numeric/words.hpp"
 #include "verdict/contact_size.hpp"
 #include "verdict/electrode_hold.hpp"
 #include "verdict/finding.hpp"
@@ -81,10 +82,9 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double 
            "or a larger one";
   }
   if (has_few) {
-    return "the answer rests on " + std::to_string(contacts) +
-           (contacts == 1 ? " contact" : " contacts") + (is_of_device ? " in all scans" : "") +
-           ": scan more places, or an area " + areaFactor(contacts) +
-           " as large, another may have higher summits";
+    return "the answer rests on " + countText(contacts, "contact") +
+           (is_of_device ? " in all scans" : "") + ": scan more places, or an area " +
+           areaFactor(contacts) + " as large, another may have higher summits";
   }
   return "";
 }

@@ -138,7 +138,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.assertEqual({refused["half_space_" + name] for name in FIGURES}, {""})
         self.assertIn("no such file", missing["message"])
         self.assertEqual({missing["half_space_" + name] for name in FIGURES + ("message",)}, {""})
-        self.assertIn("1 scans failed in this run, half-space not solved for 1 others", done.stdout)
+        self.assertIn("1 scan failed in this run, half-space not solved for 1 other\n", done.stdout)
 
     def test_a_path_that_is_given_up_is_nan_never_a_number(self):
         self.config.write_text(CONFIG + "half_space: {max_states: 10}\n")
@@ -309,7 +309,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
             "4.096e-13}\ndevice_force: {enabled: false}\n"
         )
         done = self.batch("rows.csv", "--parts", self.folder / "parts.csv", inputs=inputs)
-        self.assertIn("half-space not solved for 1 others", done.stdout)
+        self.assertIn("half-space not solved for 1 other\n", done.stdout)
         smooth, unflagged, large = self.rows("rows.csv")
         done = run([program("predict_scan"), "--json", "-c", self.config] + inputs[:1])
         record = json.loads(done.stdout)

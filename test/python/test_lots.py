@@ -326,19 +326,26 @@ class SharesTest(unittest.TestCase):
         self.assertTrue(any("state the device" in text for text in found.statements))
 
     def test_what_nothing_holds_counts_as_releasing(self):
-        rows = [
-            row(site=site, margin=math.inf if place < 5 else 2.0 + 0.01 * place)
-            for place, site in enumerate(SITES)
-        ]
-        found = mems_stiction.compare_lots(rows)
+        def compared(free):
+            return mems_stiction.compare_lots(
+                [
+                    row(site=site, margin=math.inf if place < free else 2.0 + 0.01 * place)
+                    for place, site in enumerate(SITES)
+                ]
+            )
+
+        def is_said(found, count):
+            start = "with an infinite margin, since nothing holds there: %s, " % count
+            return any(text.startswith(start) for text in found.statements)
+
+        found = compared(5)
         self.assertEqual(
             (found.shares.places[0], found.shares.sticking[0], found.shares.method[0]),
             (49, 0, "bound"),
         )
         self.assertTrue(np.isfinite(found.units.value).all())
-        self.assertTrue(
-            any(text.startswith("5 rows have an infinite margin") for text in found.statements)
-        )
+        self.assertTrue(is_said(found, "5 rows"), found.statements)
+        self.assertTrue(is_said(compared(1), "1 row"))
 
 
 class WaferTest(unittest.TestCase):

@@ -434,6 +434,14 @@ class VerdictTest(unittest.TestCase):
         self.assertTrue(np.isnan(rest.pull_off_force) and np.isnan(rest.apparent_work_of_adhesion))
         self.assertEqual({point[2] for point in rest.curve.tolist()}, {0})  # the approach
 
+    def test_a_half_space_of_one_contact_says_one_group(self):
+        x, y = np.mgrid[-12:12, -12:12] * 1e-9
+        solved = mems_stiction.half_space(
+            -(x**2 + y**2) / 1e-7, 1e-9, load={"mechanical_load": 1e-9}
+        )
+        self.assertEqual(solved.contact_count, 1)
+        self.assertIn(" in 1 group; ", repr(solved))
+
     def test_a_half_space_that_can_judge_does(self):
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
         settings = {
