@@ -4,10 +4,8 @@
 
 #include "device/device_evidence.hpp"
 #include "evaluation/frame_load.hpp"
-#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "prediction/asked_output.hpp"
 
 namespace mems_stiction {
@@ -112,23 +110,10 @@ void DevicePredictor::judge(DevicePrediction& prediction, const HalfSpaceRun& ru
       named(prediction.scans[place], [&] { return predictor_.predict(finest); });
   Evidence evidence;
   evidence.device = deviceEvidence(prediction.force);
-  const Options options = onFrame(configuration_.model, device, finest.surfaces);
-  const HalfSpaceCall call = halfSpaceCall(of_scan, finest, options, configuration_);
-  SolvedHalfSpace solution;
-  if (call.is_made) {
-    solution = run([&](const HalfSpaceControl& control) {
-      return answerOf(call, HalfSpaceSolver(configuration_.half_space),
-                      halfSpaceProblem(finest, options), control);
-    });
-    evidence.half_space = &solution;
-    evidence.why_half_space = call.why;
-  }
-  prediction.verdict = verdictOf(of_scan, device, configuration_.uncertainty, options,
-                                 finest.surfaces.lower.cellArea(), evidence);
-  if (prediction.verdict->judge == Judge::kHalfSpace) {
-    prediction.force = judgedByHalfSpace(std::move(prediction.force), of_scan, options,
-                                         configuration_.uncertainty, evidence);
-  }
+  prediction.verdict =
+      judgedScan(of_scan, finest, onFrame(configuration_.model, device, finest.surfaces),
+                 configuration_, evidence, &prediction.force, run)
+          .verdict;
 }
 
 std::vector<DeviceForce> DevicePredictor::forces(

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "evaluation/device_scans.hpp"
+#include "evaluation/scan_judgement.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/device/device_force.hpp"
@@ -41,10 +42,6 @@ struct DevicePrediction {
   /// Both, and those of the force.
   std::vector<std::string> warnings() const;
 };
-
-/// Watches a solution of the half-space while it is made.
-using HalfSpaceRun = std::function<SolvedHalfSpace(
-    const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve)>;
 
 /// One device with device/contact_area. One object serves one thread.
 class DevicePredictor {
@@ -78,7 +75,6 @@ class DevicePredictor {
   /// The verdict, where the device states what is to open it. Where the flags of the finest scan
   /// ask for the half-space, that judges, as for a prediction of the scan alone, and moves the
   /// device's figures.
-  /// - @p run calls what it is given, and returns what that returns
   void judge(DevicePrediction& prediction, const HalfSpaceRun& run);
 
   /// The forces alone, by each of several models: the surfaces are made once.

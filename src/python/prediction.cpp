@@ -17,9 +17,9 @@
 #include "device/device_force_fields.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
-#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
+#include "evaluation/scan_judgement.hpp"
 #include "figures.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "interruptible.hpp"
@@ -93,28 +93,15 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared,
       evidence = evidenceOfScan(prepared, configuration, Cancellation(cancel), &force);
       addMissing(force.warnings, predicted->extras.warnings);
     }
-    SolvedHalfSpace solution;
-    const HalfSpaceCall call =
-        halfSpaceCall(predicted->prediction, prepared, on_frame, configuration);
-    if (call.is_made) {
-      HalfSpaceControl control;
-      control.cancel = &cancel;
-      solution = answerOf(call, HalfSpaceSolver(configuration.half_space),
-                          halfSpaceProblem(prepared, on_frame), control);
-      if (call.objection.empty()) predicted->extras.half_space = solution;
-      evidence.half_space = &solution;
-      evidence.why_half_space = call.why;
-    }
-    if (configuration.device.isStated()) {
-      predicted->extras.verdict =
-          verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
-                    on_frame, scan.cellArea(), evidence);
-      if (evidence.device && predicted->extras.verdict->judge == Judge::kHalfSpace) {
-        std::optional<DeviceForce>& force = predicted->extras.device_force;
-        force = judgedByHalfSpace(std::move(*force), predicted->prediction, on_frame,
-                                  configuration.uncertainty, evidence);
-      }
-    }
+    const ScanJudgement judged = judgedScan(
+        predicted->prediction, prepared, on_frame, configuration, evidence,
+        evidence.device ? &*predicted->extras.device_force : nullptr, [&](const auto& solve) {
+          HalfSpaceControl control;
+          control.cancel = &cancel;
+          return solve(control);
+        });
+    predicted->extras.half_space = judged.begun();
+    predicted->extras.verdict = judged.verdict;
   }
   predicted->curve = curveOf(predicted->prediction, configuration.model);
   return predicted;

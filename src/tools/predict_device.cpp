@@ -80,12 +80,16 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "once it counts for all scans; else give the option again for each, in their "
                  "order. Goes before what files say")
       ->type_name("M")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
   app.add_option("--counter-surface", arguments.counter_surface,
                  "scan of the surface that meets it, in place of what counter_surface/type says; "
                  "counter_surface/facing "
                  "must say which way it faces. Several by as many options")
       ->type_name("SCAN")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
   addLoadOptions(app, arguments);
   addChannelOption(app, arguments.channel);
@@ -117,7 +121,7 @@ std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<st
   const std::size_t count = arguments.pitches.size();
   if (!is_counter && count > 1 && count != paths.size()) {
     throw OptionsError({"--pitch: " + std::to_string(count) + " are given for " +
-                        std::to_string(paths.size()) + " scans; give it once, or once for each"});
+                        countText(paths.size(), "scan") + "; give it once, or once for each"});
   }
   std::vector<InputScan> inputs;
   for (std::size_t i = 0; i < paths.size(); ++i) {

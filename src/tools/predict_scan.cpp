@@ -16,15 +16,14 @@
 #include "device/device_evidence.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
-#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/scan_flags.hpp"
+#include "evaluation/scan_judgement.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "half_space_run.hpp"
 #include "import/scan_writer.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "numeric/words.hpp"
@@ -242,7 +241,7 @@ AnswerForm formOf(const Arguments& arguments) {
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments,
                  const ScanFileOptions& file_options, const Configuration& configuration,
-                 const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
+                 ScanPredictor& predictor) {
   if (std::filesystem::path(path).extension() == ".bag") {
     throw FileError(
         path +
@@ -269,7 +268,6 @@ void predictScan(const std::string& path, const Arguments& arguments,
   extras.warnings = scan.notes;
   Options options = configuration.model;
   Evidence evidence;
-  SolvedHalfSpace solution;
   try {
     const PreparedScan prepared = whileSaying(
         path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
@@ -317,30 +315,18 @@ void predictScan(const std::string& path, const Arguments& arguments,
         return cleaningSpread(scan.surface, configuration, scale);
       });
     }
-    const HalfSpaceCall call = halfSpaceCall(prediction, prepared, options, configuration);
-    if (call.is_made) {
-      solution = withHalfSpaceProgress([&](const HalfSpaceControl& control) {
-        return answerOf(call, half_space, halfSpaceProblem(prepared, options), control);
-      });
-      if (call.objection.empty()) extras.half_space = solution;
-      evidence.half_space = &solution;
-      evidence.why_half_space = call.why;
-      if (solution.status != HalfSpaceStatus::kSolved) {
-        const std::string asked = call.why.empty() ? "" : call.why + " asks for it: ";
-        warn(path, "half-space: " + asked + solution.message);
-      }
+    if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
+    const ScanJudgement judged =
+        judgedScan(prediction, prepared, options, configuration, evidence,
+                   evidence.device ? &*extras.device_force : nullptr, &withHalfSpaceProgress);
+    extras.half_space = judged.begun();
+    extras.verdict = judged.verdict;
+    if (judged.call.is_made && judged.half_space.status != HalfSpaceStatus::kSolved) {
+      const std::string asked = judged.call.why.empty() ? "" : judged.call.why + " asks for it: ";
+      warn(path, "half-space: " + asked + judged.half_space.message);
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
-  }
-  if (configuration.device.isStated()) {
-    if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
-    extras.verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, options,
-                               scan.surface.cellArea(), evidence);
-    if (evidence.device && extras.verdict->judge == Judge::kHalfSpace) {
-      extras.device_force = judgedByHalfSpace(std::move(*extras.device_force), prediction, options,
-                                              configuration.uncertainty, evidence);
-    }
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (!curve_files.formulation.empty()) {
@@ -356,7 +342,6 @@ void predictScan(const std::string& path, const Arguments& arguments,
 
 int run(const Arguments& arguments) {
   std::optional<ScanPredictor> predictor;
-  std::optional<HalfSpaceSolver> half_space;
   Configuration configuration;
   ScanFileOptions file_options;
   file_options.import.channel = arguments.channel;
@@ -369,7 +354,6 @@ int run(const Arguments& arguments) {
     configuration.model.output.roughness = true;
     configuration = withFilesOfNow(std::move(configuration));
     predictor.emplace(configuration);
-    half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);
     requireOutputs(arguments);
     const bool answer_shows_them = answerShowsWarnings(formOf(arguments));
@@ -382,7 +366,7 @@ int run(const Arguments& arguments) {
     return kBadInput;
   }
   return forEachScan("predict_scan", arguments.scans, [&](const std::string& path) {
-    predictScan(path, arguments, file_options, configuration, *half_space, *predictor);
+    predictScan(path, arguments, file_options, configuration, *predictor);
   });
 }
 
