@@ -51,8 +51,7 @@ constexpr double kConformingRatio = 0.75;
 /// kinds -0.9, -0.9, and three of them are 55 to 400 times too strong.
 constexpr double kJoinedShare = 0.2;
 
-// ---------------------------------------------------------------- what the curve says of its own
-// error
+// ---------------------------------------------------------------- what the curve doubts
 
 /// A force that may be out by more than this is doubted (ModelStatement::doubt).
 constexpr double kDoubtedFactor = 1.3;
@@ -116,9 +115,9 @@ constexpr double kErrorPower = 1.0 / 6.0;
 /// frame on. No force hangs on it: the doubt does.
 constexpr double kThickShare = 0.85;
 
-// ---------------------------------------------------------------- steps: they cost accuracy or
-// time, not physics Half of each step, and twice as many parts and lines, change no figure of thick
-// bodies by more than 0.4 percent of frames.
+// ---------------------------------------------------------------- steps
+// They cost accuracy or time, not physics. Half of each step, and twice as many parts and lines,
+// change no figure of thick bodies by more than 0.4 percent of frames.
 
 /// Into how many parts a relief is divided at most: blocks along a side, classes of depth, heights
 /// of the springs.

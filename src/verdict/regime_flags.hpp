@@ -14,7 +14,7 @@ namespace mems_stiction {
 
 /// Bits of a set of flags; the values are those of the message.
 enum RegimeFlag : std::uint32_t {
-  kBondedFlag = 1,  ///< contacts percolate without the loads: the pull-off force is a lower bound
+  kBondedFlag = 1,  ///< bonded, also without the loads; paper, printed: the force is a lower bound
   kNoEquilibriumFlag = 2,  ///< the search ended first: the figures are those of its last step
   kTaborFlag =
       4,  ///< JKR's pull-off is too low: the median Tabor parameter asks for the transition or DMT
