@@ -117,8 +117,6 @@ class FieldLaw {
   FieldLaw(double voltage, double insulator_thickness, double insulator_relative_permittivity);
 
   bool isOn() const { return voltage_ != 0.0; }
-  /// h/eps_r [m]: the vacuum that the insulator is worth
-  double insulator() const { return insulator_; }
   /// eps0 U^2/2 times an area: over squaredDistance() it is the force on that area [N m^2].
   double factor(double area = 1.0) const {
     return 0.5 * kVacuumPermittivity * area * voltage_ * voltage_;
@@ -146,7 +144,7 @@ class FieldLaw {
   double inverseDistance(double gap) const { return 1.0 / (gap + insulator_); }
 
   double voltage_;
-  double insulator_;
+  double insulator_;  ///< h/eps_r [m]: the vacuum that the insulator is worth
 };
 
 /// Water that condenses between the surfaces.

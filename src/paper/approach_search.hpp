@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/paper/paper_options.hpp"
 #include "paper/cap_couple.hpp"
 #include "paper/cell_forces.hpp"
-#include "paper/equilibrium_state.hpp"
+#include "paper/force_balance.hpp"
 #include "paper/patch_sweep.hpp"
 
 namespace mems_stiction {
@@ -28,6 +29,19 @@ namespace mems_stiction {
 /// Delta of (1) [m]: as set, or a fiftieth of the composite rms height, or the cut-off distance for
 /// surfaces without relief.
 double approachStep(const PaperOptions& options, double composite_rms_height);
+
+/// What the approach ends with, and what it passed on the way: the first contact_count cells in
+/// order of gap touch.
+struct EquilibriumState {
+  Status status = Status::kNoEquilibrium;
+  double approach = 0.0;  ///< D [m]
+  int contact_count = 0;
+  int steps = 0;  ///< steps of the approach that were begun
+  NormalLoad load;
+  ForceBalance balance;
+  double plastic_work = 0.0;  ///< sum of plastic_force dD along the approach [J]
+  std::vector<EnergyPoint> curve;
+};
 
 /// What the search needs to know beside the surfaces.
 struct SearchSetting {

@@ -14,10 +14,33 @@
 #include <std_msgs/ColorRGBA.h>
 
 #include "errors/plain_format.hpp"
-#include "ros/regime_colour.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {
 namespace {
+
+constexpr char kRegimeLegend[] =
+    "grey: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
+
+/// Of a picture's pixel, 0 to 255 each.
+struct Colour {
+  std::uint8_t red, green, blue;
+};
+
+/// Of deformation regimes, as in all our pictures: told apart without red-green vision too.
+Colour colourOf(Regime regime) {
+  switch (regime) {
+    case Regime::kElastic:
+      return {47, 127, 209};
+    case Regime::kElastoPlastic:
+      return {242, 183, 5};
+    case Regime::kPlastic:
+      return {209, 50, 47};
+    case Regime::kApart:
+      break;
+  }
+  return {190, 190, 190};
+}
 
 /// Low dark, high bright, over three rms heights to either side.
 Colour greyOf(double above_mean, double rms_height) {
