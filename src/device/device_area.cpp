@@ -333,7 +333,8 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
   }
   if (is_flowing) {
     warnOnce(
-        "the load makes contacts flow, and of the device's own, which are few, they flow as whole "
+        "the load may make contacts flow, and of the device's own, which are few, they flow as "
+        "whole "
         "contacts: a scan's prediction, by places, tells better what the load does");
   }
   force_exponents_ = found.pull_off_exponents;

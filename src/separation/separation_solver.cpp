@@ -67,6 +67,7 @@ const GapField& SeparationSolver::comeToRest(const ContactProblem& problem,
   curve_.comeToRest(problem.gap, problem.settings);
   curve_.appendLoading(solution.curve);
   solution.steps = static_cast<int>(curve_.loading().states.size());
+  attracts_more_ = is_overloaded_ = false;
   has_flowed_ = mayFlow(problem.settings.load) && flow(problem);
   const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
   const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height,
@@ -127,8 +128,10 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
   attracts_more_ = has_flowed && carried > chosen::kDoubtedTimes * pressed_by &&
                    carried > chosen::kDoubtedTimes *
                                  carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
-  is_overloaded_ = has_flowed && curve_.loading().status == Status::kBonded &&
-                   load.mechanical_load > chosen::kDoubtedTimes * curve_.rest().carried;
+  // more than all cells bear at the hardness has no answer
+  is_overloaded_ = load.mechanical_load >= forces.hardness() * curve_.frame().area() ||
+                   (has_flowed && curve_.loading().status == Status::kBonded &&
+                    load.mechanical_load > chosen::kDoubtedTimes * curve_.rest().carried);
   return has_flowed;
 }
 
@@ -151,7 +154,7 @@ void SeparationSolver::takeUnloading(const Unloading& unloading, ContactSolution
 }
 
 void SeparationSolver::doubtFlow(ContactSolution& solution) const {
-  if (solution.model.doubt != nullptr || !has_flowed_) return;
+  if (solution.model.doubt != nullptr) return;
   if (attracts_more_) {
     solution.model.doubt =
         "contacts have flowed until the surfaces attract each other much more, and how far is not "
