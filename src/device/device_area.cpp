@@ -36,6 +36,10 @@ constexpr std::int64_t kFewCells = 1 << 16;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
 
+constexpr char kFlowOfFew[] =
+    "contacts may flow, and of the device's own, which are few, they flow as whole contacts: a "
+    "scan's prediction, by places, tells better what that does";
+
 /// Of a contact that is cut from a scan, so much must have been measured; so many places are tried.
 constexpr double kLeastMeasuredShare = 0.5;
 constexpr int kMostDraws = 100;
@@ -201,14 +205,15 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   cv::Mat whole;
   cv::Mat flowing;
   const auto frame = [&](const DeviceAreaSolver& solver) {
-    cv::Mat& made = solver.flows_ ? flowing : whole;
+    cv::Mat& made = solver.may_flow_ ? flowing : whole;
     if (made.empty()) made = solver.frameFrom(surface);
     return made;
   };
   if (std::all_of(solvers.begin(), solvers.end(),
-                  [](const auto* solver) { return solver->takesFrames(); })) {
+                  [](const auto* solver) { return solver->tilts(); })) {
     if (shown) shown->add(0, 0, frame(*solvers.front()));
-    for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame(*solver)));
+    for (DeviceAreaSolver* solver : solvers)
+      found.push_back(solver->taken(solver->followFrame(frame(*solver))));
   } else {
     AreaCellLimits few_cells;
     few_cells.most_cells = kFewCells;
@@ -221,14 +226,14 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     few.finish();
     std::optional<Gatherer> all;
     for (DeviceAreaSolver* solver : solvers) {
-      std::optional<Realisation> by_few;
-      if (!few.keepsAll() && !solver->takesFrames())
+      std::optional<Followed> by_few;
+      if (!few.keepsAll() && !solver->tilts())
         by_few = solver->followCells(few.cells(), few.quarters(), false);
       if (by_few) {
-        found.push_back(*by_few);
+        found.push_back(solver->taken(solver->withFlow(*by_few, [&] { return frame(*solver); })));
         continue;
       }
-      if (!few.keepsAll() && !solver->takesFrames() && !all) {
+      if (!few.keepsAll() && !solver->tilts() && !all) {
         all.emplace(pieces);
         surface.visitTiles(0, surface.rows(),
                            [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
@@ -298,30 +303,47 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   found.reserve(solvers.size());
   for (DeviceAreaSolver* solver : solvers) {
     found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(),
-                                   [&] { return solver->flows_ ? flowing : relief; }));
+                                   [&] { return solver->may_flow_ ? flowing : relief; }));
   }
   return found;
 }
 
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                                      const std::function<cv::Mat()>& frame) {
-  if (takesFrames()) return followFrame(frame());
-  const std::optional<Realisation> found = followCells(cells, quarters, true);
-  return found ? *found : followFrame(frame());
+  std::optional<Followed> found;
+  if (!tilts()) found = followCells(cells, quarters, true);
+  return taken(found ? withFlow(*found, frame) : followFrame(frame()));
 }
 
-std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
-                                                         const std::vector<AreaCells>& quarters,
-                                                         bool are_all) {
+Realisation DeviceAreaSolver::taken(const Followed& followed) {
+  force_exponents_ = followed.force_exponents;
+  work_exponents_ = followed.work_exponents;
+  stiffness_ = followed.stiffness;
+  if (followed.growth) {
+    force_growths_.push_back(followed.growth->force);
+    work_growths_.push_back(followed.growth->work);
+  }
+  return followed.realisation;
+}
+
+std::optional<DeviceAreaSolver::Followed> DeviceAreaSolver::followCells(
+    const AreaCells& cells, const std::vector<AreaCells>& quarters, bool are_all) {
   const auto isEnough = [&](const AreaAdhesion& found) {
     return found.is_enough && (are_all || !found.took_all_cells);
   };
+  may_flow_ = false;
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (!isEnough(found)) return std::nullopt;
-  const bool is_flowing = found.flows && model_.load.presses();
-  flows_ = is_flowing && framesTell(found.contact_count);
-  if (flows_) return std::nullopt;
+  Followed followed;
+  followed.force_exponents = found.pull_off_exponents;
+  followed.work_exponents = found.work_exponents;
+  followed.stiffness = found.contact_stiffness / found.area;
+  Realisation& realisation = followed.realisation;
+  realisation.pull_off_force = found.pull_off_force;
+  realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
+  realisation.contacts = found.pull_off_contact_count;
+  realisation.separation_at_rest = found.separation_at_rest;
   double force = 0.0;
   double work = 0.0;
   for (const AreaCells& quarter : quarters) {
@@ -331,30 +353,30 @@ std::optional<Realisation> DeviceAreaSolver::followCells(const AreaCells& cells,
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
   }
-  if (is_flowing) {
-    warnOnce(
-        "the load may make contacts flow, and of the device's own, which are few, they flow as "
-        "whole "
-        "contacts: a scan's prediction, by places, tells better what the load does");
+  if (!quarters.empty()) {
+    followed.growth = {
+        std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters),
+        std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters)};
   }
-  force_exponents_ = found.pull_off_exponents;
-  work_exponents_ = found.work_exponents;
-  stiffness_ = found.contact_stiffness / found.area;
-  Realisation realisation;
-  realisation.pull_off_force = found.pull_off_force;
-  realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
-  realisation.contacts = found.pull_off_contact_count;
-  realisation.separation_at_rest = found.separation_at_rest;
-  if (quarters.empty()) return realisation;
-  force_growths_.push_back(std::log(realisation.pull_off_force / force) /
-                           std::log(1.0 * kQuarters));
-  work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) /
-                          std::log(1.0 * kQuarters));
-  return realisation;
+  may_flow_ = found.flows && framesTell(found.contact_count);
+  if (found.flows && !may_flow_) warnOnce(kFlowOfFew);
+  return followed;
+}
+
+DeviceAreaSolver::Followed DeviceAreaSolver::withFlow(const Followed& by_cells,
+                                                      const std::function<cv::Mat()>& frame) {
+  if (!may_flow_) return by_cells;
+  const Prediction found = predictFrame(frame());
+  if (found.plastic_count + found.elasto_plastic_count == 0) return by_cells;
+  // what a few contacts hold does not go with area
+  if (scaleOf(found) <= kGoesOn || found.pull_off_contact_count >= kManyContacts)
+    return ofFrame(found);
+  warnOnce(kFlowOfFew);
+  return by_cells;
 }
 
 cv::Mat DeviceAreaSolver::frameFrom(DeviceSurface& surface) const {
-  return flows_ ? flowingFrameOf(surface) : frameOf(surface);
+  return may_flow_ ? flowingFrameOf(surface) : frameOf(surface);
 }
 
 bool DeviceAreaSolver::framesTell(int contacts) const {
@@ -364,29 +386,37 @@ bool DeviceAreaSolver::framesTell(int contacts) const {
   return share >= 1.0 || contacts * share >= kManyContacts;
 }
 
-Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
+Prediction DeviceAreaSolver::predictFrame(const cv::Mat& relief) const {
   const HeightMap frame(relief, pieces_.size.pitch_x, pieces_.size.pitch_y);
-  const double area = areaOf(frame);
-  AdhesionModel model(loadedOn(model_, loaded_area_, area));
-  const Prediction found = model.predict(frame);
-  force_exponents_ = found.pull_off_exponents;
-  work_exponents_ = found.work_exponents;
-  stiffness_ = found.contact_stiffness / area;
-  Realisation realisation;
-  const double scale = pieces_.area() / area;
+  AdhesionModel model(loadedOn(model_, loaded_area_, areaOf(frame)));
+  return model.predict(frame);
+}
+
+double DeviceAreaSolver::scaleOf(const Prediction& of_frame) const {
+  return pieces_.area() / of_frame.nominal_area;
+}
+
+DeviceAreaSolver::Followed DeviceAreaSolver::followFrame(const cv::Mat& relief) {
+  return ofFrame(predictFrame(relief));
+}
+
+DeviceAreaSolver::Followed DeviceAreaSolver::ofFrame(const Prediction& found) {
+  Followed followed;
+  followed.force_exponents = found.pull_off_exponents;
+  followed.work_exponents = found.work_exponents;
+  followed.stiffness = found.contact_stiffness / found.nominal_area;
+  Realisation& realisation = followed.realisation;
+  const double scale = scaleOf(found);
   realisation.pull_off_force = found.pull_off_force * scale;
   realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
   realisation.contacts = static_cast<int>(std::min(found.pull_off_contact_count * scale, 2e9));
   realisation.separation_at_rest = found.mean_gap;
-  if (pieces_.is_part && pieces_.area_ratio > kGoesOn) {
-    force_growths_.push_back(1.0);
-    work_growths_.push_back(0.0);
-  }
+  if (pieces_.is_part && pieces_.area_ratio > kGoesOn) followed.growth = {1.0, 0.0};
   if (scale > kGoesOn) {
-    warnOnce("contacts are so many that their force was found on " + std::to_string(frame.cols()) +
-             " x " + std::to_string(frame.rows()) + " pixels, and goes with area from there");
+    warnOnce("contacts are so many that their force was found on " + shortNumber(100.0 / scale, 2) +
+             " % of the device's area, and goes with area from there");
   }
-  return realisation;
+  return followed;
 }
 
 AreaGrowth DeviceAreaSolver::growth() {

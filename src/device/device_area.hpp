@@ -15,6 +15,7 @@
 #include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
 
 namespace mems_stiction {
 
@@ -74,16 +75,31 @@ class DeviceAreaSolver {
  private:
   class Gatherer;
 
+  /// Figures of the area that is made, and how they go on from its quarters to it: powers of area.
+  struct Followed {
+    Realisation realisation;
+    Exponents force_exponents;
+    Exponents work_exponents;
+    double stiffness = 0.0;  ///< [Pa/m]
+    std::optional<AreaGrowth> growth;
+  };
+
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
+  Realisation taken(const Followed& followed);
   /// - @p are_all whether they are all cells of the surface: of fewer, those that are deep enough
   /// to say so count alone
   /// @return nothing where they do not suffice
-  std::optional<Realisation> followCells(const AreaCells& cells,
-                                         const std::vector<AreaCells>& quarters, bool are_all);
-  Realisation followFrame(const cv::Mat& relief);
+  std::optional<Followed> followCells(const AreaCells& cells,
+                                      const std::vector<AreaCells>& quarters, bool are_all);
+  /// By places where contacts flow and a frame tells where; else as cells have it.
+  Followed withFlow(const Followed& by_cells, const std::function<cv::Mat()>& frame);
+  Followed followFrame(const cv::Mat& relief);
+  Prediction predictFrame(const cv::Mat& relief) const;
+  Followed ofFrame(const Prediction& found);
+  /// The area that is made over that of a frame of it [-].
+  double scaleOf(const Prediction& of_frame) const;
   bool tilts() const { return model_.guidance != Guidance::kGuided; }
-  bool takesFrames() const { return tilts() || flows_; }
   /// What followFrame() takes of a made surface.
   cv::Mat frameFrom(DeviceSurface& surface) const;
   /// Whether a frame has room for the surface, or for enough of its contacts.
@@ -93,7 +109,9 @@ class DeviceAreaSolver {
   Options model_;
   double loaded_area_;
   DevicePieces pieces_;
-  bool flows_ = false;  ///< by its load, and frames tell where: cells know whole contacts alone
+  /// The last contacts that were followed may flow, and frames tell where: cells know whole
+  /// contacts alone.
+  bool may_flow_ = false;
   Exponents force_exponents_;
   Exponents work_exponents_;
   double stiffness_ = 0.0;             ///< [Pa/m]

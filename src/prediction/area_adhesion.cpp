@@ -10,7 +10,6 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/median.hpp"
 #include "prediction/contact_solvers.hpp"
-#include "separation/chosen_constants.hpp"
 #include "separation/contact_curve.hpp"
 
 namespace mems_stiction {
@@ -73,7 +72,7 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   answer.separation_at_rest = curve.meanGap();
   answer.contact_stiffness = curve.stiffness();
   answer.contact_count = static_cast<int>(curve.contacts().size());
-  answer.flows = curve.largestFullness() > chosen::kMayFlow;
+  answer.flows = curve.mayFlow(options.load);
   takeMedians(curve, options, answer);
   curve.part();
   const Unloading& unloading = curve.byContacts();

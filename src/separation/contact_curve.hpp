@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "separation/chosen_constants.hpp"
 #include "separation/flowing_places.hpp"
 #include "separation/remaining_overlap.hpp"
 #include "separation/separation_curve.hpp"
@@ -58,8 +59,11 @@ class ContactCurve {
   }
   /// At rest, in the order of the sweep's patches there.
   const std::vector<Contact>& contacts() const { return contacts_; }
-  /// The largest P/(Ha A) of a contact at rest without flow [-].
-  double largestFullness() const { return largest_fullness_; }
+  /// Whether places of contacts at rest may flow. Loads press wide contacts, of whose overlap a
+  /// small part touches; what adhesion alone draws together flows from its tops on.
+  bool mayFlow(const LoadOptions& load) const {
+    return largest_fullness_ > (load.presses() ? chosen::kMayFlow : PatchForces::kFlowOnset);
+  }
   /// Mean gap of the cells apart at rest [m]; 0 when every cell touches.
   double meanGap() const { return mean_gap_; }
   /// -dF/dD at rest [N/m]; NaN if it is not known.

@@ -12,9 +12,6 @@
 namespace mems_stiction {
 namespace {
 
-/// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the
-/// overlapped area.
-constexpr double kFlowOnset = 1.0 / 3.0;
 /// Growth of the area of a cone with its depth, A ~ delta^m: no summit is sharper.
 constexpr double kGrowthOfCone = 2.0;
 /// lambda over Tabor's parameter, (S8): Maugis' stress is the law's mean one, by the work that it
@@ -67,7 +64,7 @@ MEMS_STICTION_INLINE Packet flowedFullness(const Packet& fullness) {
   // Under a pressure Ha everywhere the edge of the contact sinks in by (4/pi) Ha a/E, and what
   // touches is that much less than the overlap: y + b sqrt(y) = 1 for y = P/(Ha A), b = 8
   // sqrt(2)/(3 pi^2)/fullness = 0.382/fullness; with 0.385 the curve has no step at the onset.
-  const Packet b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
+  const Packet b = 2.0 / 3.0 * std::sqrt(PatchForces::kFlowOnset) / fullness;
   const Packet root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
   return root * root;
 }
@@ -121,10 +118,11 @@ MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Packet& cells
   loads.carried = loads.elastic;
   const Packet capacity = hardness_ * area;
   const Packet fullness = loads.elastic / capacity;
-  const PacketMask flows = fullness > kFlowOnset;
+  const PacketMask flows = fullness > PatchForces::kFlowOnset;
   if (isAnywhere(flows)) {
-    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Packet(kFlowOnset))),
-                           loads.elastic);
+    loads.carried =
+        select(flows, capacity * flowedFullness(greater(fullness, Packet(PatchForces::kFlowOnset))),
+               loads.elastic);
   }
   return loads;
 }

@@ -29,6 +29,10 @@ struct PatchLoad {
 /// Of a pair of surfaces.
 class PatchForces {
  public:
+  /// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the
+  /// overlapped area.
+  static constexpr double kFlowOnset = 1.0 / 3.0;
+
   /// - @p cell_area dA [m^2]
   /// - @p flows whether the hardness limits what patches carry
   PatchForces(const ContactSettings& settings, double cell_area, bool flows);

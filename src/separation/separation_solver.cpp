@@ -68,7 +68,8 @@ const GapField& SeparationSolver::comeToRest(const ContactProblem& problem,
   curve_.appendLoading(solution.curve);
   solution.steps = static_cast<int>(curve_.loading().states.size());
   attracts_more_ = is_overloaded_ = false;
-  has_flowed_ = mayFlow(problem.settings.load) && flow(problem);
+  has_flowed_ = curve_.loading().status != Status::kNoEquilibrium &&
+                curve_.mayFlow(problem.settings.load) && flow(problem);
   const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
   const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height,
                                    problem.settings};
@@ -94,11 +95,6 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   if (!conforming_.holds()) return std::nullopt;
   return conforming_.unloading(curve_.byContacts(),
                                problem.settings.load.mechanical_load / curve_.frame().area());
-}
-
-bool SeparationSolver::mayFlow(const LoadOptions& load) const {
-  return load.presses() && curve_.loading().status != Status::kNoEquilibrium &&
-         curve_.largestFullness() > chosen::kMayFlow;
 }
 
 bool SeparationSolver::flow(const ContactProblem& problem) {

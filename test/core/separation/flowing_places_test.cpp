@@ -257,6 +257,25 @@ TEST(SeparationFlow, isDoubtedUnderMoreThanContactsOfTheCurveCarry) {
   const char* const kWords = "under a load that presses the surfaces together";
   EXPECT_TRUE(isDoubted(surface, flowing(47e9, 1.5e9, 500e6 * area), kWords));
   EXPECT_FALSE(isDoubted(surface, flowing(47e9, 1.5e9, 100e6 * area), kWords));
+  // more than all cells bear at the hardness
+  EXPECT_TRUE(isDoubted(surface, flowing(47e9, 1.5e9, 1.6e9 * area), kWords));
+}
+
+TEST(SeparationFlow, byAdhesionAloneIsThatUnderALoadOfNothing) {
+  const HeightMap surface = gaussianFrame(1.2e-9, 4);
+  const double area = surface.rows() * surface.cols() * surface.cellArea();
+  for (const double hardness : {0.25e9, 0.5e9}) {
+    const Options unpressed = flowing(100e9, hardness, 0.0);
+    const Prediction alone = AdhesionModel(unpressed).predict(surface);
+    ASSERT_GT(alone.plastic_count + alone.elasto_plastic_count, 0);
+    const Prediction pressed = AdhesionModel(flowing(100e9, hardness, 1.0 * area)).predict(surface);
+    EXPECT_NEAR(alone.pull_off_force, pressed.pull_off_force, 1e-3 * pressed.pull_off_force);
+    EXPECT_NEAR(alone.contact_area, pressed.contact_area, 1e-3 * pressed.contact_area);
+    const SolvedHalfSpace solved = halfSpaceOf(surface, unpressed, true);
+    ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+    EXPECT_LT(std::abs(std::log(alone.pull_off_force / solved.pull_off_force)), std::log(1.15));
+    EXPECT_LT(std::abs(std::log(alone.contact_area / solved.contact_area)), std::log(1.15));
+  }
 }
 
 TEST(SeparationFlow, isDoubtedWhereASmoothPartMayHoldALittleMore) {
