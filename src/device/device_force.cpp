@@ -176,26 +176,34 @@ struct PlaceExcess {
   double work = 0.0;
 };
 
+/// What raises the upper end beyond surfaces that are alike everywhere.
+struct UpperEnd {
+  PlaceExcess places;  ///< one of which may hold more
+  PlaceExcess scans;   ///< that contradict each other: the device may be as the one that holds most
+};
+
 /// What 95 % of the surfaces are within.
 /// - @p reach of ln figure to either side
-/// - @p excess of the upper end
-FactorRange surfaceRange(double reach, double excess) {
+FactorRange surfaceRange(double reach, double of_places, double of_scans) {
   FactorRange range = factorsWithin(reach);
-  if (excess > 0.0) range.highest = std::exp(std::hypot(reach, excess));
+  range.highest =
+      std::max({range.highest, std::exp(std::hypot(reach, of_places)), std::exp(reach + of_scans)});
   return range;
 }
 
 /// - @p like a prediction whose figures move with the constants as the device's do
 /// - @p student standard deviations of the surfaces to either side
 void takeIntervals(const Prediction& like, const Options& model,
-                   const UncertaintyOptions& constants, double student, const PlaceExcess& places,
+                   const UncertaintyOptions& constants, double student, const UpperEnd& upper,
                    DeviceForce& force) {
   const auto factors = [&](const Prediction& prediction) {
     AdhesionSpread spread = adhesionSpread(prediction, model, constants);
     return std::pair(factorsOf(std::move(spread.pull_off), constants.samples,
-                               surfaceRange(student * force.force_deviation, places.force)),
+                               surfaceRange(student * force.force_deviation, upper.places.force,
+                                            upper.scans.force)),
                      factorsOf(std::move(spread.apparent_work), constants.samples,
-                               surfaceRange(student * force.work_deviation, places.work)));
+                               surfaceRange(student * force.work_deviation, upper.places.work,
+                                            upper.scans.work)));
   };
   auto [of_force, of_work] = factors(like);
   takeFactors(std::move(of_force), std::move(of_work), force);
@@ -328,6 +336,18 @@ PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawC
   return largest;
 }
 
+/// Of scans that contradict each other, by their figures and those of scans that were made by the
+/// law of all.
+PlaceExcess scanThatHoldsMost(const LawCheck& scans, DeviceForce& force) {
+  const PlaceExcess excess = {scans.largestForceExcess(), scans.largestWorkExcess()};
+  if (excess.force > std::log(kToldMisfit)) {
+    force.warnings.push_back(
+        "scans contradict each other: if the device is as the one that holds most, it holds " +
+        shortNumber(std::exp(excess.force), 2) + " times as much, which the interval contains");
+  }
+  return excess;
+}
+
 /// The same surfaces seen from the other side: the upper one lies below.
 std::vector<HeightMap> turned(const std::vector<HeightMap>& surfaces) {
   std::vector<HeightMap> maps;
@@ -354,6 +374,7 @@ struct ModelRun {
   Logs others;                          ///< by what other scans of the same surfaces would give
   std::vector<double> counts;
   std::vector<double> gaps;
+  bool do_scans_contradict = false;
   std::optional<LawCheck> check;
   std::vector<PlaceCheck>
       places;  ///< of the lower surface, and of the upper one if that is no plane
@@ -454,15 +475,18 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
   force.work_deviation = scatter(run.stated.work, run.others.work);
   const double student = studentQuantile(realisations - 1);
   if (run.check) takeMisfit(*run.check, force);
-  PlaceExcess excess;
-  if (run.check) excess = placesThatHoldMost(run.places, *run.check, contacts, force);
+  UpperEnd upper;
+  if (run.check) {
+    upper.places = placesThatHoldMost(run.places, *run.check, contacts, force);
+    if (run.do_scans_contradict) upper.scans = scanThatHoldsMost(*run.check, force);
+  }
 
   UncertaintyOptions constants = uncertainty;
   constants.scan_sampling = uncertainty.scan_sampling && !run.check;  // few scans have few contacts
   Prediction like = run.predictions.back();
   like.pull_off_exponents = run.solver->lastForceExponents();
   like.work_exponents = run.solver->lastWorkExponents();
-  takeIntervals(like, run.level, constants, student, excess, force);
+  takeIntervals(like, run.level, constants, student, upper, force);
   force.made_surface = run.solver->madeSurface();
   for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);
 }
@@ -505,7 +529,8 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
   std::vector<std::string> warnings;
   if (!has_parts)
     warnings = missingLongWaves(surfaces, known.laws(0), std::sqrt(area.area / area.contacts));
-  for (const std::string& warning : contradictions(surfaces)) warnings.push_back(warning);
+  const std::vector<std::string> contradicting = contradictions(surfaces);
+  warnings.insert(warnings.end(), contradicting.begin(), contradicting.end());
 
   std::vector<DeviceAreaSolver*> solvers;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -513,6 +538,7 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
     showSpectrum(known.laws(0).lower, pieces.side(), run.force);
     run.force.is_cut_from_scans = has_parts;
     run.force.warnings = warnings;
+    run.do_scans_contradict = !contradicting.empty();
     Options of_plate = run.level;
     if (guidances[i] != Guidance::kGuided) {
       const std::string why_level = whyLevel(pieces);

@@ -309,6 +309,27 @@ TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {
   EXPECT_TRUE(isTold(force(areaOfPixels(300)), "other contradicts the other scans"));
 }
 
+TEST_F(DeviceForceTest, TheIntervalHoldsTheDeviceOfAScanThatContradictsTheOthers) {
+  const double area = areaOfPixels(kSide);
+  const DeviceForce alone = force(area);
+  surfaces_.scans.push_back(
+      {"other",
+       HeightMap(5.0 * part("", large_, 300, 300, 256).surface.heights(), kPitch, kPitch)});
+  const DeviceForce found = force(area);
+  EXPECT_GT(found.pull_off_force_upper, alone.pull_off_force);
+  EXPECT_TRUE(isTold(found, "as the one that holds most"));
+}
+
+TEST_F(DeviceForceTest, ALoadUnderWhichNothingFlowsChangesNothing) {
+  model_.lower.hardness = model_.upper.hardness = 60e9;
+  const double area = areaOfPixels(kSide);
+  const DeviceForce unpressed = force(area);
+  model_.load.pressure = 20e6;
+  model_.load.setMechanicalLoad(20e6 * areaOfPixels(256));
+  const DeviceForce pressed = force(area);
+  EXPECT_NEAR(pressed.pull_off_force, unpressed.pull_off_force, 0.02 * unpressed.pull_off_force);
+}
+
 /// Summits of domes are as round as all of them, those of a Gaussian field of their spectrum are
 /// sharp.
 TEST_F(DeviceForceTest, SummitsThatNoLawHasAreToldAndWidenTheInterval) {
