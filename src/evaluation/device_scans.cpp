@@ -1,6 +1,7 @@
 #include "evaluation/device_scans.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "device/device_evidence.hpp"
@@ -120,15 +121,19 @@ std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
   return found;
 }
 
+DeviceScans scansOfOne(const PreparedScan& prepared, const Configuration& configuration) {
+  DeviceScans scans(configuration);
+  scans.add("the scan", prepared);
+  return scans;
+}
+
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
                         const std::function<void(double)>& on_progress, DeviceForce* extra) {
   Evidence evidence;
   if (!wantsDeviceForce(configuration.device, configuration.device_force)) return evidence;
-  DeviceScans scans(configuration);
-  scans.add("the scan", prepared);
   DeviceForce force;
   try {
-    force = scans.force(on_progress);
+    force = scansOfOne(prepared, configuration).force(on_progress);
     evidence.device = deviceEvidence(force);
   } catch (const Error& error) {
     evidence.why_no_device = error.what();
@@ -138,14 +143,34 @@ Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& confi
   return evidence;
 }
 
-std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared,
-                                       const Configuration& configuration,
-                                       const std::function<void(double)>& on_progress) {
-  const Evidence evidence = evidenceOfScan(prepared, configuration, on_progress);
-  if (!evidence.device) return std::nullopt;
-  const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
-  const Prediction frame = AdhesionModel(options).predict(prepared.model_surfaces);
-  return DeviceScale{*evidence.device, frame.pull_off_force, frame.apparent_work_of_adhesion};
+std::vector<LoadedScale> scalesUnder(const std::vector<LoadOptions>& loads,
+                                     const DeviceScans& scans, const PreparedScan& prepared,
+                                     const Configuration& configuration,
+                                     const std::function<void(double)>& on_progress) {
+  if (!wantsDeviceForce(configuration.device, configuration.device_force)) return {};
+  std::vector<Options> models;
+  for (const LoadOptions& load : loads) {
+    models.push_back(configuration.model);
+    models.back().load = load;
+    models.back().load.mechanical_load = 0.0;  // the device's surfaces have another area
+    models.back().load.pressure = load.mechanical_load / nominalArea(prepared.surfaces);
+  }
+  std::vector<DeviceForce> forces;
+  try {
+    forces = scans.forces(models, on_progress);
+  } catch (const Error&) {
+    return {};
+  }
+  std::vector<LoadedScale> scales;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Options options = onFrame(models[i], configuration.device, prepared.surfaces);
+    const Prediction frame = AdhesionModel(options).predict(prepared.model_surfaces);
+    scales.push_back(
+        {std::abs(loads[i].voltage),
+         loads[i].mechanical_load,
+         {deviceEvidence(forces[i]), frame.pull_off_force, frame.apparent_work_of_adhesion}});
+  }
+  return scales;
 }
 
 }  // namespace mems_stiction

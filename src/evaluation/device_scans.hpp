@@ -77,10 +77,16 @@ Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& confi
                         const std::function<void(double)>& on_progress = {},
                         DeviceForce* extra = nullptr);
 
-/// The same beside the figures of the scan, for sweeps and cycles of it; nothing if it was not
-/// asked for or not found.
-std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared,
-                                       const Configuration& configuration,
-                                       const std::function<void(double)>& on_progress = {});
+/// Those of a device that one scan alone shows.
+DeviceScans scansOfOne(const PreparedScan& prepared, const Configuration& configuration);
+
+/// Beside the figures of a scan under several loads, for sweeps and cycles of it; none if the
+/// verdict does not ask for them or they were not found.
+/// - @p scans of the device
+/// - @p loads on the frame
+std::vector<LoadedScale> scalesUnder(const std::vector<LoadOptions>& loads,
+                                     const DeviceScans& scans, const PreparedScan& prepared,
+                                     const Configuration& configuration,
+                                     const std::function<void(double)>& on_progress = {});
 
 }  // namespace mems_stiction

@@ -28,11 +28,16 @@ Sweep sweep(const PreparedScan& prepared, const Configuration& configuration,
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
-    const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
+    const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
+    const LoadSweepRequest request{voltages, mechanical_loads};
+    std::vector<LoadedScale> scales;
+    if (request.validate(options).empty()) {
+      scales = scalesUnder(request.loadsOfDevice(options.load), scansOfOne(prepared, configuration),
+                           prepared, configuration, Cancellation(cancel));
+    }
     return std::make_shared<LoadSweepResult>(sweepLoads(
-        onFrame(configuration.model, configuration.device, prepared.surfaces),
-        prepared.model_surfaces, {voltages, mechanical_loads}, configuration.device,
-        configuration.uncertainty, control, scale, measuredScan(prepared, configuration.model)));
+        options, prepared.model_surfaces, request, configuration.device, configuration.uncertainty,
+        control, scales, measuredScan(prepared, configuration.model)));
   });
 }
 
@@ -40,11 +45,13 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
-    const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
+    const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
+    const std::vector<LoadedScale> scales =
+        scalesUnder({options.load}, scansOfOne(prepared, configuration), prepared, configuration,
+                    Cancellation(cancel));
     return std::make_shared<ContactCyclesResult>(cycleContacts(
-        onFrame(configuration.model, configuration.device, prepared.surfaces),
-        prepared.model_surfaces, count, configuration.device, configuration.uncertainty, control,
-        scale, measuredScan(prepared, configuration.model)));
+        options, prepared.model_surfaces, count, configuration.device, configuration.uncertainty,
+        control, scales, measuredScan(prepared, configuration.model)));
   });
 }
 

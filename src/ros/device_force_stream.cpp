@@ -35,13 +35,11 @@ Prediction withoutMaps(Prediction prediction) {
 }
 
 /// Of the settings that bear on a device's force.
-/// - @p with_load whether the load counts
-std::string forceHash(const Configuration& settings, bool with_load) {
+std::string forceHash(const Configuration& settings) {
   Configuration counted = settings;
   counted.device = DeviceOptions();
   counted.device.contact_area = settings.device.contact_area;
   counted.device.contacts = settings.device.contacts;
-  if (!with_load) counted.model.load = LoadOptions();
   return settingsHash(counted);
 }
 
@@ -121,7 +119,7 @@ bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other,
 void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
                                       const std::string& why) {
   if (!wantsDeviceForce(scan.settings->device, scan.settings->device_force)) return;
-  HalfSpaceOfScan taken{scan.scan, forceHash(*scan.settings, true), solution, why};
+  HalfSpaceOfScan taken{scan.scan, forceHash(*scan.settings), solution, why};
   for (cv::Mat* const map : {&taken.solution.pressure, &taken.solution.gap}) map->release();
   taken.solution.deformed_lower = taken.solution.deformed_upper = HeightMap();
   {
@@ -134,7 +132,7 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
     half_spaces_.push_front(std::move(taken));
     if (half_spaces_.size() > kMostHalfSpaces) half_spaces_.pop_back();
     const bool is_of_last =
-        last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings, true));
+        last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings));
     if (!is_of_last || !is_judged_ || !parts_.of(last_->part)) return;
     const auto is_newer = [this](const Task& waiting) { return waiting.part == last_->part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
@@ -216,20 +214,17 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   const Configuration& settings = *task.settings;
   const Options model = onFrame(settings.model, settings.device, task.newest.surfaces);
   const std::vector<std::uint64_t> numbers = part.numbers();
-  const std::string hash = forceHash(settings, true);
-  const std::string unloaded_hash = forceHash(settings, false);
-  const bool is_known =
-      found_ && found_->numbers == numbers && found_->unloaded_hash == unloaded_hash;
+  const std::string hash = forceHash(settings);
+  const bool is_known = found_ && found_->numbers == numbers && found_->hash == hash;
   if (!is_known) {
     const Clock::time_point begin = Clock::now();
-    DeviceForce force = make(task, part);
+    DeviceScans scans = part.together(settings);
+    DeviceForce force = make(scans);
     Found found{task.newest,
                 numbers,
-                unloaded_hash,
                 hash,
+                std::move(scans),
                 std::move(force),
-                task.prediction.pull_off_force,
-                task.prediction.apparent_work_of_adhesion,
                 std::chrono::duration<double>(Clock::now() - begin).count()};
     const std::lock_guard<std::mutex> lock(mutex_);
     found_ = std::move(found);
@@ -237,15 +232,6 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   DeviceForce force = found_->force;
   Evidence evidence;
   evidence.device = deviceEvidence(force);
-  if (found_->hash != hash) {
-    const DeviceScale scale{*evidence.device, found_->frame_pull_off_force, found_->frame_work};
-    evidence.device = scale.under(task.prediction);
-    const double by_force = evidence.device->pull_off_force / force.pull_off_force;
-    const double by_work =
-        evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
-    force = scaled(std::move(force), by_force, by_work);
-    force.separation_at_rest = DeviceForce::kUnknown;
-  }
   std::optional<HalfSpaceOfScan> half_space;
   SolvedHalfSpace unsolved;
   {
@@ -282,7 +268,7 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   return message;
 }
 
-DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
+DeviceForce DeviceForceStream::make(const DeviceScans& scans) {
   auto go_on = [this, give_way = pause_.waiter(stopping_)]() mutable {
     give_way();
     if (stopping_) throw Stopped();
@@ -293,7 +279,7 @@ DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
     share_ = 0.0;
   }
   const BesideWork beside(std::ref(go_on));
-  return part.together(*task.settings).force([&](double share) {
+  return scans.force([&](double share) {
     go_on();
     const std::lock_guard<std::mutex> lock(mutex_);
     share_ = share;
@@ -303,14 +289,13 @@ DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
 bool DeviceForceStream::isFoundWith(const StationCase& scan) const {
   return found_ &&
          found_->newest.surfaces.lower.heights().data == scan.scan.surfaces.lower.heights().data &&
-         found_->unloaded_hash == forceHash(*scan.settings, false);
+         found_->hash == forceHash(*scan.settings);
 }
 
-std::optional<DeviceScale> DeviceForceStream::scaleOf(const StationCase& scan) const {
+std::optional<DeviceScans> DeviceForceStream::scansOf(const StationCase& scan) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!isFoundWith(scan)) return std::nullopt;
-  return DeviceScale{deviceEvidence(found_->force), found_->frame_pull_off_force,
-                     found_->frame_work};
+  return found_->scans;
 }
 
 Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
@@ -318,7 +303,7 @@ Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
   if (!wantsDeviceForce(scan.settings->device, scan.settings->device_force)) return evidence;
   evidence.why_no_device = kDeviceOnTopic;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (isFoundWith(scan) && found_->hash == forceHash(*scan.settings, true)) {
+  if (isFoundWith(scan)) {
     evidence.device = deviceEvidence(found_->force);
   }
   return evidence;

@@ -8,8 +8,8 @@
 /// What is at hand is brought to its end, whatever comes: an answer belongs to the scan of its
 /// stamp and the settings of its prediction. Of each part its newest scan waits; those before are
 /// in its surfaces. A scan without a part waits until the next one comes. Where the same scans come
-/// again under other settings, as after ~set_load, the surfaces are not made again: their force
-/// follows that of the frame (DeviceScale), and the verdict is found anew.
+/// again with another spring, or a half-space of the newest one comes, the verdict is found anew by
+/// the force that is there.
 
 #include <atomic>
 #include <chrono>
@@ -26,6 +26,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 
+#include "evaluation/device_scans.hpp"
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/part_surfaces.hpp"
 #include "half_space/solution_pause.hpp"
@@ -68,9 +69,8 @@ class DeviceForceStream {
   void takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
                      const std::string& why);
 
-  /// The device's figures beside those of the frame, if they are known for just this scan, under
-  /// this load or another.
-  std::optional<DeviceScale> scaleOf(const StationCase& scan) const;
+  /// All scans of the device, if its force was found last, for just this scan.
+  std::optional<DeviceScans> scansOf(const StationCase& scan) const;
   /// The same as evidence for a verdict on the scan, under the load of the case alone.
   Evidence evidenceOf(const StationCase& scan) const;
 
@@ -95,12 +95,10 @@ class DeviceForceStream {
   struct Found {
     PreparedScan newest;                 ///< scan
     std::vector<std::uint64_t> numbers;  ///< of the surfaces of the scans
-    std::string unloaded_hash;  ///< of the settings that bear on the force, but for the load
-    std::string hash;           ///< of those with the load
+    std::string hash;                    ///< of the settings that bear on the force
+    DeviceScans scans;
     DeviceForce force;
-    double frame_pull_off_force = 0.0;  ///< of the newest scan under that load [N]
-    double frame_work = 0.0;            ///< [J/m^2]
-    double time = 0.0;                  ///< that it took [s]
+    double time = 0.0;  ///< that it took [s]
   };
   /// Since start.
   struct Counts {
@@ -129,7 +127,7 @@ class DeviceForceStream {
   bool isFoundWith(const StationCase& scan) const;
   /// What the part's surfaces say under the task's settings, and whether they had to be made.
   DeviceAdhesion find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict);
-  DeviceForce make(const Task& task, const ScannedPart& part);
+  DeviceForce make(const DeviceScans& scans);
 
   SolutionPause& pause_;
   ros::Publisher publisher_;

@@ -31,16 +31,17 @@ RunControl controlOf(LongRun<Action>& run) {
 /// The goal was cancelled.
 struct Cancelled {};
 
-/// What is known of the device, or found by the scan alone.
+/// Of the device, under several loads.
 /// @throw Cancelled
-std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& known,
-                                   const std::atomic<bool>& cancel) {
-  if (std::optional<DeviceScale> scale = known(scan)) return scale;
+std::vector<LoadedScale> scalesOf(const StationCase& scan, const std::vector<LoadOptions>& loads,
+                                  const KnownDevice& known, const std::atomic<bool>& cancel) {
   const auto go_on = [&cancel] {
     if (cancel) throw Cancelled();
   };
   const BesideWork beside(go_on);
-  return scaleOfScan(scan.scan, *scan.settings, [&](double) { go_on(); });
+  const std::optional<DeviceScans> scans = known(scan);
+  return scalesUnder(loads, scans ? *scans : scansOfOne(scan.scan, *scan.settings), scan.scan,
+                     *scan.settings, [&](double) { go_on(); });
 }
 
 }  // namespace
@@ -75,16 +76,18 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   request.mechanical_loads = goal.mechanical_loads;
   const Options model = onFrame(settings.model, settings.device, station_case.scan.surfaces);
   if (request.mechanical_loads.empty()) request.mechanical_loads = {model.load.mechanical_load};
-  std::optional<DeviceScale> scale;
+  std::vector<LoadedScale> scales;
   try {  // a request that is refused is refused at once
-    if (request.validate(model).empty())
-      scale = scaleOf(station_case, known_device_, sweep_.cancel());
+    if (request.validate(model).empty()) {
+      scales =
+          scalesOf(station_case, request.loadsOfDevice(model.load), known_device_, sweep_.cancel());
+    }
   } catch (const Cancelled&) {
     return false;
   }
   const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request,
                                            settings.device, settings.uncertainty, controlOf(sweep_),
-                                           scale, measuredScan(station_case.scan, settings.model));
+                                           scales, measuredScan(station_case.scan, settings.model));
   result = sweepMessage(swept);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);
@@ -97,18 +100,19 @@ bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& res
   const StationCase station_case = find_case_(goal.height, goal.scan_info);
   result.header = station_case.header;
   const Configuration& settings = *station_case.settings;
-  std::optional<DeviceScale> scale;
+  const Options model = onFrame(settings.model, settings.device, station_case.scan.surfaces);
+  std::vector<LoadedScale> scales;
   try {
-    if (goal.count > 0) scale = scaleOf(station_case, known_device_, cycle_.cancel());
+    if (goal.count > 0)
+      scales = scalesOf(station_case, {model.load}, known_device_, cycle_.cancel());
   } catch (const Cancelled&) {
     return false;
   }
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
-  const ContactCyclesResult cycled =
-      cycleContacts(onFrame(settings.model, settings.device, station_case.scan.surfaces),
-                    station_case.scan.model_surfaces, static_cast<int>(std::min(goal.count, kMost)),
-                    settings.device, settings.uncertainty, controlOf(cycle_), scale,
-                    measuredScan(station_case.scan, settings.model));
+  const ContactCyclesResult cycled = cycleContacts(
+      model, station_case.scan.model_surfaces, static_cast<int>(std::min(goal.count, kMost)),
+      settings.device, settings.uncertainty, controlOf(cycle_), scales,
+      measuredScan(station_case.scan, settings.model));
   result = cyclesMessage(cycled);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);

@@ -9,6 +9,7 @@
 
 #include <ros/node_handle.h>
 
+#include "evaluation/device_scans.hpp"
 #include "mems_stiction/CycleContactAction.h"
 #include "mems_stiction/SweepLoadAction.h"
 #include "ros/live_predictor.hpp"
@@ -20,10 +21,11 @@ namespace mems_stiction {
 /// client's answer.
 using FindCase = std::function<StationCase(const sensor_msgs::Image& height, const ScanInfo& info)>;
 
-/// The device's figures beside those of the scan, if they are known.
-using KnownDevice = std::function<std::optional<DeviceScale>(const StationCase& scan)>;
+/// All scans of the device that a scan is of, if its force was found.
+using KnownDevice = std::function<std::optional<DeviceScans>(const StationCase& scan)>;
 
-/// Both action servers. A run whose device is not known finds it first, by its scan alone.
+/// Both action servers. The device's own force is found before a run, by the scan alone where no
+/// other is known.
 class StationActions {
  public:
   StationActions(const ros::NodeHandle& private_handle, double max_goal_size, FindCase find_case,

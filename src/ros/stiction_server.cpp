@@ -111,7 +111,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           service_handle_, options_.max_message_size,
           [this](const auto& height, const auto& info) { return findCase(height, info); },
           [this](const auto& scan) {
-            return device_force_ ? device_force_->scaleOf(scan) : std::nullopt;
+            return device_force_ ? device_force_->scansOf(scan) : std::nullopt;
           }),
       half_space_calls_(
           service_handle_, configuration.core.half_space, options_.max_message_size,

@@ -37,7 +37,7 @@ cv::Mat heightsOn(const HeightMap& grid, const HeightMap& surface) {
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device,
                                   const UncertaintyOptions& uncertainty, const RunControl& control,
-                                  const std::optional<DeviceScale>& scale,
+                                  const std::vector<LoadedScale>& scales,
                                   const std::optional<MeasuredScan>& scan) {
   if (count < 1) {
     throw OptionsError(
@@ -58,7 +58,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     measured.flag(prediction);
     requireDeformedSurfaces(prediction);
     Evidence evidence;
-    if (scale) evidence.device = scale->under(prediction);
+    if (!scales.empty()) evidence.device = scales.front().scale.under(prediction);
     const Verdict verdict =
         verdictOf(prediction, device, uncertainty, options, measured.cell_area, evidence);
 

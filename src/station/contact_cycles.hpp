@@ -61,13 +61,15 @@ struct ContactCyclesResult {
 };
 
 /// - @p count of contacts, >= 1
+/// - @p scales the device's own figures beside those of this frame, the first of them; without them
+/// the verdicts have the frame's
 /// - @p scan behind the surfaces; nothing: they are on the pixels that were measured
 /// @throw OptionsError for a count or options out of range, before any work; SurfaceError as
 /// AdhesionModel.
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device,
                                   const UncertaintyOptions& uncertainty, const RunControl& control,
-                                  const std::optional<DeviceScale>& scale = std::nullopt,
+                                  const std::vector<LoadedScale>& scales = {},
                                   const std::optional<MeasuredScan>& scan = std::nullopt);
 
 }  // namespace mems_stiction

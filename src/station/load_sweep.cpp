@@ -13,6 +13,18 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kMostStates = 1e6;  // each is a prediction: days
+/// Under so many loads a device's own force is found at most, and under so many presses of them.
+constexpr std::size_t kMostOfDevice = 16;
+constexpr std::size_t kMostPresses = 4;
+
+/// Of an ascending list so many, evenly, with the first and the last.
+std::vector<double> fewOf(const std::vector<double>& values, std::size_t most) {
+  if (values.size() <= most) return values;
+  std::vector<double> few;
+  for (std::size_t i = 0; i < most; ++i)
+    few.push_back(values[i * (values.size() - 1) / (most - 1)]);
+  return few;
+}
 
 /// The first violation of its kind, and how many more there are: a list may have a million of them.
 void addFirst(const std::string& first, std::size_t count, std::vector<std::string>& violations) {
@@ -76,12 +88,12 @@ double holdingMarginOfBeam(const DeviceOptions& device, const InterfaceOptions& 
 class Loop {
  public:
   Loop(const Options& options, const SurfacePair& surfaces, const DeviceOptions& device,
-       const UncertaintyOptions& uncertainty, const std::optional<DeviceScale>& scale,
+       const UncertaintyOptions& uncertainty, const std::vector<LoadedScale>& scales,
        const MeasuredScan& scan, double pull_in)
       : options_(options),
         device_(device),
         uncertainty_(uncertainty),
-        scale_(scale),
+        scales_(scales),
         contact_(options, surfaces, scan),
         cell_area_(scan.cell_area),
         pull_in_(pull_in) {}
@@ -120,11 +132,20 @@ class Loop {
                                                                       : Lands::kUnknown;
   }
 
+  /// The least that presses no less; the last one where there is none.
+  const LoadedScale* scaleAt(const LoadSweepRow& row) const {
+    const auto found = std::find_if(scales_.begin(), scales_.end(), [&](const LoadedScale& beside) {
+      return beside.voltage >= row.voltage && beside.mechanical_load >= row.mechanical_load;
+    });
+    if (found != scales_.end()) return &*found;
+    return scales_.empty() ? nullptr : &scales_.back();
+  }
+
   void fill(const RemainingState& state, LoadSweepRow& row) {
     const Prediction& contact = contact_.contact();
     if (state.is_searched) {
       Evidence evidence;
-      if (scale_) evidence.device = scale_->under(contact);
+      if (const LoadedScale* beside = scaleAt(row)) evidence.device = beside->scale.under(contact);
       verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_, evidence);
       pull_off_interval_ = pullOffInterval(contact, options_, uncertainty_);
     }
@@ -167,7 +188,7 @@ class Loop {
   const Options& options_;
   const DeviceOptions& device_;
   const UncertaintyOptions& uncertainty_;
-  const std::optional<DeviceScale>& scale_;
+  const std::vector<LoadedScale>& scales_;
   RemainingContact contact_;
   double cell_area_;
   double pull_in_;  ///< [V]; NaN: not known
@@ -230,10 +251,25 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   return largest.validate();
 }
 
+std::vector<LoadOptions> LoadSweepRequest::loadsOfDevice(const LoadOptions& base) const {
+  const std::vector<double> presses = fewOf(mechanical_loads, kMostPresses);
+  const std::vector<double> fields =
+      fewOf(voltages, kMostOfDevice / std::max<std::size_t>(presses.size(), 1));
+  std::vector<LoadOptions> loads;
+  for (const double press : presses) {
+    for (const double field : fields) {
+      loads.push_back(base);
+      loads.back().voltage = field;
+      loads.back().setMechanicalLoad(press);
+    }
+  }
+  return loads;
+}
+
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
                            const LoadSweepRequest& request, const DeviceOptions& device,
                            const UncertaintyOptions& uncertainty, const RunControl& control,
-                           const std::optional<DeviceScale>& scale,
+                           const std::vector<LoadedScale>& scales,
                            const std::optional<MeasuredScan>& scan) {
   std::vector<std::string> violations = request.validate(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
@@ -247,7 +283,7 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
       closingVoltage(device, options.interface, options.load.contact_potential);
   if (std::isnan(result.pull_in_voltage)) result.pull_in_reason = whatPullInLacks(device);
   for (const double mechanical_load : request.mechanical_loads) {
-    Loop loop(options, surfaces, device, uncertainty, scale, measured, result.pull_in_voltage);
+    Loop loop(options, surfaces, device, uncertainty, scales, measured, result.pull_in_voltage);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
       const auto up_count = static_cast<int>(voltages.size());

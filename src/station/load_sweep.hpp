@@ -63,6 +63,11 @@ struct LoadSweepRequest {
   /// One line per violated constraint, those of the model's load settings included; empty when all
   /// is well.
   std::vector<std::string> validate(const Options& options) const;
+
+  /// Loads under which the device's own force is found: all pairs if they are few, else some of
+  /// them, with the largest of both.
+  /// - @p base what else there is of a load
+  std::vector<LoadOptions> loadsOfDevice(const LoadOptions& base) const;
 };
 
 enum class SweepDirection : std::uint8_t { kUp = 0, kDown = 1 };
@@ -141,15 +146,15 @@ struct LoadSweepResult {
   bool is_complete = false;    ///< false: cancelled
 };
 
-/// - @p scale the device's own figures beside those of this frame; without it the verdicts have the
-/// frame's
+/// - @p scales the device's own figures beside those of this frame; a row takes those of the least
+/// load that is no less than its own. Without them the verdicts have the frame's
 /// - @p scan behind the surfaces; nothing: they are on the pixels that were measured
 /// @throw OptionsError for a request or options out of range, before any work; SurfaceError as
 /// AdhesionModel.
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
                            const LoadSweepRequest& request, const DeviceOptions& device,
                            const UncertaintyOptions& uncertainty, const RunControl& control,
-                           const std::optional<DeviceScale>& scale = std::nullopt,
+                           const std::vector<LoadedScale>& scales = {},
                            const std::optional<MeasuredScan>& scan = std::nullopt);
 
 }  // namespace mems_stiction

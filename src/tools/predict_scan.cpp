@@ -304,9 +304,16 @@ void predictScan(const std::string& path, const Arguments& arguments,
             sweepRequest(arguments.sweep, configuration.model)) {
       if (request->mechanical_loads.empty())
         request->mechanical_loads = {options.load.mechanical_load};
+      std::vector<LoadedScale> scales;
+      if (scale && request->validate(options).empty()) {
+        scales = whileSayingShare(path + ": loading the device", [&](const auto& tell) {
+          return scalesUnder(request->loadsOfDevice(options.load),
+                             scansOfOne(prepared, configuration), prepared, configuration, tell);
+        });
+      }
       extras.sweep = whileSaying(path + ": sweeping the load", [&] {
         return sweepLoads(options, prepared.model_surfaces, *request, configuration.device,
-                          configuration.uncertainty, RunControl(), scale,
+                          configuration.uncertainty, RunControl(), scales,
                           measuredScan(prepared, options));
       });
     }

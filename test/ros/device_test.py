@@ -303,18 +303,18 @@ class DeviceTest(unittest.TestCase):
             lines[3].rstrip("\n"), device_line("1 scan", device)
         )  # not that of the scan before, which is latched
 
-    def test_4_under_other_settings_it_is_judged_again(self):
+    def test_4_under_another_load_it_is_found_and_else_judged_again(self):
         prediction, device = self.send(surface(4), ("lot 4", ""))
         made = int(self.newest_counts()["found"])
 
-        def judged_again(change):
+        def answered(status, change):
             devices, parts = len(self.devices.messages), len(self.parts.messages)
             answer = change()
             again = self.devices.wait(devices + 1)[devices]
             part = self.parts.wait(parts + 1)[parts]
             self.assertEqual(
                 (again.status, again.scan_count, again.header.stamp),
-                (DeviceAdhesion.JUDGED_AGAIN, 1, prediction.header.stamp),
+                (status, 1, prediction.header.stamp),
             )
             self.assertEqual(
                 (part.settings_hash, part.margin, part.sticks),
@@ -323,36 +323,36 @@ class DeviceTest(unittest.TestCase):
             self.assert_judged(again)
             return again, answer
 
-        loaded, answer = judged_again(lambda: self.set_load(5e-5))
+        loaded, answer = answered(DeviceAdhesion.FOUND, lambda: self.set_load(5e-5))
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.prediction.header.stamp, prediction.header.stamp)
         self.assertEqual(
             (loaded.mechanical_load, loaded.settings_hash), (5e-5, answer.prediction.settings_hash)
         )
         self.assertNotEqual(loaded.settings_hash, device.settings_hash)
-        # a frame whose summits have flowed holds more strongly, and the device as much more
+        # summits that have flowed hold more strongly
         self.assertGreater(answer.prediction.pull_off_force, 1.05 * prediction.pull_off_force)
-        self.assertAlmostEqual(
-            loaded.pull_off_force / device.pull_off_force,
-            answer.prediction.pull_off_force / prediction.pull_off_force,
-            places=12,
-        )
-        back, _ = judged_again(lambda: self.set_load(1e-6))
+        self.assertGreater(loaded.pull_off_force, device.pull_off_force)
+        back, _ = answered(DeviceAdhesion.FOUND, lambda: self.set_load(1e-6))
         self.assertEqual(
             (back.pull_off_force, back.margin, back.settings_hash),
             (device.pull_off_force, device.margin, device.settings_hash),
         )
-        stronger, _ = judged_again(
-            lambda: self.settings.update_configuration({"spring_stiffness": 20.0})
+        stronger, _ = answered(
+            DeviceAdhesion.JUDGED_AGAIN,
+            lambda: self.settings.update_configuration({"spring_stiffness": 20.0}),
         )
         self.assertEqual(
             (stronger.pull_off_force, stronger.restoring_force),
             (device.pull_off_force, 2.0 * device.restoring_force),
         )
         self.assertEqual(stronger.margin, 2.0 * device.margin)
-        judged_again(lambda: self.settings.update_configuration({"spring_stiffness": 10.0}))
+        answered(
+            DeviceAdhesion.JUDGED_AGAIN,
+            lambda: self.settings.update_configuration({"spring_stiffness": 10.0}),
+        )
         shown = self.newest_counts()
-        self.assertEqual((int(shown["found"]), int(shown["judged_again"])), (made, 4))
+        self.assertEqual((int(shown["found"]), int(shown["judged_again"])), (made + 2, 2))
 
     def test_5_a_scan_without_a_force_is_said_and_the_next_one_has_one(self):
         refused = self.send(rough_surface(5, rows=4, cols=4))[1]

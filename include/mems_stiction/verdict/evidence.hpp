@@ -80,6 +80,13 @@ struct DeviceScale {
   DeviceEvidence under(const Prediction& contact) const;
 };
 
+/// Beside one of several loads.
+struct LoadedScale {
+  double voltage = 0.0;          ///< size of it [V]
+  double mechanical_load = 0.0;  ///< on the frame [N]
+  DeviceScale scale;
+};
+
 /// Whether figures can be multiplied with it: a number > 0.
 bool isScale(double factor);
 

@@ -112,7 +112,7 @@ TEST(CoarseScan, isNoFinerByInterpolation) {
 Sticks sweptWord(const PreparedScan& prepared, const Configuration& configuration,
                  const std::optional<MeasuredScan>& scan) {
   return sweepLoads(configuration.model, prepared.model_surfaces, {{0.0}, {0.0}},
-                    configuration.device, configuration.uncertainty, {}, std::nullopt, scan)
+                    configuration.device, configuration.uncertainty, {}, {}, scan)
       .rows.front()
       .sticks;
 }
@@ -120,7 +120,7 @@ Sticks sweptWord(const PreparedScan& prepared, const Configuration& configuratio
 Sticks cycledWord(const PreparedScan& prepared, const Configuration& configuration,
                   const std::optional<MeasuredScan>& scan) {
   return cycleContacts(configuration.model, prepared.model_surfaces, 1, configuration.device,
-                       configuration.uncertainty, {}, std::nullopt, scan)
+                       configuration.uncertainty, {}, {}, scan)
       .cycles.front()
       .sticks;
 }

@@ -34,12 +34,12 @@ TEST(ScanFlags, contactsAtTheBorderOfTheRegionAreThoseOfSweepsAndCycles) {
   ASSERT_EQ(verdict.sticks, Sticks::kUnknown) << verdict.reason;
   const MeasuredScan measured = measuredScan(prepared, configuration.model);
   EXPECT_EQ(sweepLoads(configuration.model, prepared.model_surfaces, {{0.0}, {0.0}},
-                       configuration.device, configuration.uncertainty, {}, std::nullopt, measured)
+                       configuration.device, configuration.uncertainty, {}, {}, measured)
                 .rows.front()
                 .sticks,
             Sticks::kUnknown);
   EXPECT_EQ(cycleContacts(configuration.model, prepared.model_surfaces, 1, configuration.device,
-                          configuration.uncertainty, {}, std::nullopt, measured)
+                          configuration.uncertainty, {}, {}, measured)
                 .cycles.front()
                 .sticks,
             Sticks::kUnknown);

@@ -121,7 +121,8 @@ TEST(ContactCycles, aLargerDeviceFollowsItsFrame) {
   scale.frame_pull_off_force = cycled(options, scan, 1).cycles[0].pull_off_force;
   scale.device.pull_off_force = 5.0 * scale.frame_pull_off_force;
   scale.device.force_factors = {0.7, 1.0, 1.5};
-  const ContactCyclesResult result = cycleContacts(options, scan, 2, device, {}, {}, scale);
+  const ContactCyclesResult result =
+      cycleContacts(options, scan, 2, device, {}, {}, {{0.0, 0.0, scale}});
   ASSERT_NE(result.cycles[1].pull_off_force, result.cycles[0].pull_off_force);
   for (const ContactCycle& cycle : result.cycles) {
     EXPECT_NEAR(cycle.margin * 5.0 * cycle.pull_off_force / 1e-5, 1.0, 1e-12);

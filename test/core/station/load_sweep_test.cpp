@@ -157,6 +157,42 @@ TEST(LoadSweep, contactFractionIsThatOfThePredictionToTheBit) {
   }
 }
 
+TEST(LoadSweep, findsTheDeviceUnderAllLoadsOrSomeWithTheLargest) {
+  LoadOptions base;
+  base.contact_potential = 0.3;
+  const std::vector<LoadOptions> all = upTo(40.0, 3, {0.0, 1e-6}).loadsOfDevice(base);
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(all[1].voltage, 20.0);
+  EXPECT_EQ(all[1].mechanical_load, 0.0);
+  EXPECT_EQ(all[5].mechanical_load, 1e-6);
+  EXPECT_EQ(all[5].contact_potential, 0.3);
+  const std::vector<LoadOptions> some = upTo(40.0, 1001, {0.0, 1e-6}).loadsOfDevice(base);
+  EXPECT_LE(some.size(), 16u);
+  EXPECT_EQ(some.front().voltage, 0.0);
+  EXPECT_EQ(some.back().voltage, 40.0);
+}
+
+TEST(LoadSweep, aRowHasTheDeviceOfTheLeastLoadThatIsNoLess) {
+  const HeightMap scan = rough();
+  const DeviceOptions device = deviceFor(scan, 1e-5);
+  std::vector<LoadedScale> scales;
+  for (const double voltage : {0.0, 10.0, 20.0}) {
+    LoadedScale beside;
+    beside.voltage = voltage;
+    beside.scale.device.pull_off_force = 1e-6 * (1.0 + voltage);
+    beside.scale.device.force_factors = {0.7, 1.0, 1.5};
+    Options options = insulated();
+    options.load.voltage = voltage;
+    beside.scale.frame_pull_off_force = AdhesionModel(options).predict(scan).pull_off_force;
+    scales.push_back(beside);
+  }
+  const LoadSweepResult swept =
+      sweepLoads(insulated(), scan, upTo(20.0, 3), device, {}, {}, scales);
+  ASSERT_EQ(swept.rows.size(), 5u);
+  EXPECT_NEAR(swept.rows[0].margin / swept.rows[1].margin, 11.0, 1e-6);
+  EXPECT_NEAR(swept.rows[0].margin / swept.rows[2].margin, 21.0, 1e-6);
+}
+
 TEST(LoadSweep, showsHysteresisOnARoughSurface) {
   const LoadSweepResult result =
       sweepLoads(insulated(), rough(), upTo(40.0, 5, {0.0, 1e-6}), DeviceOptions(), {}, {});
@@ -312,7 +348,8 @@ TEST(LoadSweep, aLargerDeviceFollowsItsFrame) {
   scale.frame_pull_off_force = unknown.rows[0].pull_off_force;
   scale.device.pull_off_force = 5.0 * scale.frame_pull_off_force;
   scale.device.force_factors = {0.7, 1.0, 1.5};
-  const LoadSweepResult result = sweepLoads(paperOptions(), scan, request, device, {}, {}, scale);
+  const LoadSweepResult result =
+      sweepLoads(paperOptions(), scan, request, device, {}, {}, {{0.0, 0.0, scale}});
   ASSERT_GT(result.rows.back().pull_off_force, 1.5 * result.rows[0].pull_off_force);
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const LoadSweepRow& row = result.rows[i];

@@ -291,8 +291,9 @@ TEST_F(PredictScan, WhatAScanDoesNotShowStandsOnceWhereTheVerdictGivesItAsItsRea
 }
 
 TEST_F(PredictScan, WithoutOptionsItSaysWhatPeopleAskFor) {
-  const std::string device =
-      folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
+  const std::string device = folder_.write(
+      "d.yaml",
+      kDevice + std::string("device_force: {enabled: false}\nhalf_space: {enabled: false}\n"));
   const std::string call = "-c " + device + " --load 1 --pitch 20e-9 " + sphere();
   const Outcome outcome = run(call);
   ASSERT_EQ(outcome.status, 0);
