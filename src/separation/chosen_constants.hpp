@@ -55,7 +55,10 @@ constexpr double kJoinedShare = 0.2;
 
 // ---------------------------------------------------------------- what the curve doubts
 
-/// A force that may be out by more than this is doubted (ModelStatement::doubt).
+/// A force that may be out by more than this is doubted (ModelStatement::doubt). Flat tops of
+/// nearly one height are where they hold so many times more together, (S9c), than the curve's force
+/// and than one by one, (S9d): of 541 frames of posts without another doubt 133, of which 119 are
+/// out, and five of 2,632 other frames. Of the posts 210 are out without it, 91 with it.
 constexpr double kDoubtedFactor = 1.3;
 
 /// Contacts are doubted where their width, in a0, and the excess over 1 of the force's exponent

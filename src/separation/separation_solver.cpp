@@ -14,6 +14,7 @@
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
+#include "separation/flat_tops.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -178,7 +179,16 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
                     least * solution.pull_off_force) > 0.0) {
     solution.model.doubt =
         "places smoother than the rest close by themselves, and hold more than the contacts";
+  } else if (holdTogether(solution.pull_off_force)) {
+    solution.model.doubt =
+        "flat tops of nearly one height hold together, with more force than one by one";
   }
+}
+
+bool SeparationSolver::holdTogether(double force) {
+  const FlatTops tops(curve_.frame(), curve_.rest().approach);
+  const double pull = tops.pullTogether() / chosen::kDoubtedFactor;
+  return pull > force && pull > tops.pullOneByOne();
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {

@@ -65,6 +65,8 @@ class SeparationSolver : public ContactSolver {
   void takeUnloading(const Unloading& unloading, ContactSolution& solution) const;
   /// The doubt of surfaces whose texture changes from place to place, where there is no other.
   void doubtPlaces(const GapField& field, ContactSolution& solution);
+  /// Whether contacts with flat tops hold more than this together [N], and than one by one.
+  bool holdTogether(double force);
   /// The doubt of contacts that have flowed, where there is no other.
   void doubtFlow(ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
