@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
@@ -10,6 +11,7 @@ from mems_stiction.design_axes import OF_THE_SPRING, Axis
 from mems_stiction.quantities import area, ratio, with_unit
 
 DIGITS = 3
+UNKNOWN = "unknown"  # of a row's words: no verdict
 LARGEST = 1e300  # stands for an infinite margin
 
 
@@ -20,6 +22,21 @@ class Crossing(NamedTuple):
     rises: bool
     below: float  # neighbours on the axis
     above: float
+
+
+class Stretch(NamedTuple):
+    """Of values on an axis for which something holds."""
+
+    first: float
+    last: float
+    start: Optional[Crossing]  # where it begins before the first; None: with it
+    end: Optional[Crossing]
+
+    def text(self, unit: str) -> str:
+        return _between(
+            safe_text(self.start, unit) if self.start else text_of(self.first, unit),
+            safe_text(self.end, unit) if self.end else text_of(self.last, unit),
+        )
 
 
 def text_of(value: float, unit: str) -> str:
@@ -64,6 +81,24 @@ def told_once(texts: Sequence[str]) -> List[str]:
     ]
 
 
+def _between(first: str, last: str) -> str:
+    return "at " + first if first == last else "from %s to %s" % (first, last)
+
+
+def _listed(texts: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
+
+
+def _runs(holds: Sequence[bool]) -> List[Tuple[int, int]]:
+    """First and last place of each run of places where it holds."""
+    runs = []
+    for is_run, places in itertools.groupby(range(len(holds)), lambda place: holds[place]):
+        if is_run:
+            run = list(places)
+            runs.append((run[0], run[-1]))
+    return runs
+
+
 def sought_first(axes: List[Axis]) -> List[Axis]:
     """The axis whose limit is sought comes first: the spring's, where there is one."""
     return sorted(axes, key=lambda axis: axis.name not in OF_THE_SPRING)
@@ -100,23 +135,56 @@ def _surely(row: Dict[str, Any]) -> float:
 def _sentence(axis: Axis, rows: List[Dict[str, Any]]) -> str:
     rows = sorted(rows, key=lambda row: row[axis.name])
     lowest = [_surely(row) for row in rows]
-    return _limit(axis, rows, lowest) + _doubt(axis, rows)
-
-
-def _limit(axis: Axis, rows: List[Dict[str, Any]], lowest: List[float]) -> str:
     ends = "%s to %s" % (text_of(axis.values[0], axis.unit), text_of(axis.values[-1], axis.unit))
-    if all(math.isnan(value) for value in lowest):
-        return "no margin is known for any %s of %s" % (axis.word, ends)
+    unknown = [row["sticks"] == UNKNOWN for row in rows]
+    why = _reasons([row["doubt"] for row in rows if row["sticks"] == UNKNOWN])
+    if all(unknown):
+        what = "margin" if all(math.isnan(value) for value in lowest) else "verdict"
+        return "no %s is known for any %s of %s%s" % (what, axis.word, ends, why)
+    text = _limit(axis, rows, lowest, ends)
+    if not any(unknown):
+        return text
+    places = [
+        place
+        for first, last in _runs(unknown)
+        for place in (
+            [_between(*(text_of(axis.values[end], axis.unit) for end in (first, last)))]
+            if last > first + 1
+            else ["at " + text_of(value, axis.unit) for value in axis.values[first : last + 1]]
+        )
+    ]
+    return "%s; the verdict is unknown %s%s" % (text, _listed(places), why)
+
+
+def _reasons(doubts: Sequence[str]) -> str:
+    """Behind what is unknown, each once; what to do about them is in the rows."""
+    reasons = told_once([doubt.partition(": ")[0] for doubt in doubts if doubt])
+    return ": " + "; ".join(reasons) if reasons else ""
+
+
+def _limit(axis: Axis, rows: List[Dict[str, Any]], lowest: List[float], ends: str) -> str:
     if any(math.isnan(value) for value in lowest):
         return "no margin is known for some %s of %s, and no limit can be told" % (axis.word, ends)
     if not any(value > 1.0 for value in lowest):
-        return _none(axis, ends, lowest)
-    if all(value > 1.0 for value in lowest):
+        return _none(axis, ends, rows, lowest)
+    words = [row["sticks"] for row in rows]
+    sure = _stretches(axis, words, lowest, [word == "no" for word in words])
+    if not sure:
+        above = _stretches(axis, words, lowest, [value > 1.0 for value in lowest])
+        return "no %s of %s releases surely, though the lower end of the margin is above 1 %s" % (
+            axis.word,
+            ends,
+            _listed([stretch.text(axis.unit) for stretch in above]),
+        )
+    is_first, is_last = sure[0].first == axis.values[0], sure[0].last == axis.values[-1]
+    if is_first and is_last:
         return "every %s of %s releases surely" % (axis.word, ends)
-    sure = crossings(axis.values, lowest)
-    if len(sure) > 1:
-        return "%s releases surely %s" % (axis.word, " and ".join(_stretches(axis, lowest, sure)))
-    limit = sure[0]
+    limit = sure[0].start if is_last else sure[0].end if is_first else None
+    if len(sure) > 1 or limit is None:
+        return "%s releases surely %s" % (
+            axis.word,
+            _listed([stretch.text(axis.unit) for stretch in sure]),
+        )
     text = "%s %s that releases surely: %s" % (
         "smallest" if limit.rises else "largest",
         axis.word,
@@ -134,7 +202,7 @@ def _limit(axis: Axis, rows: List[Dict[str, Any]], lowest: List[float]) -> str:
     return text + (" (%s)" % "; ".join(notes) if notes else "")
 
 
-def _none(axis: Axis, ends: str, lowest: List[float]) -> str:
+def _none(axis: Axis, ends: str, rows: List[Dict[str, Any]], lowest: List[float]) -> str:
     place = max(range(len(lowest)), key=lambda index: lowest[index])
     text = "no %s of %s releases surely: the lower end of the margin is at most %s, at %s" % (
         axis.word,
@@ -142,9 +210,13 @@ def _none(axis: Axis, ends: str, lowest: List[float]) -> str:
         ratio(lowest[place]),
         text_of(axis.values[place], axis.unit),
     )
-    if axis.name in OF_THE_SPRING and lowest[-1] > 0:
+    if axis.name in OF_THE_SPRING and rows[-1]["sticks"] != UNKNOWN and lowest[-1] > 0:
         wanted = Crossing(axis.values[-1] / lowest[-1], True, 0.0, math.inf)
-        text += "; the margin goes in proportion, so %s would" % safe_text(wanted, axis.unit)
+        doubt = rows[-1]["doubt"]
+        text += "; the margin goes in proportion, " + (
+            "but from %s on the verdict would be unknown" if doubt else "so %s would"
+        ) % safe_text(wanted, axis.unit)
+        text += _reasons([doubt])
     return text
 
 
@@ -161,26 +233,21 @@ def safe_text(crossing: Crossing, unit: str) -> str:
     return text_of(steps * step, unit)
 
 
-def _stretches(axis: Axis, lowest: List[float], sure: List[Crossing]) -> List[str]:
-    texts, start = [], "from %s" % text_of(axis.values[0], axis.unit) if lowest[0] > 1.0 else ""
-    for crossing in sure:
-        if crossing.rises:
-            start = "from %s" % safe_text(crossing, axis.unit)
-        else:
-            texts.append("%s to %s" % (start, safe_text(crossing, axis.unit)))
-            start = ""
-    return texts + (["%s to %s" % (start, text_of(axis.values[-1], axis.unit))] if start else [])
-
-
-def _doubt(axis: Axis, rows: List[Dict[str, Any]]) -> str:
-    """What stands against a verdict where the margin alone would say "no"; what to do about it is
-    in the rows."""
-    doubted: Optional[Dict[str, Any]] = next(
-        (row for row in rows if row["doubt"] and _surely(row) > 1.0), None
-    )
-    if doubted is None:
-        return ""
-    return "; but at %s the verdict stays unknown: %s" % (
-        text_of(doubted[axis.name], axis.unit),
-        doubted["doubt"].partition(": ")[0],
-    )
+def _stretches(
+    axis: Axis, words: Sequence[str], lowest: Sequence[float], holds: Sequence[bool]
+) -> List[Stretch]:
+    """Between values where it holds, to where the margin is 1; not towards an unknown verdict."""
+    limits = {limit.below: limit for limit in crossings(axis.values, lowest)}
+    found = []
+    for first, last in _runs(holds):
+        is_before = first > 0 and words[first - 1] != UNKNOWN
+        is_behind = last + 1 < len(words) and words[last + 1] != UNKNOWN
+        found.append(
+            Stretch(
+                axis.values[first],
+                axis.values[last],
+                limits.get(axis.values[first - 1]) if is_before else None,
+                limits.get(axis.values[last]) if is_behind else None,
+            )
+        )
+    return found

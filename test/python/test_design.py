@@ -288,6 +288,14 @@ class CoverageTest(unittest.TestCase):
 
 
 class SentenceTest(unittest.TestCase):
+    PIXEL, FEW = "one pixel: scan finer ones", "the answer rests on 1 contact: scan more places"
+
+    @staticmethod
+    def word(low, doubt):
+        if math.isnan(low) or (low > 1.0 and doubt):
+            return "unknown"
+        return "no" if low > 1.0 else "marginal"
+
     def sentence(self, values, lowest, name=STIFFNESS, doubts=None):
         rows = [
             {
@@ -296,6 +304,7 @@ class SentenceTest(unittest.TestCase):
                 "margin_lower": low,
                 "margin_transition": 2.0 * low,
                 "doubt": doubt,
+                "sticks": self.word(low, doubt),
             }
             for value, low, doubt in zip(values, lowest, doubts or [""] * len(values))
         ]
@@ -342,11 +351,50 @@ class SentenceTest(unittest.TestCase):
             ["6.2 times as large (the figures of other points differ)", "no unit"],
         )
 
-    def test_what_stands_against_a_no_is_said(self):
-        self.assertTrue(
+    def test_what_no_verdict_is_sure_of_is_not_called_sure(self):
+        """As a user met it: no point of the sweep had the word "no"."""
+        self.assertEqual(
+            self.sentence([0.01, 0.03, 0.1], [2.4, 2.8, 2.8], WORK, [self.FEW] * 3),
+            "no verdict is known for any work of adhesion of 10 mJ/m^2 to 100 mJ/m^2: the answer "
+            "rests on 1 contact",
+        )
+        self.assertEqual(
+            self.sentence([0.01, 0.03, 0.1], [0.2, 0.5, 2.0], WORK, ["", "", self.FEW]),
+            "no work of adhesion of 10 mJ/m^2 to 100 mJ/m^2 releases surely, though the lower end "
+            "of the margin is above 1 from 54.8 mJ/m^2 to 100 mJ/m^2; the verdict is unknown at "
+            "100 mJ/m^2: the answer rests on 1 contact",
+        )
+
+    def test_every_unknown_point_is_told_and_each_reason_once(self):
+        self.assertEqual(
             self.sentence(
-                [1.0, 2.0], [0.9, 1.8], doubts=["one pixel: scan finer ones"] * 2
-            ).endswith("; but at 2 N/m the verdict stays unknown: one pixel")
+                [0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07],
+                [4.0, 3.0, 3.0, 3.0, 2.0, 0.5, 2.0],
+                WORK,
+                ["", self.PIXEL, self.FEW, self.PIXEL, "", "", self.FEW],
+            ),
+            "work of adhesion releases surely at 10 mJ/m^2 and from 50 mJ/m^2 to 54.7 mJ/m^2; the "
+            "verdict is unknown from 20 mJ/m^2 to 40 mJ/m^2 and at 70 mJ/m^2: one pixel; the "
+            "answer rests on 1 contact",
+        )
+        self.assertEqual(
+            self.sentence([0.01, 0.02], [math.nan, math.nan], WORK, [self.PIXEL] * 2),
+            "no margin is known for any work of adhesion of 10 mJ/m^2 to 20 mJ/m^2: one pixel",
+        )
+        self.assertTrue(
+            self.sentence([1.0, 2.0], [0.2, 0.4], doubts=[self.PIXEL] * 2).endswith(
+                "goes in proportion, but from 5 N/m on the verdict would be unknown: one pixel"
+            )
+        )
+
+    def test_a_limit_stays_one_where_what_is_unknown_lies_before_it(self):
+        self.assertEqual(
+            self.sentence(
+                [0.01, 0.02, 0.1, 0.2], [2.0, 0.4, 4.0, 5.0], WORK, [self.FEW, "", "", ""]
+            ),
+            "smallest work of adhesion that releases surely: 38 mJ/m^2 (interpolated between 20 "
+            "mJ/m^2 and 100 mJ/m^2); the verdict is unknown at 10 mJ/m^2: the answer rests on 1 "
+            "contact",
         )
 
 
@@ -600,7 +648,8 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(rows.read_text().count("\n"), 9)
         self.assertRegex(
             record["statements"][0],
-            "^at work of adhesion 20 mJ/m.2: smallest spring stiffness that releases surely: ",
+            "^at work of adhesion 20 mJ/m.2: no spring stiffness of 10 mN/m to 10 N/m releases "
+            "surely, though .*; the verdict is unknown at 10 N/m: ",
         )
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
