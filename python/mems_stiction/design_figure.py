@@ -5,7 +5,6 @@ Takes the record that design_sweep --json prints, as a dictionary.
 """
 
 import math
-import textwrap
 
 import numpy as np
 from matplotlib.colors import TwoSlopeNorm
@@ -14,17 +13,30 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from mems_stiction.design_axes import BY_RATIO, Axis
-from mems_stiction.design_words import crossings, safe_text, text_of
-from mems_stiction.plots import plt, save
+from mems_stiction.design_words import UNKNOWN, crossings, safe_text, text_of
+from mems_stiction.plots import lines_within, plt, save
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import literal, ratio, typeset
+from mems_stiction.quantities import literal, ratio, typeset, unbroken
 
 BAND, LINE, ONE = "#9bb8d9", "#0b4f9e", "#b3261e"
 MOST_DECADES = 3.0  # of the margin that colours tell apart, to either side of 1
 MOST_LINES = 12  # of statements below the panel
 HEIGHT = 0.19  # of a line of text [inches]
 FINE = 241  # nodes along each axis of a map
-LETTERS = 135  # of such a line
+WIDTH = 9.0  # of the figure [inches]
+LEFT = 0.05  # of the statements, as a share of it
+LETTER = 9  # size of theirs [points]
+OPEN = dict(  # points without a verdict
+    marker="o",
+    color="none",
+    markerfacecolor="white",
+    markeredgecolor="black",
+    markersize=7,
+    linestyle="none",
+    clip_on=False,
+    zorder=5,
+    label="verdict unknown",
+)
 
 
 def save_design(record, path):
@@ -32,7 +44,7 @@ def save_design(record, path):
     lines = _lines(record["statements"])
     below = 0.75 + HEIGHT * len(lines)
     height = 5.4 + below
-    figure = plt.figure(figsize=(9.0, height))
+    figure = plt.figure(figsize=(WIDTH, height))
     axes = figure.add_axes([0.13, (below + 0.35) / height, 0.83, 4.2 / height])
     spans = [
         (name, np.array(values), record["units"][name])
@@ -47,20 +59,21 @@ def save_design(record, path):
         name: _grid(record, name, [len(values) for _, values, _ in spans])
         for name in ("margin", "margin_lower", "margin_upper")
     }
+    words = np.array([row["sticks"] for row in record["rows"]]).reshape(margins["margin"].shape)
     if len(spans) == 1:
-        _draw_line(axes, spans[0], margins)
+        _draw_line(axes, spans[0], margins, words)
     else:
-        _draw_map(axes, spans, margins)
+        _draw_map(axes, spans, margins, words)
     figure.suptitle(
         "Margin of the device: what pulls it open over what holds it",
         fontsize=13,
         y=1.0 - 0.15 / height,
     )
     figure.text(
-        0.05,
+        LEFT,
         (0.3 + HEIGHT * len(lines)) / height,
         literal("\n".join(lines)),
-        fontsize=9,
+        fontsize=LETTER,
         va="top",
         color="#333333",
     )
@@ -72,7 +85,9 @@ def _lines(statements):
     lines = [
         line
         for text in statements
-        for line in textwrap.wrap(typeset(text[0].upper() + text[1:] + "."), LETTERS)
+        for line in lines_within(
+            WIDTH * (1.0 - 2.0 * LEFT), unbroken(typeset(text[0].upper() + text[1:] + ".")), LETTER
+        )
     ]
     left = len(lines) - MOST_LINES
     return lines if left <= 0 else lines[: MOST_LINES - 1] + ["... and %d lines more" % (left + 1)]
@@ -84,6 +99,14 @@ def _grid(record, name, shape):
         [math.nan if row[name] is None else row[name] for row in record["rows"]], dtype=float
     ).reshape(shape)
     return np.log10(np.where(values > 0, values, math.nan))
+
+
+def _surely(label, words, beyond, word, what):
+    """A limit is called sure as far as the points beyond have the word."""
+    found = set(words[beyond])
+    if word not in found:
+        return label
+    return "%s: beyond it %s surely%s" % (label, what, "" if found == {word} else ", where known")
 
 
 def _label(axis, name, values, unit):
@@ -99,7 +122,19 @@ def _label(axis, name, values, unit):
     axis.set_label_text(Axis(name, unit, tuple(values)).word)
 
 
-def _draw_line(axes, span, margins):
+def _legend(axes, handles):
+    """In two lines above the panel."""
+    axes.legend(
+        handles=handles,
+        fontsize=LETTER,
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncol=(len(handles) + 1) // 2,
+        frameon=False,
+    )
+
+
+def _draw_line(axes, span, margins, words):
     name, values, unit = span
     margin, lower, upper = (
         10.0 ** margins[key] for key in ("margin", "margin_lower", "margin_upper")
@@ -118,15 +153,25 @@ def _draw_line(axes, span, margins):
         axes.fill_between(values, lower, upper, color=BAND, alpha=0.6, linewidth=0, label="95 %")
         axes.plot(values, margin, color=LINE, marker=".", label="margin")
         for limit in crossings(values, lower):
+            beyond = values >= limit.above if limit.rises else values <= limit.below
+            is_sure = (words[beyond & (lower > 1.0)] == "no").all()
+            side = ("above" if limit.rises else "below") if is_sure else "at"
             axes.axvline(
                 limit.value,
                 color="#444444",
                 linewidth=1.2,
                 linestyle="--",
-                label="releases surely %s %s"
-                % ("above" if limit.rises else "below", typeset(safe_text(limit, unit))),
+                label="%s %s %s"
+                % (
+                    "releases surely" if is_sure else "lower end 1",
+                    side,
+                    typeset(safe_text(limit, unit)),
+                ),
             )
     axes.axhline(1.0, color=ONE, linewidth=1.4, label="margin 1: above it the device opens")
+    unknown = words == UNKNOWN
+    if unknown.any():
+        axes.plot(values[unknown], np.where(np.isfinite(margin), margin, 1.0)[unknown], **OPEN)
     axes.set_yscale("log")
     few = (
         np.nanmax(upper) < 300 * np.nanmin(lower)
@@ -140,7 +185,7 @@ def _draw_line(axes, span, margins):
     axes.set_ylabel("margin")
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.legend(fontsize=9, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=2, frameon=False)
+    _legend(axes, axes.get_legend_handles_labels()[0])
 
 
 def _along(values):
@@ -163,7 +208,7 @@ def _between(grid, values, fine):
     return grid
 
 
-def _draw_map(axes, spans, margins):
+def _draw_map(axes, spans, margins, words):
     (x_name, x_values, x_unit), (y_name, y_values, y_unit) = spans
     x, y = _fine(x_values), _fine(y_values)
     margin, lower, upper = (
@@ -202,10 +247,12 @@ def _draw_map(axes, spans, margins):
             label="1 lies within the 95 % band",
         )
     ]
+    releases = _surely("lower end 1", words, margins["margin_lower"] > 0, "no", "releases")
+    sticks = _surely("upper end 1", words, margins["margin_upper"] < 0, "yes", "sticks")
     for grid, style, label in (
         (margin, "-", "margin 1"),
-        (lower, "--", "lower end 1: beyond it releases surely"),
-        (upper, ":", "upper end 1: beyond it sticks surely"),
+        (lower, "--", releases),
+        (upper, ":", sticks),
     ):
         finite = grid[np.isfinite(grid)]
         if finite.size and finite.min() < 0 < finite.max():
@@ -220,15 +267,11 @@ def _draw_map(axes, spans, margins):
                 zorder=2,
             )
             handles.append(Line2D([], [], color="black", linestyle=style, label=label))
+    if (words == UNKNOWN).any():
+        places = np.argwhere(words == UNKNOWN)
+        handles += axes.plot(x_values[places[:, 0]], y_values[places[:, 1]], **OPEN)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
-    axes.legend(
-        handles=handles,
-        fontsize=9,
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncol=2,
-        frameon=False,
-    )
+    _legend(axes, handles)
     bar = axes.figure.colorbar(image, ax=axes, pad=0.02, label="margin")
     bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: ratio(10.0**value, 2)))

@@ -17,7 +17,9 @@ if (
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
+from matplotlib.font_manager import FontProperties  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
+from matplotlib.textpath import text_to_path  # noqa: E402
 from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
 
 from mems_stiction.prediction_text import STATUS_NAMES, bound_of, digits_of, flag_names, flag_words  # noqa: E402
@@ -53,6 +55,24 @@ def widen(axes, values, share=LEAST_SPAN):
     if high - low < least:
         middle = 0.5 * (finite.min() + finite.max())
         axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
+
+
+def lines_within(width, text, size):
+    """The text in lines that are at most so wide [inches] in letters of this size [points]."""
+    font = FontProperties(size=size)
+    lines = []
+    for word in text.split(" "):  # not at spaces that end no line
+        longer = lines[-1] + " " + word if lines else word
+        if lines and _width(longer, font) > width:
+            lines.append(word)
+        else:
+            lines[-1:] = [longer]
+    return lines
+
+
+def _width(text, font):
+    """[inches]"""
+    return text_to_path.get_text_width_height_descent(literal(text), font, False)[0] / 72.0
 
 
 def name_ticks(axes, names, most_upright, **style):

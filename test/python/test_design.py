@@ -398,6 +398,66 @@ class SentenceTest(unittest.TestCase):
         )
 
 
+class PictureTest(unittest.TestCase):
+    """What stands in it, without the file."""
+
+    def labels(self, found):
+        """Of the legend. Every text lies within the figure, and none on another."""
+        from mems_stiction import design_figure
+
+        with mock.patch.object(design_figure, "save") as save:
+            found.save_picture("map.png")
+        figure = save.call_args[0][0]
+        self.addCleanup(design_figure.plt.close, figure)
+        figure.canvas.draw()
+        panel = figure.axes[0]
+        texts = [text.get_window_extent() for text in figure.texts]
+        for box in texts + [panel.get_legend().get_window_extent()]:
+            self.assertGreaterEqual(box.x0, 0.0)
+            self.assertLessEqual(box.x1, figure.bbox.x1)
+        self.assertFalse(panel.get_legend().get_window_extent().overlaps(texts[0]), "the title")
+        marks = [line for line in panel.lines if line.get_label() == "verdict unknown"]
+        self.marked = sum(len(line.get_xdata()) for line in marks)
+        return [text.get_text() for text in panel.get_legend().get_texts()]
+
+    def sweep(self, doubt_of, axes):
+        with mock.patch.object(
+            Holding,
+            "at",
+            autospec=True,
+            side_effect=lambda _, point: (held(2e-6 * point[WORK], doubt=doubt_of(point)), ()),
+        ):
+            return swept(axes)
+
+    def test_what_is_unknown_is_marked_and_not_called_sure(self):
+        doubt = "the answer rests on 1 contact in all scans, %s: scan more places" % (
+            "a word " * 20
+        )
+        for doubtful, sure in ((0.0, ""), (0.015, ": beyond it releases surely, where known")):
+            found = self.sweep(
+                lambda point, doubtful=doubtful: doubt if point[WORK] > doubtful else "",
+                {WORK: [0.01, 0.02, 0.1], STIFFNESS: [0.01, 0.1, 1.0]},
+            )
+            labels = self.labels(found)
+            self.assertIn("lower end 1" + sure, labels)
+            self.assertIn("upper end 1: beyond it sticks surely", labels)
+            self.assertIn("verdict unknown", labels)
+            self.assertEqual(self.marked, list(found.rows["sticks"]).count("unknown"))
+        labels = self.labels(self.sweep(lambda point: doubt, {WORK: [0.01, 0.1]}))
+        self.assertIn("lower end 1 at 25 mJ/m²", labels)
+        self.assertEqual(self.marked, 1)
+
+    def test_what_is_known_is_called_sure(self):
+        labels = self.labels(
+            self.sweep(lambda point: "", {WORK: [0.01, 0.02, 0.1], STIFFNESS: [0.01, 0.1, 1.0]})
+        )
+        self.assertIn("lower end 1: beyond it releases surely", labels)
+        self.assertNotIn("verdict unknown", labels)
+        labels = self.labels(self.sweep(lambda point: "", {WORK: [0.01, 0.1]}))
+        self.assertIn("releases surely below 25 mJ/m²", labels)
+        self.assertEqual(self.marked, 0)
+
+
 class RowsTest(unittest.TestCase):
     AXES = {WORK: (0.01, 0.1, 4), STIFFNESS: [0.05, 0.5]}
 
