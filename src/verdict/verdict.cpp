@@ -273,20 +273,18 @@ Finding governingFinding(const Holding& holding, Finding of_force, Finding of_wo
   const bool is_force = is_open ? is_worse_by_force : reach < peeled.length;
   verdict.governed_by = is_force ? kGovernedByForce : kGovernedByPeeling;
   Finding finding = is_force ? std::move(of_force) : std::move(of_work);
-  const std::string whole =
-      "pulled open as a whole (up to " + shortNumber(peeled.shortest, 2) + " m)";
-  const std::string peeling = "peeled (from " + shortNumber(peeled.longest, 2) + " m on)";
-  const std::string compared =
+  const std::string other = is_force ? "peel number " + shortNumber(verdict.peel_number, 2)
+                                     : "margin " + shortNumber(verdict.margin, 2);
+  const std::string opens =
       is_open
-          ? "between being " + whole + " and " + peeling + ", so that the worse of both counts: "
-          : std::string(is_force ? "less" : "further") + " than the " +
-                shortNumber(peeled.length, 2) +
-                " m over which adhesion gives way at one time, so that ";
-  finding.reason +=
-      "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " + compared +
-      (is_force
-           ? "its force decides (peel number " + shortNumber(verdict.peel_number, 2) + ")"
-           : "it is peeled (the margin of its force is " + shortNumber(verdict.margin, 2) + ")");
+          ? " may open as a whole or peel, as any from " + shortNumber(peeled.shortest, 2) +
+                " m to " + shortNumber(peeled.longest, 2) + " m"
+          : std::string(is_force ? ", less" : ", more") + " than " + shortNumber(peeled.length, 2) +
+                " m, " + (is_force ? "opens as a whole" : "peels");
+  finding.reason += std::string("; the ") + (is_force ? "margin" : "peel number") + " decides" +
+                    (is_open ? ", the worse of both" : "") + " (" + other +
+                    "): a contact that reaches " + shortNumber(reach, 2) + " m along the beam" +
+                    opens;
   return finding;
 }
 

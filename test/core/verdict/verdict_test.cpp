@@ -296,7 +296,8 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   EXPECT_DOUBLE_EQ(pulled.margin_lower,
                    pulled.restoring_force / pulled.device_pull_off_force_upper);
   EXPECT_EQ(pulled.reason.rfind("margin ", 0), 0U) << pulled.reason;
-  EXPECT_NE(pulled.reason.find("its force decides (peel number "), std::string::npos)
+  EXPECT_NE(pulled.reason.find("the margin decides, the worse of both (peel number "),
+            std::string::npos)
       << pulled.reason;
   EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, pulled).peel_number.value));
 
@@ -305,8 +306,9 @@ TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   EXPECT_EQ(peeled.governed_by, kGovernedByPeeling);
   EXPECT_DOUBLE_EQ(peeled.peel_number, pulled.peel_number) << "per width";
   EXPECT_EQ(peeled.reason.rfind("peel number ", 0), 0U) << peeled.reason;
-  EXPECT_NE(peeled.reason.find("it is peeled (the margin of its force is "), std::string::npos)
+  EXPECT_NE(peeled.reason.find("the peel number decides (margin "), std::string::npos)
       << peeled.reason;
+  EXPECT_EQ(peeled.reason.substr(peeled.reason.size() - 9), " m, peels");
   EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, peeled).margin.value));
 
   device.beam_width = 0.0;
@@ -360,8 +362,11 @@ TEST(Verdict, takesTheWorseOfForceAndPeelingWhereTheLengthOfTheContactLeavesItOp
     for (double share = 0.9; share > 1e-4; share *= 0.95) {
       device.beam_width = device.contact_area / (share * device.beam_length);
       const Verdict verdict = verdictFor(spheres, device);
-      if (verdict.reason.find("the worse of both counts") == std::string::npos) continue;
+      if (verdict.reason.find("the worse of both") == std::string::npos) continue;
       ++open;
+      EXPECT_NE(verdict.reason.find(" m along the beam may open as a whole or peel, as any from "),
+                std::string::npos)
+          << verdict.reason;
       const auto wordOf = [](double lower, double upper) {
         return upper < 1.0 ? Sticks::kYes : lower > 1.0 ? Sticks::kNo : Sticks::kMarginal;
       };
