@@ -22,6 +22,8 @@ namespace {
 
 constexpr const char* kRowsOfScans =
     "rows are of scans; --parts finds it for each part and --device-force for each scan";
+constexpr const char* kPartsAreAsked =
+    "rows are of scans; the part's row in the file of --parts has the device's verdict";
 
 constexpr const char* kNotFlagged = "no flag asks for it";
 
@@ -84,7 +86,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
         prepared_, configuration_, [&](double share) { tell(deviceText(share)); }, &force);
     addMissing(force.warnings, subject.warnings);
   } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
-    beside_.why_no_device = kRowsOfScans;
+    beside_.why_no_device = arguments_.parts.empty() ? kRowsOfScans : kPartsAreAsked;
   }
   row.is_warned = !subject.warnings.empty();
   HalfSpaceAnswer half_space;

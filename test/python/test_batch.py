@@ -1202,6 +1202,10 @@ class BatchTest(unittest.TestCase):
             {"unknown"},
             "a scan has not the size of the contact",
         )
+        for row in rows:
+            if not row["message"]:
+                self.assertIn("the part's row in the file of --parts has", row["reason"])
+                self.assertNotIn("--parts finds it", row["reason"], "the user has given it")
         for part, count in zip(parts, ("3", "2")):
             self.assertEqual(
                 (part["scan_count"], part["counted_scans"], part["verdict_by"]),
@@ -1222,6 +1226,8 @@ class BatchTest(unittest.TestCase):
                 "%d/2" % index,
                 inputs=inputs,
             )
+        reasons = [row["reason"] for row in self.rows("shard1.csv") if not row["message"]]
+        self.assertIn("--parts finds it for each part", reasons[0])
         done = run(
             [
                 self.batch,
