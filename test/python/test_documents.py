@@ -177,6 +177,19 @@ class ValidityTest(unittest.TestCase):
         for name, value in flags:
             self.assertIn("`%s` (%s)" % (name, value), page)
 
+    def test_few_contacts_forbid_no_plain_no_that_an_example_shows(self):
+        """The README's first device has two contacts and a plain "No", by generated surfaces."""
+        rows = {
+            row.split("`")[1]: row
+            for row in source("doc/validity.md").splitlines()
+            if row.startswith("| `FLAG_")
+        }
+        readme = source("README.md")
+        self.assertRegex(readme, r"status: equilibrium, 2 contacts\n.*\n +Does it stick\? No: ")
+        never = 'the verdict is never a plain "no"'
+        self.assertIn(never + ", unless generated surfaces judge", rows["FLAG_FEW_CONTACTS"])
+        self.assertIn("*unknown*, unless another scan", rows["FLAG_UNRESOLVED"])
+
     def test_limits_are_those_of_the_code(self):
         page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
         flags = source("src/verdict/regime_flags.hpp")
