@@ -33,11 +33,13 @@ def answers_of_processes(holding: Holding, points: List[Dict[str, float]], count
     try:
         for point in itertools.islice(waiting, count):
             ours, theirs = context.Pipe()
-            process = context.Process(target=_work, args=(theirs, holding), daemon=True)
+            process = context.Process(target=_work, args=(theirs,), daemon=True)
             process.start()
             processes.append(process)
             theirs.close()
+            # not with its start: that waits for ever for a process that has ended before it read
             with _named_end():
+                ours.send(holding)
                 ours.send(point)
             under_way[ours] = point
         while under_way:
@@ -73,12 +75,13 @@ def _named_end() -> Iterator[None]:
         ) from None
 
 
-def _work(asked: Any, holding: Holding) -> None:
+def _work(asked: Any) -> None:
     """In each process: Ctrl-C is the parent's, and nobody goes on without it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+    holding: Holding = asked.recv()
     while True:
         point = asked.recv()
         try:

@@ -755,6 +755,23 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(run.returncode, 2)
             self.assertRegex(run.stderr, words)
 
+    def test_a_script_that_each_process_would_run_anew_is_told_what_it_lacks(self):
+        script = self.path / "sweep.py"
+        script.write_text(  # scans larger than what a pipe holds
+            "import mems_stiction, numpy\n"
+            "scan = numpy.random.default_rng(1).normal(0, 1e-9, (192, 192))\n"
+            "mems_stiction.design_sweep(scan, %r, %r, axes={%r: [0.01, 0.1]}, workers=2)\n"
+            % (PITCH, PART, WORK)
+        )
+        run = subprocess.run(
+            [sys.executable, str(script)],
+            stderr=subprocess.PIPE,
+            universal_newlines=True,
+            timeout=MOST_WAITED,
+        )
+        self.assertEqual(run.returncode, 1)
+        self.assertIn('lacks `if __name__ == "__main__":`', run.stderr)
+
     def test_ctrl_c_keeps_rows_and_leaves_no_process(self):
         rows = self.path / "rows.csv"
         axis, count = "0.01:0.1:5000", 5000  # more than anybody waits for
