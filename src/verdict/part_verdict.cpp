@@ -335,6 +335,10 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Ver
   part.verdict_by = judgeText(of_device.judge);
   part.counted_scans = part.scan_count;
   part.regime_flags |= of_device.regime_flags;
+  part.restoring_force = of_device.restoring_force;
+  part.device_pull_off_force = of_device.device_pull_off_force;
+  part.device_pull_off_force_lower = of_device.device_pull_off_force_lower;
+  part.device_pull_off_force_upper = of_device.device_pull_off_force_upper;
   part.warnings.clear();
   const std::string unbounded = whatIsUnbounded(scans);
   if (part.sticks == Sticks::kNo && !unbounded.empty()) {

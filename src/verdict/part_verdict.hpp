@@ -121,6 +121,11 @@ struct PooledVerdict {
   PooledRatio peel_number;
   std::uint32_t regime_flags = 0;     ///< of any of its scans
   std::vector<std::string> warnings;  ///< about the scans, in words
+  /// Where the device's own force judges [N].
+  double restoring_force = Verdict::kNotStated;
+  double device_pull_off_force = Verdict::kNotStated;
+  double device_pull_off_force_lower = Verdict::kNotStated;  ///< 2.5 % quantile
+  double device_pull_off_force_upper = Verdict::kNotStated;  ///< 97.5 % quantile
 };
 
 PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans);

@@ -43,6 +43,14 @@ void visitPartVerdictFields(VerdictType& part, Visitor&& visit) {
   visit({"worst_peel_number", "", "lowest peel_number of one scan"}, part.peel_number.worst);
   visit({"worst_peel_number_scan", "", "its name"}, part.peel_number.worst_scan);
   visit({"regime_flags", "", "of any of the scans"}, part.regime_flags);
+  visit({"restoring_force", "N", "of the device's spring, where the device's own force judges"},
+        part.restoring_force);
+  visit({"device_pull_off_force", "N", "of the whole device, found from all scans together"},
+        part.device_pull_off_force);
+  visit({"device_pull_off_force_lower", "N", "2.5 % quantile of device_pull_off_force"},
+        part.device_pull_off_force_lower);
+  visit({"device_pull_off_force_upper", "N", "97.5 % quantile of device_pull_off_force"},
+        part.device_pull_off_force_upper);
 }
 
 }  // namespace mems_stiction

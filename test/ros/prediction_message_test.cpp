@@ -191,7 +191,7 @@ TEST(Definitions, haveAFieldForEachFigureWithItsUnit) {
   visitPartVerdictFields(pooled, part);
   visitHalfSpaceFields({}, half_space);
   visitHalfSpaceDetails({}, half_space);
-  EXPECT_EQ(part.seen + half_space.seen, 42);
+  EXPECT_EQ(part.seen + half_space.seen, 46);
   InDefinition sweep(commentsOf<SweepPoint>()), summary(commentsOf<SweepSummary>()),
       cycle(commentsOf<CyclePoint>());
   visitSweepFields({}, sweep);
@@ -216,7 +216,7 @@ TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
   InPrint print(message);
   const PooledVerdict& filled = *scan.part;
   visitPartVerdictFields(filled, print);
-  EXPECT_EQ(print.seen, 20);
+  EXPECT_EQ(print.seen, 24);
   EXPECT_EQ(message.flags, (std::vector<std::string>{"bonded", "border"}));
   EXPECT_EQ(message.warnings, std::vector<std::string>{"first; second"});
   EXPECT_EQ(message.part_id, "lot 3");
