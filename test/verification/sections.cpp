@@ -7,7 +7,6 @@ std::vector<Section> allSections(const std::function<void(std::size_t, std::size
   const std::vector<Section (*)()> all = {hertzSection,
                                           jkrSection,
                                           dmtAndTransitionSection,
-                                          manyAsperitiesSection,
                                           surfaceForcesSection,
                                           loadSumsSection,
                                           capsSection,

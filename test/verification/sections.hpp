@@ -14,7 +14,6 @@ namespace verification {
 Section hertzSection();
 Section jkrSection();
 Section dmtAndTransitionSection();
-Section manyAsperitiesSection();
 Section surfaceForcesSection();
 Section loadSumsSection();
 Section capsSection();
