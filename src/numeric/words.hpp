@@ -25,7 +25,8 @@ bool endsWith(std::string_view text, std::string_view end);
 /// With `with` for every `what`.
 std::string replaced(std::string text, const std::string& what, const std::string& with);
 
-/// "1 scan", "2 scans". @param word of one, whose plural ends in s
+/// "1 scan", "2 scans".
+/// - @p word of one, whose plural ends in s
 std::string countText(std::size_t count, const std::string& word);
 
 /// One after the other, with commas between them.

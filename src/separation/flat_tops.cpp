@@ -10,20 +10,21 @@
 
 namespace mems_stiction {
 
-FlatTops::FlatTops(FrameSums& frame, double approach) : frame_(&frame) {
+void FlatTops::start(FrameSums& frame, double approach) {
+  frame_ = &frame;
   const OverlapSweep& contacts = frame.contactsAt(approach);
   const std::vector<OverlapPatch>& patches = contacts.patches();
   const ContactTraction& law = frame.law();
-  std::vector<int> flat_cells(patches.size(), 0);
+  flat_cells_.assign(patches.size(), 0);
   for (int i = 0; i < contacts.cellCount(); ++i) {
     const OrderedCell& cell = frame.orderedCells()[static_cast<std::size_t>(i)];
     const auto place = static_cast<std::size_t>(contacts.livePlace(contacts.patchOf(cell)));
-    if (cell.gap < patches[place].first_gap + law.range()) ++flat_cells[place];
+    if (cell.gap < patches[place].first_gap + law.range()) ++flat_cells_[place];
   }
   const double modulus = frame.patchForces().contactModulus();
-  tops_.reserve(patches.size());
+  tops_.clear();
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    const double radius = std::sqrt(flat_cells[i] * frame.field().cellArea() / kPi);
+    const double radius = std::sqrt(flat_cells_[i] * frame.field().cellArea() / kPi);
     const double reach = std::min(kPi * radius * law.strength() / (2.0 * modulus),
                                   std::sqrt(2.0 * kPi * radius * law.workOfAdhesion() / modulus));
     tops_.push_back({patches[i].first_gap, radius, reach});

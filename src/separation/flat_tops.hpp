@@ -23,11 +23,12 @@
 
 namespace mems_stiction {
 
-/// Of the contacts at one approach. The frame must outlive it.
+/// Of the contacts at one approach. Keeps its memory between frames.
 class FlatTops {
  public:
+  /// - @p frame outlives what is asked of it
   /// - @p approach from which the surfaces part [m]
-  FlatTops(FrameSums& frame, double approach);
+  void start(FrameSums& frame, double approach);
 
   /// The largest sum (S9c) [N].
   double pullTogether() const;
@@ -45,8 +46,9 @@ class FlatTops {
     double end() const { return gap - reach; }
   };
 
-  const FrameSums* frame_;
-  std::vector<Top> tops_;  ///< the last to let go first
+  const FrameSums* frame_ = nullptr;
+  std::vector<int> flat_cells_;  ///< of each contact
+  std::vector<Top> tops_;        ///< the last to let go first
 };
 
 }  // namespace mems_stiction

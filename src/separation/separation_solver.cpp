@@ -14,7 +14,6 @@
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
-#include "separation/flat_tops.hpp"
 
 #include "chosen_constants.hpp"
 
@@ -186,9 +185,9 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
 }
 
 bool SeparationSolver::holdTogether(double force) {
-  const FlatTops tops(curve_.frame(), curve_.rest().approach);
-  const double pull = tops.pullTogether() / chosen::kDoubtedFactor;
-  return pull > force && pull > tops.pullOneByOne();
+  flat_tops_.start(curve_.frame(), curve_.rest().approach);
+  const double pull = flat_tops_.pullTogether() / chosen::kDoubtedFactor;
+  return pull > force && pull > flat_tops_.pullOneByOne();
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {

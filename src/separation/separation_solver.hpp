@@ -26,6 +26,7 @@
 #include "separation/conforming_contact.hpp"
 #include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
+#include "separation/flat_tops.hpp"
 #include "separation/flattening.hpp"
 #include "separation/flowing_places.hpp"
 #include "separation/plate_tilt.hpp"
@@ -75,6 +76,7 @@ class SeparationSolver : public ContactSolver {
   PlateTilt tilt_;
   ContactCurve curve_;
   FlowingPlaces places_that_flow_;
+  FlatTops flat_tops_;
   bool has_flowed_ = false;  ///< place by place
   /// By flow, so much more than without that how far they flow is not sure.
   bool attracts_more_ = false;

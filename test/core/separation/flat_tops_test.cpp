@@ -60,7 +60,9 @@ class Posts {
   FlatTops tops() {
     field_.compute(HeightMap(heights_, kPitch, kPitch));
     frame_.start(field_, options_);
-    return FlatTops(frame_, reach_);
+    FlatTops tops;
+    tops.start(frame_, reach_);
+    return tops;
   }
 
   ContactTraction law_;
