@@ -1,7 +1,6 @@
 #include "support/reference_contacts.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "numeric/constants.hpp"
 
@@ -11,10 +10,6 @@ namespace hertz {
 
 double contactRadius(double load, double radius, double contact_modulus) {
   return load < 0.0 ? 0.0 : std::cbrt(0.75 * load * radius / contact_modulus);
-}
-
-double loadOfContact(double contact_radius, double radius, double contact_modulus) {
-  return 4.0 / 3.0 * contact_modulus * contact_radius * contact_radius * contact_radius / radius;
 }
 
 double approach(double load, double radius, double contact_modulus) {
@@ -30,17 +25,6 @@ double load(double approach, double radius, double contact_modulus) {
 double maximumPressure(double load, double radius, double contact_modulus) {
   return 2.0 / kPi * contact_modulus * contactRadius(load, radius, contact_modulus) /
          radius;  // = 3P/(2 pi a^2), also at P = 0
-}
-
-double pressure(double distance, double load, double radius, double contact_modulus) {
-  const double contact_radius = contactRadius(load, radius, contact_modulus);
-  if (!(std::fabs(distance) < contact_radius)) return 0.0;
-  const double fraction = distance / contact_radius;
-  return maximumPressure(load, radius, contact_modulus) * std::sqrt(1.0 - fraction * fraction);
-}
-
-double energy(double approach, double radius, double contact_modulus) {
-  return 0.4 * load(approach, radius, contact_modulus) * approach;
 }
 
 }  // namespace hertz
@@ -63,48 +47,7 @@ double pullOffForce(double work_of_adhesion, double radius) {
   return 1.5 * kPi * work_of_adhesion * radius;
 }
 
-double pullOffContactRadius(double work_of_adhesion, double radius, double contact_modulus) {
-  return contactRadius(1.5 * kPi * work_of_adhesion * radius, radius, contact_modulus);
-}
-
-double fixedGripsPullOffForce(double work_of_adhesion, double radius) {
-  return 5.0 / 6.0 * kPi * work_of_adhesion * radius;
-}
-
-double fixedGripsPullOffContactRadius(double work_of_adhesion, double radius,
-                                      double contact_modulus) {
-  return contactRadius(kPi * work_of_adhesion * radius / 6.0, radius, contact_modulus);
-}
-
 }  // namespace jkr
-
-namespace dmt {
-
-double apparentLoad(double load, double work_of_adhesion, double radius) {
-  const double apparent_load = load + pullOffForce(work_of_adhesion, radius);
-  return apparent_load < 0.0 ? std::numeric_limits<double>::quiet_NaN() : apparent_load;
-}
-
-double equilibriumContactRadius(double load, double work_of_adhesion, double radius,
-                                double contact_modulus) {
-  return hertz::contactRadius(apparentLoad(load, work_of_adhesion, radius), radius,
-                              contact_modulus);
-}
-
-double load(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {
-  return hertz::loadOfContact(contact_radius, radius, contact_modulus) -
-         pullOffForce(work_of_adhesion, radius);
-}
-
-double approach(double contact_radius, double radius) {
-  return contact_radius * contact_radius / radius;
-}
-
-double pullOffForce(double work_of_adhesion, double radius) {
-  return 2.0 * kPi * work_of_adhesion * radius;
-}
-
-}  // namespace dmt
 
 namespace maugis {
 namespace {
@@ -120,6 +63,16 @@ double firstBracket(double s) {
 /// s atan(s) - m + 1 with m = sqrt(1 + s^2), the bracket of his second term.
 double secondBracket(double s) { return s * std::atan(s) - s * s / (1.0 + std::sqrt(1.0 + s * s)); }
 
+/// F in units of pi w R of the state at which the ring reaches out to c = a sqrt(1 + s^2): s -> 0
+/// is a large contact, s -> infinity a vanishing one.
+double loadOfRing(double lambda, double s) {
+  // Griffith's criterion, 1 = A a^2 + 2 B a, solved for a without cancellation
+  const double a_squared_term = 0.5 * lambda * firstBracket(s);
+  const double half_a_term = 2.0 / 3.0 * lambda * lambda * secondBracket(s);
+  const double a = 1.0 / (half_a_term + std::sqrt(half_a_term * half_a_term + a_squared_term));
+  return a * a * a - lambda * a * a * (s + (1.0 + s * s) * std::atan(s));
+}
+
 }  // namespace
 
 double transitionParameter(double adhesive_stress, double radius, double work_of_adhesion,
@@ -128,34 +81,12 @@ double transitionParameter(double adhesive_stress, double radius, double work_of
   return 2.0 * adhesive_stress * std::cbrt(radius / (kPi * work_of_adhesion * k * k));
 }
 
-State stateOfRing(double transition_parameter, double ring_extent) {
-  const double lambda = transition_parameter;
-  const double s = ring_extent;
-  // Griffith's criterion, 1 = A a^2 + 2 B a, solved for a without cancellation
-  const double a_squared_term = 0.5 * lambda * firstBracket(s);
-  const double half_a_term = 2.0 / 3.0 * lambda * lambda * secondBracket(s);
-  const double a = 1.0 / (half_a_term + std::sqrt(half_a_term * half_a_term + a_squared_term));
-  State state;
-  state.contact_radius = a;
-  state.cohesive_radius = a * std::sqrt(1.0 + s * s);
-  state.load = a * a * a - lambda * a * a * (s + (1.0 + s * s) * std::atan(s));
-  state.approach = a * a - 4.0 / 3.0 * a * lambda * s;
-  return state;
-}
-
 double pullOffPrefactor(double transition_parameter) {
-  if (transition_parameter < 1e-4) {
-    // first order for a vanishing contact, where c = 2/sqrt(pi lambda); the next is 5e-12 here
-    const double slope = 16.0 / 3.0 * (0.5 * kPi - 1.0) / std::sqrt(kPi);
-    return 2.0 - slope * std::pow(transition_parameter, 1.5);
-  }
-  if (transition_parameter > 1e4) return 1.5;  // 1.5 + 0.16/lambda^2
-
   // Golden-section search for the least load over log s. Between the bounds a runs from far above
   // the pull-off contact to far below it, and the load has one minimum.
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   const auto loadAt = [&](double log_s) {
-    return stateOfRing(transition_parameter, std::exp(log_s)).load;
+    return loadOfRing(transition_parameter, std::exp(log_s));
   };
   double lower = std::log(1e-2 / (1.0 + transition_parameter));
   double upper = std::log(1e8);
@@ -187,14 +118,6 @@ namespace surface_forces {
 
 double vanDerWaalsEnergy(double gap, double hamaker_constant) {
   return hamaker_constant / (12.0 * kPi * gap * gap);
-}
-
-double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius) {
-  return hamaker_constant * radius / (6.0 * gap * gap);
-}
-
-double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius) {
-  return hamaker_constant * radius / (6.0 * gap);
 }
 
 }  // namespace surface_forces

@@ -11,9 +11,8 @@
 namespace mems_stiction {
 namespace verification {
 
-Section hertzSection();
 Section jkrSection();
-Section dmtAndTransitionSection();
+Section transitionSection();
 Section surfaceForcesSection();
 Section loadSumsSection();
 Section capsSection();

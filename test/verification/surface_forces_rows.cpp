@@ -6,7 +6,6 @@
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/paper/paper_options.hpp"
 #include "paper/cell_forces.hpp"
-#include "support/reference_contacts.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 
@@ -33,13 +32,6 @@ Section surfaceForcesSection() {
                 vanDerWaalsPressure(10e-9, kHamaker), "3.448e3"),
       published("(2), the same by one cell of the model", "Pa", kPlates,
                 cell.vanDerWaals(10e-9) / cell_area, "3.448e3"),
-      published("energy of plates, 65 zJ, 10 nm", "J/m^2", kPlates,
-                vanDerWaalsEnergy(10e-9, kHamaker), "17.24e-6"),
-      exact("sphere of 2 um before a plate, 65 zJ, 10 nm", "N", "Derjaguin: 2 pi R A/(12 pi D^2)",
-            vanDerWaalsSphereForce(10e-9, kHamaker, 2e-6),
-            2.0 * closed_form::kPi * 2e-6 * kHamaker / (12.0 * closed_form::kPi * 1e-16)),
-      exact("its energy", "J", "A R/(6 D)", vanDerWaalsSphereEnergy(10e-9, kHamaker, 2e-6),
-            kHamaker * 2e-6 / 6.0 / 10e-9),
       exact("a cell closer than the cut-off of 0.165 nm", "Pa", "A/(6 pi D0^3)",
             cell.vanDerWaals(0.05e-9) / cell_area,
             kHamaker / (6.0 * closed_form::kPi * std::pow(0.165e-9, 3))),

@@ -14,7 +14,6 @@ using namespace surface_forces;
 
 constexpr double kHamaker = 65e-21;
 constexpr double kGap = 10e-9;
-constexpr double kRadius = 0.8e-6;
 constexpr double kRoundOff = 1e-13;  // closed forms against closed forms
 constexpr double kCentralDifference =
     1e-8;  // step 1e-5 of the gap: truncation a few 1e-10, round-off 1e-11
@@ -34,44 +33,14 @@ TEST(VanDerWaals, reproducesThePlatesOfTheReference) {
   expectRelative(vanDerWaalsEnergy(kGap, kHamaker), 17.24e-6, 3e-4);
 }
 
-TEST(VanDerWaals, reproducesTheSphereOfTheReference) {
-  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
-                 kHamaker * kRadius / (6.0 * kGap * kGap), kRoundOff);
-}
-
-TEST(VanDerWaals, forcesAreMinusTheDerivativeOfTheEnergies) {
+TEST(VanDerWaals, pressureIsMinusTheDerivativeOfTheEnergy) {
   expectRelative(minusSlope([](double gap) { return vanDerWaalsEnergy(gap, kHamaker); }, kGap),
                  vanDerWaalsPressure(kGap, kHamaker), kCentralDifference);
-  expectRelative(
-      minusSlope([](double gap) { return vanDerWaalsSphereEnergy(gap, kHamaker, kRadius); }, kGap),
-      vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kCentralDifference);
 }
 
-TEST(VanDerWaals, sphereForceIsDerjaguinsOfThePlates) {
-  // F = 2 pi R u
-  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
-                 2.0 * kPi * kRadius * vanDerWaalsEnergy(kGap, kHamaker), kRoundOff);
-}
-
-TEST(VanDerWaals, sphereForceIsThePressureSummedOverTheParaboloid) {
-  // rings of equal gap: area 2 pi R dh; substitution h = gap/u, u in (0, 1]
-  const int rings = 2000;
-  double force = 0.0;
-  for (int ring = 0; ring < rings; ++ring) {
-    const double u = (ring + 0.5) / rings;
-    force += vanDerWaalsPressure(kGap / u, kHamaker) * 2.0 * kPi * kRadius * kGap / (u * u) / rings;
-  }
-  expectRelative(force, vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
-                 1e-7);  // midpoint rule of a line: round-off
-}
-
-TEST(VanDerWaals, fallsWithTheStatedPowersOfTheGap) {
+TEST(VanDerWaals, fallsWithTheCubeOfTheGap) {
   expectRelative(vanDerWaalsPressure(2.0 * kGap, kHamaker),
                  vanDerWaalsPressure(kGap, kHamaker) / 8.0, kRoundOff);
-  expectRelative(vanDerWaalsEnergy(2.0 * kGap, kHamaker), vanDerWaalsEnergy(kGap, kHamaker) / 4.0,
-                 kRoundOff);
-  expectRelative(vanDerWaalsSphereForce(2.0 * kGap, kHamaker, kRadius),
-                 vanDerWaalsSphereForce(kGap, kHamaker, kRadius) / 4.0, kRoundOff);
 }
 
 TEST(Electrostatic, reproducesTheElectrodesOfTheReference) {
@@ -105,28 +74,6 @@ TEST(Electrostatic, growsWithTheSquareOfTheVoltageEitherSign) {
 
 TEST(Electrostatic, bareContactIsAShortCircuit) {
   EXPECT_TRUE(std::isinf(electrostaticPressure(0.0, 5.0, 0.0, 1.0)));
-}
-
-TEST(PullIn, reproducesTheReference) {
-  expectRelative(pullInVoltage(1.0, 2e-6, 1e-8), 5.1741, 1e-5);  // published to five digits
-}
-
-TEST(PullIn, isTheLargestVoltageThatTheSpringHolds) {
-  // second route: the voltage that balances k x at travel x, its maximum over x
-  const double k = 3.3;
-  const double rest_gap = 1.7e-6;
-  const double area = 4e-9;
-  const double thickness = 0.2e-6;
-  const double permittivity = 7.5;
-  double largest = 0.0;
-  for (int step = 1; step < 20000; ++step) {
-    const double travel = rest_gap * step / 20000.0;
-    const double pressure_of_one_volt =
-        electrostaticPressure(rest_gap - travel, 1.0, thickness, permittivity);
-    largest = std::fmax(largest, std::sqrt(k * travel / (area * pressure_of_one_volt)));
-  }
-  // a scan in steps of 5e-5 misses a maximum by its square
-  expectRelative(largest, pullInVoltage(k, rest_gap, area, thickness, permittivity), 1e-7);
 }
 
 TEST(PullIn, scalesWithGapSpringAndArea) {
