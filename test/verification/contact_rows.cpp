@@ -120,8 +120,8 @@ Section capsSection() {
 Section plasticitySection() {
   Section section{"Plasticity", {}};
   section.rows = {
-      published("(9), E/Ha sqrt(3 nm/300 nm)", "", "by hand: 7.399817 times 0.1",
-                plasticityIndex(88.7978e9, 12e9, 3e-9, 300e-9), "0.7399817"),
+      exact("(9), E/Ha sqrt(3 nm/300 nm)", "", "by hand: 88.7978/12 times 0.1",
+            plasticityIndex(88.7978e9, 12e9, 3e-9, 300e-9), 88.7978 / 12.0 * 0.1),
       exact("chi at phi = 0.85", "", "(10.2)", regimeFactor(0.85), 0.5),
       exact("chi at phi = 0.6", "", "(10.2)", regimeFactor(0.6), 1.0),
       near("chi at phi = 1.1", "", "(10.2)", regimeFactor(1.1), 0.0, kRoundOff, kRoundOffReason),

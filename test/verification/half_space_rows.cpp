@@ -156,7 +156,7 @@ std::vector<Row> sphereRows() {
   std::vector<Row> rows;
   const char* kRings = "the same law on rings, by Newton's method";
   const char* kSame = "steps of the height, two pixels per cohesive length";
-  for (const double tabor : {0.05, 0.16, 0.3, 0.5, 1.0, 2.0}) {
+  for (const double tabor : {0.05, 0.16, 0.3, 0.5, 1.0, 2.0, 3.0}) {
     const double found = spherePullOff(tabor, 2.0, {0.3, 0.2});
     const double rings = axisymmetric::pullOff(tabor);
     char text[64];

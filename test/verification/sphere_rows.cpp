@@ -75,13 +75,18 @@ std::vector<Row> jkrRows(double load) {
 
 std::vector<Row> hertzRows(double load) {
   const double a = std::cbrt(0.75 * load * kRadius / kModulus);
-  return onGrids({limit(withLoad("without adhesion: area of the cells", load), "m^2", "Hertz",
+  return onGrids({limit(withLoad("without adhesion: contact area by JKR", load), "m^2", "Hertz",
+                        circle(a), 1e-3, kTenth, ofCaps()),
+                  limit(withLoad("without adhesion: area of the cells", load), "m^2", "Hertz",
                         circle(a), 2e-3, kTwoTenths, ofRims())},
                  {kPixels, {12.5, 25, 50, 100}},
                  [=](double pixels, const Phase& phase) -> std::vector<double> {
-                   return {AdhesionModel(contactOnly(load, 0.0))
-                               .predict(sphereOn(gridAt(phase), kRadius, a, pixels))
-                               .contact_area};
+                   const Prediction found =
+                       AdhesionModel(contactOnly(load, 0.0))
+                           .predict(sphereOn(gridAt(phase), kRadius, a, pixels));
+                   if (found.status != Status::kEquilibrium || found.pull_off_force != 0.0)
+                     return {};
+                   return {found.contact_area_jkr, found.contact_area};
                  });
 }
 
@@ -140,6 +145,10 @@ std::vector<Row> arrayRows() {
   const char* why = "the same cells in each tile; sums of twelve";
   return {near("pull-off of 12 spheres over that of one", "", "12",
                twelve.pull_off_force / one.pull_off_force, 12.0, 1e-9, why),
+          near("contact area by JKR of 12 spheres over that of one", "", "12",
+               twelve.contact_area_jkr / one.contact_area_jkr, 12.0, 1e-9, why),
+          near("approach of 12 spheres over that of one", "", "1", twelve.approach / one.approach,
+               1.0, 1e-9, why),
           near("contact cells of 12 spheres over those of one", "", "12",
                twelve.contact_area / one.contact_area, 12.0, 1e-9, why),
           near("energy of 12 spheres over that of one", "", "12",

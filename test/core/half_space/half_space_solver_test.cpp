@@ -17,7 +17,6 @@
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
-#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -64,50 +63,6 @@ TEST(HalfSpaceSolver, FlatOnFlatIsTheLawItself) {
   EXPECT_NEAR(solution.rest_height / kRange, 1.0, 1e-3);
   EXPECT_NEAR(solution.hysteresis, 0.0, 1e-10);
   EXPECT_EQ(solution.jumps, 0);
-}
-
-TEST(HalfSpaceSolver, HertzsSphereWithoutAttraction) {
-  const double radius = 200e-9;
-  const HeightMap sphere = analytic::paraboloid(63, 63, 1e-9, 1e-9, radius);
-  HalfSpaceOptions options = elastic();
-  options.attraction = false;
-  options.range = 5e-12;  // a wall, beside depths of 1 nm
-  options.boundary = HalfSpaceBoundary::kFree;
-  options.step = 2.0;
-  HalfSpaceProblem problem = problemOf(sphere);
-  problem.load.mechanical_load = hertz::load(1e-9, radius, kModulus);
-  const SolvedHalfSpace solution = solve(problem, options);
-  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-  EXPECT_NEAR(-solution.rest_height / 1e-9, 1.0,
-              0.01);  // of it z0 0.5 %, the pitch of a/14 the rest
-  const double contact = hertz::contactRadius(problem.load.mechanical_load, radius, kModulus);
-  EXPECT_NEAR(solution.contact_area / (kPi * contact * contact), 1.0,
-              0.05);  // a rim of half a pixel in a/14
-  EXPECT_EQ(solution.contact_count, 1);
-  const double peak = hertz::maximumPressure(problem.load.mechanical_load, radius, kModulus);
-  EXPECT_NEAR(solution.pressure.at<float>(31, 31) / peak, 1.0, 0.01);
-}
-
-TEST(HalfSpaceSolver, WestergaardsWavyWall) {
-  const int cols = 256;
-  const double pitch = 1e-9;
-  const double length = cols * pitch;
-  const double amplitude = 1e-9;
-  const HeightMap wave = analytic::sine(2, cols, pitch, pitch, amplitude, 1);
-  const double full = kPi * kModulus * amplitude / length;  // mean pressure that closes the gap
-  for (const double share : {0.2, 0.5}) {
-    HalfSpaceOptions options = elastic();
-    options.attraction = false;
-    options.range = 2e-12;
-    options.step = 2.0;
-    HalfSpaceProblem problem = problemOf(wave);
-    problem.load.mechanical_load = share * full * 2 * cols * pitch * pitch;
-    const SolvedHalfSpace solution = solve(problem, options);
-    ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-    // p/p* = sin^2(pi a/length), Johnson (13.11), contact from -a to a; one pixel on each side
-    const double half_width = length / kPi * std::asin(std::sqrt(share));
-    EXPECT_NEAR(solution.contact_area / (2.0 * pitch), 2.0 * half_width, 3.0 * pitch);
-  }
 }
 
 /// Amplitude of one wave along x in the second row of a map.
@@ -303,6 +258,7 @@ TEST(HalfSpaceSolver, FarEdgesDoNotMatterToASinglePeak) {
   const SolvedHalfSpace free = solve(problemOf(sphere), options);
   ASSERT_EQ(free.status, HalfSpaceStatus::kSolved) << free.message;
   EXPECT_NEAR(free.pull_off_force / periodic.pull_off_force, 1.0, 5e-3);
+  EXPECT_EQ(free.contact_count, 1);
 }
 
 TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {

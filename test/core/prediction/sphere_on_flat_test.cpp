@@ -81,22 +81,6 @@ TEST_P(SphereOnFlat, comesCloserWithAFinerPitch) {
   }
 }
 
-TEST(SphereOnFlat, isHertzAsAdhesionVanishes) {
-  for (const double load : {1e-7, 1e-6, 1e-5}) {
-    const double a = std::cbrt(load * kRadius / (4.0 / 3.0 * contactModulus()));
-    for (const double work_of_adhesion : {0.0, 1e-9}) {
-      Options options = silicon(load);
-      options.interface.work_of_adhesion = work_of_adhesion;
-      const Prediction prediction =
-          AdhesionModel(options).predict(sphereOn(kGrids[1], kRadius, a, 25));
-      EXPECT_EQ(prediction.status, Status::kEquilibrium);
-      EXPECT_NEAR(prediction.contact_area_jkr, kPi * a * a, 0.03 * kPi * a * a);
-      EXPECT_NEAR(prediction.contact_area, kPi * a * a, 0.06 * kPi * a * a);
-      EXPECT_LT(prediction.pull_off_force, 1e-3 * load);
-    }
-  }
-}
-
 /// chi of a sphere in a frame: by (9) with the rms height of that frame.
 double elasticShareOf(const Prediction& prediction, double radius, double hardness) {
   return regimeFactor(
@@ -151,27 +135,6 @@ TEST(SphereOnFlat, neverRestsWhenFullyPlastic) {
   }
 }
 
-TEST(SphereArray, isNTimesOneSphere) {
-  const double load = 1e-6;
-  const double a = jkrRadius(load);
-  const double pitch = a / 25;
-  const auto predictArray = [&](int count_x, int count_y, double total_load) {
-    return AdhesionModel(silicon(total_load))
-        .predict(analytic::sphereArray(90 * count_y, 96 * count_x, pitch, pitch, {kRadius}, count_x,
-                                       count_y));
-  };
-  const Prediction one = predictArray(1, 1, load);
-  const Prediction twelve = predictArray(4, 3, 12 * load);
-  EXPECT_EQ(twelve.status, Status::kEquilibrium);
-  EXPECT_EQ(twelve.asperity_count, 12);
-  // the same cells come into contact; sigma, and with it the step, is the same
-  EXPECT_NEAR(twelve.contact_area, 12 * one.contact_area, 1e-9 * twelve.contact_area);
-  EXPECT_NEAR(twelve.contact_area_jkr, 12 * one.contact_area_jkr, 1e-6 * twelve.contact_area_jkr);
-  EXPECT_NEAR(twelve.pull_off_force, 12 * one.pull_off_force, 1e-6 * twelve.pull_off_force);
-  EXPECT_NEAR(twelve.total_energy, 12 * one.total_energy, 1e-6 * std::abs(twelve.total_energy));
-  EXPECT_NEAR(twelve.approach, one.approach, 1e-15);
-}
-
 TEST(SphereArray, ofTwoRadiiHasTheSumOfTheirPullOffs) {
   const double radii[] = {1e-6, 2e-6};
   const double pitch = 1.25e-9;
@@ -216,22 +179,6 @@ TEST(SphereOnTiltedFlat, isPressedByTheLoadAlongItsAxis) {
   const double a = jkrRadius(load * std::cos(asperity.tilt), asperity.composite_radius);
   EXPECT_NEAR(asperity.contact_radius, a, 1e-9 * a);
   EXPECT_NEAR(asperity.cap_radius, a, 0.03 * a);  // 25 pixels
-}
-
-TEST(SphereOnSphere, isASphereOfTheCompositeRadiusOnAFlat) {
-  const double load = 1e-6;
-  const double composite = 1.0 / (1.0 / 2e-6 + 1.0 / 3e-6);  // (5)
-  const double a = jkrRadius(load, composite);
-  const double pitch = a / 25;
-  const HeightMap lower = analytic::paraboloid(101, 110, pitch, pitch, 2e-6);
-  const HeightMap cap = analytic::paraboloid(101, 110, pitch, pitch, 3e-6);
-  const cv::Mat1d upper = -cap.heights();
-  const Prediction prediction =
-      AdhesionModel(silicon(load)).predict({lower, HeightMap(upper, pitch, pitch)});
-  EXPECT_EQ(prediction.status, Status::kEquilibrium);
-  EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * kWorkOfAdhesion * composite,
-              0.03 * prediction.pull_off_force);
-  EXPECT_NEAR(prediction.contact_area_jkr, kPi * a * a, 0.03 * kPi * a * a);
 }
 
 }  // namespace
