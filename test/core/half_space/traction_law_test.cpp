@@ -12,25 +12,22 @@
 namespace mems_stiction {
 namespace {
 
-TEST(TractionLaw, WorkOfSeparationIsTheWorkOfAdhesion) {
-  const TractionLaw law{TractionLawOptions()};
-  EXPECT_NEAR(law.at(law.range()).energy, -0.05, 1e-15);
-  EXPECT_NEAR(law.at(law.range()).traction, 0.0, 1e-6);  // of 1e9 Pa
-}
-
-TEST(TractionLaw, FallsOffAsTheHamakerConstantSays) {
-  const TractionLaw law{TractionLawOptions()};
-  const double gap = 300.0 * law.range();  // (z0/g)^6 is below round-off
-  EXPECT_NEAR(law.at(gap).traction / surface_forces::vanDerWaalsPressure(gap, 65e-21), 1.0, 1e-12);
-}
-
-TEST(TractionLaw, IsStrongestAtTheSixthRootOfThree) {
-  TractionLawOptions options;
-  options.range = 3e-10;
-  const TractionLaw law(options);
-  const auto strongest = law.at(std::pow(3.0, 1.0 / 6.0) * 3e-10);
-  EXPECT_NEAR(strongest.slope, 0.0, 1e-12 * law.stress() / 3e-10);
-  EXPECT_NEAR(strongest.traction, 16.0 * 0.05 / (9.0 * std::sqrt(3.0) * 3e-10), 1e-6);
+TEST(TractionLaw, IsTheLawOfAdhesionWhereNothingElseActs) {
+  for (const double range : {0.0, 3e-10}) {
+    TractionLawOptions options;
+    options.range = range;
+    const TractionLaw law(options);
+    const AdhesionLaw adhesion(0.05, range > 0.0 ? range : AdhesionLaw::rangeOf(0.05, 65e-21));
+    EXPECT_DOUBLE_EQ(law.range(), adhesion.range());
+    for (const double x : {1.5, 1.0, 0.8, 0.2, 1.0 / 300.0}) {
+      const auto point = law.at(law.range() / x);
+      EXPECT_NEAR(point.traction / adhesion.strength(), adhesion.traction(x) / adhesion.strength(),
+                  1e-12)
+          << x;
+      EXPECT_NEAR(point.slope / adhesion.slope(x), 1.0, 1e-12) << x;
+      EXPECT_NEAR(point.energy / -adhesion.energy(x), 1.0, 1e-12) << x;
+    }
+  }
 }
 
 void expectDerivatives(const TractionLawOptions& options) {
