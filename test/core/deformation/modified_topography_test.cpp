@@ -25,29 +25,6 @@ DeformationShare shareOf(double lower_hardness, double upper_hardness) {
   return {lower, upper, kLimit};
 }
 
-TEST(DeformationShare, isHalfForEqualHardness) {
-  EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9).lower(kPlastic), 0.5);
-  EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9).upper(kPlastic), 0.5);
-}
-
-TEST(DeformationShare, growsWithTheHardnessOfTheOther) {
-  // lower by 5 %: s = 1/2 + (1/2) ln(H2/H1)/|ln a|
-  EXPECT_NEAR(shareOf(10e9, 10.5e9).lower(kPlastic), 0.5 + 0.5 * std::log(1.05) / std::log(1 / 0.9),
-              1e-12);
-  EXPECT_NEAR(shareOf(10.5e9, 10e9).lower(kPlastic), 0.5 - 0.5 * std::log(1.05) / std::log(1 / 0.9),
-              1e-12);
-  EXPECT_NEAR(shareOf(9.0e9, 10e9).lower(kPlastic), 1.0,
-              1e-9);  // at the limit, where (13) takes over
-  EXPECT_NEAR(shareOf(10e9, 9.0e9).lower(kPlastic), 0.0, 1e-9);
-}
-
-TEST(DeformationShare, isAllForTheSofterBodyBeyondTheLimit) {
-  EXPECT_EQ(shareOf(1e9, 12e9).lower(kPlastic), 1.0);
-  EXPECT_EQ(shareOf(1e9, 12e9).upper(kPlastic), 0.0);
-  EXPECT_EQ(shareOf(12e9, 1e9).lower(kPlastic), 0.0);
-  EXPECT_EQ(shareOf(12e9, 1e9).upper(kPlastic), 1.0);
-}
-
 TEST(DeformationShare, dependsOnTheRegime) {
   const DeformationShare share = shareOf(10e9, 10.5e9);
   const double s = share.lower(kPlastic);
@@ -131,26 +108,6 @@ TEST(ModifiedTopography, ofAFullyPlasticPatchEndsInTouch) {
   EXPECT_GT(plastic_cells, 10);
 }
 
-TEST(ModifiedTopography, takesVolumeByTheShareOfHardness) {
-  const Contact contact(0.8e9, 0.84e9);
-  const Prediction prediction = contact.predict();
-  double volume = 0.0;
-  double lower_volume = 0.0;
-  double upper_volume = 0.0;
-  forEachContact(contact, prediction,
-                 [&](Regime regime, double interference, double lost, double raised) {
-                   EXPECT_GE(interference, -kOffsetRoundOff);
-                   if (regime != Regime::kPlastic) return;
-                   volume += interference;
-                   lower_volume += lost;
-                   upper_volume += raised;
-                 });
-  const double s = 0.5 + 0.5 * std::log(1.05) / std::log(1 / 0.9);
-  ASSERT_GT(volume, 0.0);
-  EXPECT_NEAR(lower_volume / volume, s, 1e-6);
-  EXPECT_NEAR(upper_volume / volume, 1.0 - s, 1e-6);
-}
-
 TEST(ModifiedTopography, leavesTheHarderBodyAlone) {
   for (const bool lower_is_soft : {true, false}) {
     const Contact contact(lower_is_soft ? 0.8e9 : 12e9, lower_is_soft ? 12e9 : 0.8e9);
@@ -179,21 +136,16 @@ TEST(ModifiedTopography, bringsElasticPatchesBackUnchanged) {
   EXPECT_GT(cells, 0);
 }
 
-TEST(ModifiedTopography, changesCellsInInterferenceOnly) {
+TEST(ModifiedTopography, keepsInvalidCells) {
   const Contact contact(0.8e9, 0.8e9);
   const Prediction prediction = contact.predict();
   int invalid = 0;
   for (int row = 0; row < contact.lower.rows(); ++row) {
     for (int col = 0; col < contact.lower.cols(); ++col) {
-      if (prediction.contact_map.at<std::uint8_t>(row, col) != 0) continue;
-      const double before = contact.lower.height(row, col);
-      const double after = prediction.deformed_lower.at<double>(row, col);
-      if (std::isfinite(before)) {
-        ASSERT_EQ(after, before);
-      } else {
-        ASSERT_FALSE(std::isfinite(after));
-        ++invalid;
-      }
+      if (std::isfinite(contact.lower.height(row, col))) continue;
+      ++invalid;
+      ASSERT_EQ(prediction.contact_map.at<std::uint8_t>(row, col), 0);
+      ASSERT_FALSE(std::isfinite(prediction.deformed_lower.at<double>(row, col)));
       ASSERT_EQ(prediction.deformed_upper.at<double>(row, col), contact.upper.height(row, col));
     }
   }
