@@ -6,7 +6,6 @@
 
 #include "mechanics/jkr.hpp"
 #include "numeric/constants.hpp"
-#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -93,36 +92,6 @@ TEST(Energies, areLargestWhereAMixedAsperityRests) {
         EXPECT_GT(totalAt(rest), totalAt(aside * rest)) << chi;
     }
   }
-}
-
-TEST(Energies, areJkrsAtEquilibrium) {
-  for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
-    const double load = kPi * sphere.work_of_adhesion * sphere.radius;
-    const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius,
-                                                   law.contact_modulus);
-    const Energies energies = asperityEnergies(responseOf(sphere, a, 1.0, law), load, law);
-    // JKR's total is the work to get there less the work of the load: stored - pi w a^2 - P d
-    const double work = jkr::energy(a, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
-    const double depth =
-        jkr::approach(a, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
-    EXPECT_NEAR(-energies.total(), work - load * depth, 1e-9 * energies.surface);
-    EXPECT_NEAR(energies.mechanical, load * depth, 1e-9 * energies.surface);
-    EXPECT_NEAR(energies.surface, kPi * sphere.work_of_adhesion * a * a, 1e-12 * energies.surface);
-    EXPECT_NEAR(energies.elastic, work + energies.surface, 1e-9 * energies.surface);
-  }
-}
-
-TEST(Energies, storeNothingInAPlasticAsperity) {
-  const Sphere& sphere = kSpheres[0];
-  const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
-  const Energies plastic = asperityEnergies(responseOf(sphere, 30e-9, 0.0, law), 1e-6, law);
-  const Energies elastic = asperityEnergies(responseOf(sphere, 30e-9, 1.0, law), 1e-6, law);
-  const Energies mixed = asperityEnergies(responseOf(sphere, 30e-9, 0.25, law), 1e-6, law);
-  EXPECT_EQ(plastic.elastic, 0.0);
-  EXPECT_NEAR(mixed.elastic, 0.25 * elastic.elastic, 1e-12 * elastic.elastic);
-  EXPECT_EQ(plastic.mechanical, elastic.mechanical);
-  EXPECT_EQ(plastic.surface, elastic.surface);
 }
 
 /// Two asperities of different volume and tilt.
