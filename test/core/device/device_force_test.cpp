@@ -13,10 +13,9 @@
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "prediction/area_adhesion.hpp"
 #include "preprocess/level.hpp"
-#include "roughness/half_spectrum.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/gaussian_heights.hpp"
 #include "support/holed_surfaces.hpp"
-#include "surface/random_field.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -25,14 +24,7 @@ constexpr double kPitch = 10e-9;
 constexpr int kSide = 768;
 
 cv::Mat surfaceOf(int side, double length, double rms, int seed) {
-  cv::Mat field = filteredNoise(whiteNoise(side, side, seed), [&](int row, int col) {
-    const double q = std::hypot(waveNumber(col, side, kPitch), waveNumber(row, side, kPitch));
-    return std::exp(-q * q * length * length / 8.0);
-  });
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(field, mean, deviation);
-  return field * (rms / deviation[0]);
+  return gaussianHeights(side, kPitch, length, rms, seed);
 }
 
 NamedScan part(const std::string& name, const cv::Mat& heights, int row, int col, int side) {

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "roughness/half_spectrum.hpp"
+#include "support/gaussian_heights.hpp"
 #include "support/holed_surfaces.hpp"
-#include "surface/random_field.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -18,14 +17,7 @@ constexpr int kSide = 64;
 std::vector<HeightMap> scansOf(double rms, int first_seed, int count) {
   std::vector<HeightMap> scans;
   for (int seed = first_seed; seed < first_seed + count; ++seed) {
-    const cv::Mat field = filteredNoise(whiteNoise(kSide, kSide, seed), [](int row, int col) {
-      const double q = std::hypot(waveNumber(col, kSide, kPitch), waveNumber(row, kSide, kPitch));
-      return std::exp(-q * q * 50e-9 * 50e-9 / 8.0);
-    });
-    cv::Scalar mean;
-    cv::Scalar deviation;
-    cv::meanStdDev(field, mean, deviation);
-    scans.emplace_back(field * (rms / deviation[0]), kPitch, kPitch);
+    scans.emplace_back(gaussianHeights(kSide, kPitch, 50e-9, rms, seed), kPitch, kPitch);
   }
   return scans;
 }

@@ -7,8 +7,7 @@
 
 #include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
-#include "roughness/half_spectrum.hpp"
-#include "surface/random_field.hpp"
+#include "support/gaussian_heights.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -16,17 +15,7 @@ namespace {
 constexpr double kPitch = 10e-9;
 constexpr int kSide = 128;
 
-/// Gaussian, rms height 5 nm, correlation length 50 nm.
-cv::Mat evenHeights(int seed) {
-  const cv::Mat field = filteredNoise(whiteNoise(kSide, kSide, seed), [](int row, int col) {
-    const double q = std::hypot(waveNumber(col, kSide, kPitch), waveNumber(row, kSide, kPitch));
-    return std::exp(-q * q * 50e-9 * 50e-9 / 8.0);
-  });
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(field, mean, deviation);
-  return field * (5e-9 / deviation[0]);
-}
+cv::Mat evenHeights(int seed) { return gaussianHeights(kSide, kPitch, 50e-9, 5e-9, seed); }
 
 NamedScan evenScan(const std::string& name, int seed) {
   return {name, HeightMap(evenHeights(seed), kPitch, kPitch)};

@@ -8,8 +8,7 @@
 
 #include "device/made_surface.hpp"
 #include "preprocess/level.hpp"
-#include "roughness/half_spectrum.hpp"
-#include "surface/random_field.hpp"
+#include "support/gaussian_heights.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -17,14 +16,7 @@ namespace {
 constexpr double kPitch = 10e-9;
 
 cv::Mat gaussianField(int side, double length, int seed) {
-  cv::Mat field = filteredNoise(whiteNoise(side, side, seed), [&](int row, int col) {
-    const double q = std::hypot(waveNumber(col, side, kPitch), waveNumber(row, side, kPitch));
-    return std::exp(-q * q * length * length / 8.0);
-  });
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(field, mean, deviation);
-  return field / deviation[0];
+  return gaussianHeights(side, kPitch, length, 1.0, seed);
 }
 
 std::vector<HeightMap> partsOf(const cv::Mat& heights, int side) {

@@ -8,6 +8,7 @@
 
 #include "device/device_evidence.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "support/predicted_contacts.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
@@ -16,30 +17,14 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kCell = 25e-18;
-constexpr double kArea = 1e-12;    ///< of the scan [m^2]
-constexpr double kPullOff = 1e-7;  ///< of the scan [N]
+using predicted_contacts::kArea;
+using predicted_contacts::kCell;
+using predicted_contacts::kPullOff;
+using predicted_contacts::predicted;
+
 constexpr double kOfDevice =
     4e-7;  ///< pull-off force of the device, whose area is 100 times that of the scan [N]
 constexpr double kDeviation = 0.25;
-
-/// @param contacts of 100 pixels each
-Prediction predicted(int contacts = 25) {
-  Prediction prediction;
-  prediction.status = Status::kEquilibrium;
-  prediction.nominal_area = kArea;
-  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition =
-      kPullOff;
-  prediction.apparent_work_of_adhesion = 0.01;
-  prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
-  prediction.model.assumes_jkr = false;
-  prediction.asperity_count = prediction.pull_off_contact_count = contacts;
-  Asperity asperity;
-  asperity.composite_radius = 1e-6;
-  asperity.area = 100 * kCell;
-  prediction.asperities.assign(static_cast<std::size_t>(contacts), asperity);
-  return prediction;
-}
 
 /// Whose spring has `margin` by its own force.
 DeviceOptions springOf(double margin) {

@@ -11,34 +11,20 @@
 #include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
+#include "support/predicted_contacts.hpp"
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr double kCell = 25e-18;
-constexpr double kArea = 1e-12;
-constexpr double kPullOff = 1e-7;  ///< of the prediction [N]
+using predicted_contacts::kArea;
+using predicted_contacts::kCell;
+using predicted_contacts::kPullOff;
 
-/// By the separation curve: 25 equal contacts of 100 pixels.
 Prediction predicted() {
-  Prediction prediction;
-  prediction.status = Status::kEquilibrium;
-  prediction.nominal_area = kArea;
-  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition =
-      kPullOff;
-  prediction.apparent_work_of_adhesion = 0.01;
-  prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
+  Prediction prediction = predicted_contacts::predicted();
   prediction.model.error = {0.05, 0.04};
-  prediction.model.assumes_jkr = false;
-  prediction.asperity_count = prediction.pull_off_contact_count = 25;
-  for (int i = 0; i < prediction.asperity_count; ++i) {
-    Asperity asperity;
-    asperity.composite_radius = 1e-6;
-    asperity.area = 100 * kCell;
-    prediction.asperities.push_back(asperity);
-  }
   return prediction;
 }
 
