@@ -2,7 +2,6 @@
 by tornado's web socket."""
 
 import asyncio
-import base64
 import json
 import os
 import pathlib
@@ -225,10 +224,6 @@ class Browser:
     def download_to(self, folder):
         """What the page saves goes there."""
         self._call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
-
-    def screenshot(self, path, whole=False):
-        picture = self._call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
-        pathlib.Path(path).write_bytes(base64.b64decode(picture["data"]))
 
     def close(self):
         """Ends the browser with all its processes: the program may be a script that starts it."""

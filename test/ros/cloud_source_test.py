@@ -10,7 +10,6 @@ import tempfile
 import unittest
 
 import numpy as np
-import rosbag
 import rospy
 import rostest
 import yaml
@@ -38,6 +37,7 @@ from stiction_client import (
     Collector,
     bytes_of,
     peak_memory,
+    recorded_stamps,
     source_counts,
     stating,
     wait_until,
@@ -225,12 +225,7 @@ class CloudTest(unittest.TestCase):
     def test_6_the_recording_has_each_cloud_that_became_a_scan(self):
         sent = {message.header.stamp for message in self.predictions.messages}
         self.stop()
-        (bag,) = self.top.glob("day*.bag")
-        with rosbag.Bag(str(bag)) as recording:
-            stamps = {
-                topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
-                for topic in ("/height", "/prediction")
-            }
+        stamps = recorded_stamps(self.top, "/height", "/prediction")
         self.assertEqual(stamps["/prediction"], stamps["/height"])
         self.assertLessEqual(sent, stamps["/prediction"])
 

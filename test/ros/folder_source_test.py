@@ -14,7 +14,6 @@ import time
 import unittest
 
 import numpy as np
-import rosbag
 import rospy
 import rostest
 import yaml
@@ -30,6 +29,7 @@ from stiction_client import (
     Collector,
     predict_scan,
     process_of,
+    recorded_stamps,
     rough_surface,
     source_counts,
     thread_seconds,
@@ -477,12 +477,7 @@ class FolderTest(unittest.TestCase):
     def test_b_the_recording_has_each_scan_and_its_prediction(self):
         sent = {prediction.header.stamp for prediction in self.predictions.messages}
         self.stop()
-        (bag,) = self.top.glob("day*.bag")
-        with rosbag.Bag(str(bag)) as recording:
-            stamps = {
-                topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
-                for topic in ("/height", "/scan_info", "/prediction")
-            }
+        stamps = recorded_stamps(self.top, "/height", "/scan_info", "/prediction")
         self.assertEqual(stamps["/height"], stamps["/scan_info"])
         self.assertEqual(stamps["/prediction"], stamps["/height"])
         self.assertLessEqual(sent, stamps["/prediction"])

@@ -16,6 +16,7 @@ import unittest
 import xmlrpc.client
 
 import numpy as np
+import rosbag
 import rosgraph
 import rospy
 import yaml
@@ -556,6 +557,16 @@ def make_bag(path, *arguments):
     # rosrun looks into no folder called build below the package.
     program = find_node("mems_stiction", "make_scan_bag")[0]
     subprocess.run([program, "-o", path] + list(arguments), check=True, timeout=300)
+
+
+def recorded_stamps(folder, *topics):
+    """Of the messages on each topic in the folder's recording of a day."""
+    (bag,) = folder.glob("day*.bag")
+    with rosbag.Bag(str(bag)) as recording:
+        return {
+            topic: {message.header.stamp for _, message, _ in recording.read_messages([topic])}
+            for topic in topics
+        }
 
 
 def play_bag(path):
