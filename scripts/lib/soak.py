@@ -195,16 +195,28 @@ class Callers:
         listener.unregister()
 
 
-def main(pid, minutes, seed):
+def begin():
+    """What the node counts, and the stamps of its predictions, as they come."""
     rospy.init_node("soak", disable_signals=True)
     counts = Counts()
-    published = []  # stamps
+    published = []
     rospy.Subscriber(
         "prediction",
         StictionPrediction,
         lambda message: published.append(message.header.stamp),
         queue_size=1000,
     )
+    return counts, published
+
+
+def end_with(wrong):
+    """Says what was wrong; the exit status."""
+    print("; ".join(wrong) if wrong else "all is well")
+    return 1 if wrong else 0
+
+
+def main(pid, minutes, seed):
+    counts, published = begin()
     process = Process(pid)
     scans = Scans(random.Random(seed))
     callers = [
@@ -299,8 +311,7 @@ def main(pid, minutes, seed):
         wrong.append("handles have grown")
     if alive:
         wrong.append("%d callers got no answer" % len(alive))
-    print("; ".join(wrong) if wrong else "all is well")
-    return 1 if wrong else 0
+    return end_with(wrong)
 
 
 if __name__ == "__main__":

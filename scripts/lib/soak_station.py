@@ -16,11 +16,9 @@ import threading
 import time
 
 import numpy as np
-import rospy
 import soak
 import tornado.websocket
-from mems_stiction.msg import StictionPrediction
-from stiction_client import Counts, source_counts, wait_until
+from stiction_client import source_counts, wait_until
 
 TABS = 4
 PAUSE = 4.0  # between files [s], so that a device has its force before the next scan
@@ -143,15 +141,7 @@ class Instrument:
 
 
 def main(group, folder, port, minutes, seed):
-    rospy.init_node("soak", disable_signals=True)
-    counts = Counts()
-    published = []
-    rospy.Subscriber(
-        "prediction",
-        StictionPrediction,
-        lambda message: published.append(message.header.stamp),
-        queue_size=1000,
-    )
+    counts, published = soak.begin()
     source = source_counts()
     wait_until(lambda: len(processes_below(group)) == len(PROGRAMS), "all programs", 120.0)
     wait_until(lambda: source["found"], "the source to report")
@@ -207,8 +197,7 @@ def main(group, folder, port, minutes, seed):
         wrong.append("the node counts %s predictions" % counts["predicted"])
     if min(tab.states for tab in tabs) < instrument.good or any(tab.closed for tab in tabs):
         wrong.append("a tab lost states or its connection")
-    print("; ".join(wrong) if wrong else "all is well")
-    return 1 if wrong else 0
+    return soak.end_with(wrong)
 
 
 if __name__ == "__main__":
