@@ -53,6 +53,11 @@ class Surface(NamedTuple):
         """A map of the core in the index order of the heights that came in."""
         return array.T if self.is_transposed else array
 
+    def map_of(self, memory: Any) -> Optional[np.ndarray]:
+        """The same of the core's memory; None for None."""
+        array = array_of(memory)
+        return None if array is None else self.back(array)
+
 
 def surface_of(
     heights: Any, pitch: Optional[Pitch], settings: Settings, what: str = "heights"
@@ -302,6 +307,11 @@ def records_of(records: _core.Records) -> np.recarray:
     memory = np.asarray(records.bytes)
     memory.flags.writeable = False
     return memory.view(layout).view(np.recarray)
+
+
+def copied(value: Any) -> Any:
+    """An array with memory of its own; anything else as it is."""
+    return np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
 
 
 def plain_value(value: Any) -> Any:

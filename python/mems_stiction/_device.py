@@ -15,6 +15,7 @@ from mems_stiction._arrays import (
     ReadOnly,
     Surface,
     array_of,
+    copied,
     explained,
     records_of,
     surface_of,
@@ -91,10 +92,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
     picture = save_picture
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {
-            name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
-            for name, value in self.__dict__.items()
-        }
+        return {name: copied(value) for name, value in self.__dict__.items()}
 
     def __repr__(self) -> str:
         lines = ["Device of %s, by %s" % (area_text(self.area), counted(len(self.scans), "scan"))]

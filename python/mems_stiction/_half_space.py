@@ -13,7 +13,7 @@ from mems_stiction._arrays import (
     Pitch,
     ReadOnly,
     Surface,
-    array_of,
+    copied,
     explained,
     plain_value,
     records_of,
@@ -37,10 +37,6 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
     """
 
     def __init__(self, core: _core.SolvedScan, surface: Surface) -> None:
-        def view(memory: Any) -> Optional[np.ndarray]:
-            array = array_of(memory)
-            return None if array is None else surface.back(array)
-
         self.__dict__.update(core.figures)
         verdict = core.verdict
         self.verdict: Optional[Verdict]
@@ -67,11 +63,11 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
             name=surface.name,
             pitch=surface.core.pitch,
             curve=records_of(core.curve),
-            pressure=view(core.pressure),
-            gap=view(core.gap),
-            contact_map=view(core.contact_map),
-            deformed_lower=view(core.deformed_lower.pixels),
-            deformed_upper=view(core.deformed_upper.pixels),
+            pressure=surface.map_of(core.pressure),
+            gap=surface.map_of(core.gap),
+            contact_map=surface.map_of(core.contact_map),
+            deformed_lower=surface.map_of(core.deformed_lower.pixels),
+            deformed_upper=surface.map_of(core.deformed_upper.pixels),
         )
 
     def save_maps(self, path: Union[str, "os.PathLike[str]"]) -> None:
@@ -101,10 +97,7 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         _pictures.save_half_space(self, os.fspath(path))
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {
-            name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
-            for name, value in self.__dict__.items()
-        }
+        return {name: copied(value) for name, value in self.__dict__.items()}
 
     def __repr__(self) -> str:
         lines = [

@@ -18,7 +18,7 @@ from mems_stiction._arrays import (
     Pitch,
     ReadOnly,
     Surface,
-    array_of,
+    copied,
     explained,
     records_of,
     surface_of,
@@ -122,11 +122,10 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         return self.__dict__[key]
 
     def _map(self, name: str, memory: Any) -> Optional[np.ndarray]:
-        def view() -> Optional[np.ndarray]:
-            array = array_of(memory(self._core))
-            return None if array is None else self._surface.back(array)  # type: ignore[union-attr]
-
-        return self._cached(name, view)
+        return self._cached(
+            name,
+            lambda: self._surface.map_of(memory(self._core)),  # type: ignore[union-attr]
+        )
 
     @property
     def contact_map(self) -> Optional[np.ndarray]:
@@ -290,10 +289,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         self._json = self.json()
         state = dict(self.__dict__, _core=None, _surface=None)
         for name in self._LAZY:
-            value = getattr(self, name)
-            state["_" + name] = (
-                np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
-            )
+            state["_" + name] = copied(getattr(self, name))
         return state
 
     def __repr__(self) -> str:

@@ -8,7 +8,7 @@ from typing import Any, List, Optional, Sequence, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, records_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, OptionsError
 from mems_stiction._types import Heights, Upper
@@ -78,10 +78,6 @@ class ContactCycles(ReadOnly):
     """
 
     def __init__(self, core: _core.ContactCyclesResult, surface: Surface) -> None:
-        def view(memory: Any) -> Optional[np.ndarray]:
-            array = array_of(memory)
-            return None if array is None else surface.back(array)
-
         self.cycles: np.recarray
         self.first_sticking_cycle: int
         self.lower: Optional[np.ndarray]
@@ -89,8 +85,8 @@ class ContactCycles(ReadOnly):
         self.__dict__.update(
             cycles=records_of(core.cycles),
             first_sticking_cycle=core.first_sticking_cycle,
-            lower=view(core.lower.pixels),
-            upper=view(core.upper.pixels),
+            lower=surface.map_of(core.lower.pixels),
+            upper=surface.map_of(core.upper.pixels),
         )
 
     def __repr__(self) -> str:

@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from mems_stiction.design_axes import BY_RATIO, Axis
 from mems_stiction.design_words import UNKNOWN, crossings, safe_text, text_of
-from mems_stiction.plots import lines_within, plt, save
+from mems_stiction.plots import lines_within, plt, save, statement_lines
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, ratio, typeset, unbroken
 
@@ -41,7 +41,7 @@ OPEN = dict(  # points without a verdict
 
 def save_design(record, path):
     """Writes PNG, PDF or SVG, by the ending of the path."""
-    lines = _lines(record["statements"])
+    lines = statement_lines(record["statements"], _wrapped, MOST_LINES)
     below = 0.75 + HEIGHT * len(lines)
     height = 5.4 + below
     figure = plt.figure(figsize=(WIDTH, height))
@@ -81,16 +81,8 @@ def save_design(record, path):
     save(figure, path)
 
 
-def _lines(statements):
-    lines = [
-        line
-        for text in statements
-        for line in lines_within(
-            WIDTH * (1.0 - 2.0 * LEFT), unbroken(typeset(text[0].upper() + text[1:] + ".")), LETTER
-        )
-    ]
-    left = len(lines) - MOST_LINES
-    return lines if left <= 0 else lines[: MOST_LINES - 1] + ["... and %d lines more" % (left + 1)]
+def _wrapped(sentence):
+    return lines_within(WIDTH * (1.0 - 2.0 * LEFT), unbroken(sentence), LETTER)
 
 
 def _grid(record, name, shape):

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from mems_stiction.lots_data import RELEASING, UNITS, WORDS
-from mems_stiction.plots import name_ticks, plt, save
+from mems_stiction.plots import name_ticks, plt, save, statement_lines
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, prefix_for, ratio, typeset
 
@@ -40,7 +40,10 @@ def save_comparison(record, path):
 
 def comparison_figure(record, has_statements=True):
     """The figure; the caller saves it. has_statements: the sentences stand below the panels."""
-    lines = _lines(record["statements"]) if has_statements else []
+    statements = record["statements"] if has_statements else []
+    lines = statement_lines(
+        statements, lambda sentence: textwrap.wrap(sentence, LETTERS), MOST_LINES
+    )
     below = 0.35 + LINE * len(lines)
     height = 7.6 + below
     figure = plt.figure(figsize=(11.0, height))
@@ -73,16 +76,6 @@ def comparison_figure(record, has_statements=True):
     )
     sign(figure, {"version": record["version"]})
     return figure
-
-
-def _lines(statements):
-    lines = [
-        line
-        for text in statements
-        for line in textwrap.wrap(typeset(text[0].upper() + text[1:] + "."), LETTERS)
-    ]
-    left = len(lines) - MOST_LINES
-    return lines if left <= 0 else lines[: MOST_LINES - 1] + ["... and %d lines more" % (left + 1)]
 
 
 def _empty(axes, text):

@@ -25,7 +25,7 @@ from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
 from mems_stiction.prediction_text import STATUS_NAMES, bound_of, digits_of, flag_names, flag_words  # noqa: E402
 from mems_stiction import quantities  # noqa: E402
 from mems_stiction.provenance import sign  # noqa: E402
-from mems_stiction.quantities import length_scale, literal, percent  # noqa: E402
+from mems_stiction.quantities import length_scale, literal, percent, typeset  # noqa: E402
 from mems_stiction.whole_file import whole  # noqa: E402
 
 # Elastic, elasto-plastic, fully plastic: told apart without red-green vision too.
@@ -68,6 +68,15 @@ def lines_within(width, text, size):
         else:
             lines[-1:] = [longer]
     return lines
+
+
+def statement_lines(statements, wrapped, most):
+    """Statements as sentences, in no more lines than these. wrapped: the lines of one sentence."""
+    lines = [
+        line for text in statements for line in wrapped(typeset(text[0].upper() + text[1:] + "."))
+    ]
+    left = len(lines) - most
+    return lines if left <= 0 else lines[: most - 1] + ["... and %d lines more" % (left + 1)]
 
 
 def _width(text, font):
