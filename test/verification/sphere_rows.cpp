@@ -152,7 +152,9 @@ std::vector<Row> arrayRows() {
           near("contact cells of 12 spheres over those of one", "", "12",
                twelve.contact_area / one.contact_area, 12.0, 1e-9, why),
           near("energy of 12 spheres over that of one", "", "12",
-               twelve.total_energy / one.total_energy, 12.0, 1e-9, why)};
+               twelve.total_energy / one.total_energy, 12.0, 1e-9, why),
+          near("contacts of 12 spheres in equilibrium", "", "12",
+               twelve.status == Status::kEquilibrium ? twelve.asperity_count : 0, 12.0, 1e-9, why)};
 }
 
 /// Spheres of R and 2 R at the same depth: rc^2 is about 2 R D, so volumes, and with them loads, go
