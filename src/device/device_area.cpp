@@ -386,8 +386,8 @@ bool DeviceAreaSolver::framesTell(int contacts) const {
   return share >= 1.0 || contacts * share >= kManyContacts;
 }
 
-Prediction DeviceAreaSolver::predictFrame(const cv::Mat& relief) const {
-  const HeightMap frame(relief, pieces_.size.pitch_x, pieces_.size.pitch_y);
+Prediction DeviceAreaSolver::predictFrame(const cv::Mat& heights) const {
+  const HeightMap frame(heights, pieces_.size.pitch_x, pieces_.size.pitch_y);
   AdhesionModel model(loadedOn(model_, loaded_area_, areaOf(frame)));
   return model.predict(frame);
 }
@@ -396,8 +396,8 @@ double DeviceAreaSolver::scaleOf(const Prediction& of_frame) const {
   return pieces_.area() / of_frame.nominal_area;
 }
 
-DeviceAreaSolver::Followed DeviceAreaSolver::followFrame(const cv::Mat& relief) {
-  return ofFrame(predictFrame(relief));
+DeviceAreaSolver::Followed DeviceAreaSolver::followFrame(const cv::Mat& heights) {
+  return ofFrame(predictFrame(heights));
 }
 
 DeviceAreaSolver::Followed DeviceAreaSolver::ofFrame(const Prediction& found) {

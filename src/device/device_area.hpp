@@ -94,8 +94,8 @@ class DeviceAreaSolver {
                                       const std::vector<AreaCells>& quarters, bool are_all);
   /// By places where contacts flow and a frame tells where; else as cells have it.
   Followed withFlow(const Followed& by_cells, const std::function<cv::Mat()>& frame);
-  Followed followFrame(const cv::Mat& relief);
-  Prediction predictFrame(const cv::Mat& relief) const;
+  Followed followFrame(const cv::Mat& heights);
+  Prediction predictFrame(const cv::Mat& heights) const;
   Followed ofFrame(const Prediction& found);
   /// The area that is made over that of a frame of it [-].
   double scaleOf(const Prediction& of_frame) const;

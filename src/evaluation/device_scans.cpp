@@ -31,6 +31,13 @@ Configuration ofCounterSurface(Configuration configuration) {
   return configuration;
 }
 
+/// Those of a device that one scan alone shows.
+DeviceScans scansOfOne(const PreparedScan& prepared, const Configuration& configuration) {
+  DeviceScans scans(configuration);
+  scans.add("the scan", prepared);
+  return scans;
+}
+
 }  // namespace
 
 void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
@@ -121,12 +128,6 @@ std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
   return found;
 }
 
-DeviceScans scansOfOne(const PreparedScan& prepared, const Configuration& configuration) {
-  DeviceScans scans(configuration);
-  scans.add("the scan", prepared);
-  return scans;
-}
-
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
                         const std::function<void(double)>& on_progress, DeviceForce* extra) {
   Evidence evidence;
@@ -144,10 +145,12 @@ Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& confi
 }
 
 std::vector<LoadedScale> scalesUnder(const std::vector<LoadOptions>& loads,
-                                     const DeviceScans& scans, const PreparedScan& prepared,
+                                     const PreparedScan& prepared,
                                      const Configuration& configuration,
-                                     const std::function<void(double)>& on_progress) {
-  if (!wantsDeviceForce(configuration.device, configuration.device_force)) return {};
+                                     const std::function<void(double)>& on_progress,
+                                     const std::optional<DeviceScans>& scans) {
+  if (loads.empty() || !wantsDeviceForce(configuration.device, configuration.device_force))
+    return {};
   std::vector<Options> models;
   for (const LoadOptions& load : loads) {
     models.push_back(configuration.model);
@@ -157,14 +160,14 @@ std::vector<LoadedScale> scalesUnder(const std::vector<LoadOptions>& loads,
   }
   std::vector<DeviceForce> forces;
   try {
-    forces = scans.forces(models, on_progress);
+    forces = (scans ? *scans : scansOfOne(prepared, configuration)).forces(models, on_progress);
   } catch (const Error&) {
     return {};
   }
   std::vector<LoadedScale> scales;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    const Options options = onFrame(models[i], configuration.device, prepared.surfaces);
-    const Prediction frame = AdhesionModel(options).predict(prepared.model_surfaces);
+    models[i].load = loads[i];
+    const Prediction frame = AdhesionModel(models[i]).predict(prepared.model_surfaces);
     scales.push_back(
         {std::abs(loads[i].voltage),
          loads[i].mechanical_load,

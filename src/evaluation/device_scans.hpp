@@ -77,16 +77,14 @@ Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& confi
                         const std::function<void(double)>& on_progress = {},
                         DeviceForce* extra = nullptr);
 
-/// Those of a device that one scan alone shows.
-DeviceScans scansOfOne(const PreparedScan& prepared, const Configuration& configuration);
-
 /// Beside the figures of a scan under several loads, for sweeps and cycles of it; none if the
 /// verdict does not ask for them or they were not found.
-/// - @p scans of the device
 /// - @p loads on the frame
+/// - @p scans of the device; nothing: the scan alone
 std::vector<LoadedScale> scalesUnder(const std::vector<LoadOptions>& loads,
-                                     const DeviceScans& scans, const PreparedScan& prepared,
+                                     const PreparedScan& prepared,
                                      const Configuration& configuration,
-                                     const std::function<void(double)>& on_progress = {});
+                                     const std::function<void(double)>& on_progress = {},
+                                     const std::optional<DeviceScans>& scans = std::nullopt);
 
 }  // namespace mems_stiction

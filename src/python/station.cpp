@@ -30,11 +30,8 @@ Sweep sweep(const PreparedScan& prepared, const Configuration& configuration,
     control.cancel = &cancel;
     const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     const LoadSweepRequest request{voltages, mechanical_loads};
-    std::vector<LoadedScale> scales;
-    if (request.validate(options).empty()) {
-      scales = scalesUnder(request.loadsOfDevice(options.load), scansOfOne(prepared, configuration),
-                           prepared, configuration, Cancellation(cancel));
-    }
+    const std::vector<LoadedScale> scales =
+        scalesUnder(request.loadsOfDevice(options), prepared, configuration, Cancellation(cancel));
     return std::make_shared<LoadSweepResult>(sweepLoads(
         options, prepared.model_surfaces, request, configuration.device, configuration.uncertainty,
         control, scales, measuredScan(prepared, configuration.model)));
@@ -47,8 +44,7 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
     control.cancel = &cancel;
     const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     const std::vector<LoadedScale> scales =
-        scalesUnder({options.load}, scansOfOne(prepared, configuration), prepared, configuration,
-                    Cancellation(cancel));
+        scalesUnder({options.load}, prepared, configuration, Cancellation(cancel));
     return std::make_shared<ContactCyclesResult>(cycleContacts(
         options, prepared.model_surfaces, count, configuration.device, configuration.uncertainty,
         control, scales, measuredScan(prepared, configuration.model)));

@@ -39,9 +39,8 @@ std::vector<LoadedScale> scalesOf(const StationCase& scan, const std::vector<Loa
     if (cancel) throw Cancelled();
   };
   const BesideWork beside(go_on);
-  const std::optional<DeviceScans> scans = known(scan);
-  return scalesUnder(loads, scans ? *scans : scansOfOne(scan.scan, *scan.settings), scan.scan,
-                     *scan.settings, [&](double) { go_on(); });
+  return scalesUnder(
+      loads, scan.scan, *scan.settings, [&](double) { go_on(); }, known(scan));
 }
 
 }  // namespace
@@ -78,10 +77,7 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   if (request.mechanical_loads.empty()) request.mechanical_loads = {model.load.mechanical_load};
   std::vector<LoadedScale> scales;
   try {  // a request that is refused is refused at once
-    if (request.validate(model).empty()) {
-      scales =
-          scalesOf(station_case, request.loadsOfDevice(model.load), known_device_, sweep_.cancel());
-    }
+    scales = scalesOf(station_case, request.loadsOfDevice(model), known_device_, sweep_.cancel());
   } catch (const Cancelled&) {
     return false;
   }

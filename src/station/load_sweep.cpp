@@ -251,14 +251,14 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   return largest.validate();
 }
 
-std::vector<LoadOptions> LoadSweepRequest::loadsOfDevice(const LoadOptions& base) const {
+std::vector<LoadOptions> LoadSweepRequest::loadsOfDevice(const Options& options) const {
+  if (!validate(options).empty()) return {};
   const std::vector<double> presses = fewOf(mechanical_loads, kMostPresses);
-  const std::vector<double> fields =
-      fewOf(voltages, kMostOfDevice / std::max<std::size_t>(presses.size(), 1));
+  const std::vector<double> fields = fewOf(voltages, kMostOfDevice / presses.size());
   std::vector<LoadOptions> loads;
   for (const double press : presses) {
     for (const double field : fields) {
-      loads.push_back(base);
+      loads.push_back(options.load);
       loads.back().voltage = field;
       loads.back().setMechanicalLoad(press);
     }

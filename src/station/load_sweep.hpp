@@ -65,9 +65,8 @@ struct LoadSweepRequest {
   std::vector<std::string> validate(const Options& options) const;
 
   /// Loads under which the device's own force is found: all pairs if they are few, else some of
-  /// them, with the largest of both.
-  /// - @p base what else there is of a load
-  std::vector<LoadOptions> loadsOfDevice(const LoadOptions& base) const;
+  /// them, with the largest of both; none of a request that is refused.
+  std::vector<LoadOptions> loadsOfDevice(const Options& options) const;
 };
 
 enum class SweepDirection : std::uint8_t { kUp = 0, kDown = 1 };

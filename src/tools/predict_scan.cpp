@@ -305,10 +305,9 @@ void predictScan(const std::string& path, const Arguments& arguments,
       if (request->mechanical_loads.empty())
         request->mechanical_loads = {options.load.mechanical_load};
       std::vector<LoadedScale> scales;
-      if (scale && request->validate(options).empty()) {
+      if (scale) {
         scales = whileSayingShare(path + ": loading the device", [&](const auto& tell) {
-          return scalesUnder(request->loadsOfDevice(options.load),
-                             scansOfOne(prepared, configuration), prepared, configuration, tell);
+          return scalesUnder(request->loadsOfDevice(options), prepared, configuration, tell);
         });
       }
       extras.sweep = whileSaying(path + ": sweeping the load", [&] {

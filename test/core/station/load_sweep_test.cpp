@@ -158,18 +158,19 @@ TEST(LoadSweep, contactFractionIsThatOfThePredictionToTheBit) {
 }
 
 TEST(LoadSweep, findsTheDeviceUnderAllLoadsOrSomeWithTheLargest) {
-  LoadOptions base;
-  base.contact_potential = 0.3;
-  const std::vector<LoadOptions> all = upTo(40.0, 3, {0.0, 1e-6}).loadsOfDevice(base);
+  Options options = insulated();
+  options.load.contact_potential = 0.3;
+  const std::vector<LoadOptions> all = upTo(40.0, 3, {0.0, 1e-6}).loadsOfDevice(options);
   ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(all[1].voltage, 20.0);
   EXPECT_EQ(all[1].mechanical_load, 0.0);
   EXPECT_EQ(all[5].mechanical_load, 1e-6);
   EXPECT_EQ(all[5].contact_potential, 0.3);
-  const std::vector<LoadOptions> some = upTo(40.0, 1001, {0.0, 1e-6}).loadsOfDevice(base);
+  const std::vector<LoadOptions> some = upTo(40.0, 1001, {0.0, 1e-6}).loadsOfDevice(options);
   EXPECT_LE(some.size(), 16u);
   EXPECT_EQ(some.front().voltage, 0.0);
   EXPECT_EQ(some.back().voltage, 40.0);
+  EXPECT_TRUE(upTo(40.0, 3, {}).loadsOfDevice(options).empty()) << "a request that is refused";
 }
 
 TEST(LoadSweep, aRowHasTheDeviceOfTheLeastLoadThatIsNoLess) {
