@@ -23,6 +23,7 @@ from mems_stiction.page_words import SOURCE_STATUS
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
+JOIN_PERIOD = 0.05  # of looks for the node, until scan_info is heard [s]
 MAPS = ("height", "contacts")
 SMALLEST_PITCH, LARGEST_PITCH = 1e-12, 1e-3  # of a size that is shown [m]
 MAP_BUFFER = 2**28  # bytes: the newest map alone is kept
@@ -34,6 +35,7 @@ class PageListener:
     def __init__(self, state, node):
         self._state, self._node = state, node
         self._subscribers = []
+        self._infos_of = None
         self._infos = {}
         self._pairing = threading.Lock()  # of maps and infos: either may come first
 
@@ -53,7 +55,10 @@ class PageListener:
         self._subscribe()
         while not rospy.is_shutdown():
             self._look(rosgraph.Master(rospy.get_name()))
-            time.sleep(LOOK_PERIOD)
+            looks_again = time.monotonic() + LOOK_PERIOD
+            while not self._hears_scans() and time.monotonic() < looks_again:
+                time.sleep(JOIN_PERIOD)
+            time.sleep(max(0.0, looks_again - time.monotonic()))
 
     def _look(self, master):
         try:
@@ -76,11 +81,19 @@ class PageListener:
             "starts one." % self._subscribers[0].resolved_name,
         )
 
+    def _hears_scans(self):
+        """Subscribes to scan_info once the node's predictions are heard: a source starts when its
+        audience has done so, and its first prediction would come too early."""
+        if self._infos_of is None and self._subscribers[0].get_num_connections():
+            self._infos_of = rospy.Subscriber("scan_info", ScanInfo, self._on_info, queue_size=100)
+            self._subscribers.append(self._infos_of)
+        return self._infos_of is not None
+
     def _subscribe(self):
+        self._infos_of = None
         topics = [
             ("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
             ("part_verdict", PartVerdict, self._on_part, None, dict(queue_size=10)),
-            ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
             (
                 "deformed_height",
                 Image,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "approach/area_cells.hpp"
 #include "device/area_load.hpp"
@@ -31,8 +32,10 @@ constexpr std::int64_t kFrameSide = 4096;
 constexpr std::int64_t kTiltedSide = 2048;
 /// So many contacts of a frame tell how those of a larger area flow.
 constexpr double kManyContacts = 100.0;
-/// So many of the highest cells tell nearly always: all others are kept only if they do not.
+/// So many of the highest cells tell nearly always. Where they do not, the surface is made once
+/// more, and it and those after it keep so many times as many.
 constexpr std::int64_t kFewCells = 1 << 16;
+constexpr std::int64_t kMoreCells = 8;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
 
@@ -188,7 +191,7 @@ class DeviceAreaSolver::Gatherer {
 
 DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area,
                                    const DevicePieces& pieces)
-    : model_(model), loaded_area_(loaded_area), pieces_(pieces) {}
+    : model_(model), loaded_area_(loaded_area), pieces_(pieces), kept_cells_(kFewCells) {}
 
 void DeviceAreaSolver::warnOnce(const std::string& warning) { addMissing({warning}, warnings_); }
 
@@ -215,41 +218,52 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     for (DeviceAreaSolver* solver : solvers)
       found.push_back(solver->taken(solver->followFrame(frame(*solver))));
   } else {
-    AreaCellLimits few_cells;
-    few_cells.most_cells = kFewCells;
-    Gatherer few(pieces, few_cells);
-    surface.visitTiles(0, surface.rows(),
-                       [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-                         few.add(piece, row, col, tile);
-                         if (shown && piece == 0) shown->add(row, col, tile);
-                       });
-    few.finish();
-    std::optional<Gatherer> all;
-    for (DeviceAreaSolver* solver : solvers) {
-      std::optional<Followed> by_few;
-      if (!few.keepsAll() && !solver->tilts())
-        by_few = solver->followCells(few.cells(), few.quarters(), false);
-      if (by_few) {
-        found.push_back(solver->taken(solver->withFlow(*by_few, [&] { return frame(*solver); })));
-        continue;
-      }
-      if (!few.keepsAll() && !solver->tilts() && !all) {
-        all.emplace(pieces);
-        surface.visitTiles(0, surface.rows(),
-                           [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-                             all->add(piece, row, col, tile);
-                           });
-        all->finish();
-      }
-      const Gatherer& gatherer = all ? *all : few;
-      found.push_back(
-          solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return frame(*solver); }));
-    }
+    found = followCells(solvers, surface, frame,
+                        [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                          if (shown && piece == 0) shown->add(row, col, tile);
+                        });
   }
   if (shown) {
     for (DeviceAreaSolver* solver : solvers) solver->made_surface_ = shown->surface();
   }
   return found;
+}
+
+std::vector<Realisation> DeviceAreaSolver::followCells(
+    const std::vector<DeviceAreaSolver*>& solvers, DeviceSurface& surface,
+    const std::function<cv::Mat(const DeviceAreaSolver&)>& frame,
+    const DeviceSurface::Visit& visit_once) {
+  const AreaCellLimits all_cells;
+  AreaCellLimits limits;
+  std::int64_t& kept_cells = solvers.front()->kept_cells_;
+  std::map<DeviceAreaSolver*, Realisation> found;
+  for (bool is_first = true; found.size() < solvers.size(); is_first = false) {
+    if (!is_first) kept_cells = std::min(kMoreCells * kept_cells, all_cells.most_cells);
+    limits.most_cells = kept_cells;
+    Gatherer gatherer(solvers.front()->pieces_, limits);
+    surface.visitTiles(0, surface.rows(),
+                       [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+                         gatherer.add(piece, row, col, tile);
+                         if (is_first) visit_once(piece, row, col, tile);
+                       });
+    gatherer.finish();
+    const bool are_all = gatherer.keepsAll() || kept_cells == all_cells.most_cells;
+    for (DeviceAreaSolver* solver : solvers) {
+      if (found.count(solver) > 0) continue;
+      const auto ofSurface = [&] { return frame(*solver); };
+      if (are_all) {
+        found[solver] = solver->follow(gatherer.cells(), gatherer.quarters(), ofSurface);
+        continue;
+      }
+      const std::optional<Followed> by_few =
+          solver->tilts() ? solver->followFrame(ofSurface())
+                          : solver->followCells(gatherer.cells(), gatherer.quarters(), false);
+      if (by_few) found[solver] = solver->taken(solver->withFlow(*by_few, ofSurface));
+    }
+  }
+  std::vector<Realisation> in_order;
+  for (DeviceAreaSolver* solver : solvers) in_order.push_back(found[solver]);
+  return in_order;
 }
 
 Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {

@@ -84,6 +84,13 @@ class DeviceAreaSolver {
     std::optional<AreaGrowth> growth;
   };
 
+  /// Each of them by the surface's highest cells.
+  /// - @p frame of the surface for one of them, made when it is needed
+  /// - @p visit_once is called for its tiles, once
+  static std::vector<Realisation> followCells(
+      const std::vector<DeviceAreaSolver*>& solvers, DeviceSurface& surface,
+      const std::function<cv::Mat(const DeviceAreaSolver&)>& frame,
+      const DeviceSurface::Visit& visit_once);
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
   Realisation taken(const Followed& followed);
@@ -109,6 +116,7 @@ class DeviceAreaSolver {
   Options model_;
   double loaded_area_;
   DevicePieces pieces_;
+  std::int64_t kept_cells_;  ///< of a made surface, its highest ones
   /// The last contacts that were followed may flow, and frames tell where: cells know whole
   /// contacts alone.
   bool may_flow_ = false;

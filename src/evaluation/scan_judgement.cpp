@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "device/device_evidence.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 
 namespace mems_stiction {
 
