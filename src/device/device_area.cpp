@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "approach/area_cells.hpp"
 #include "device/area_load.hpp"
@@ -149,6 +150,18 @@ bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
   return pieces.area_ratio <= 1.0 + kRounding && pieces.area() <= area;
 }
 
+ScanDeck::ScanDeck(const std::vector<HeightMap>& scans, std::uint64_t seed)
+    : scans_(&scans), engine_(seed), order_(scans.size()) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+}
+
+const HeightMap& ScanDeck::next() {
+  if (next_ == 0) std::shuffle(order_.begin(), order_.end(), engine_);
+  const HeightMap& scan = (*scans_)[order_[next_]];
+  next_ = (next_ + 1) % order_.size();
+  return scan;
+}
+
 /// The cells of the device, and those of its quarters where it goes on beyond them.
 class DeviceAreaSolver::Gatherer {
  public:
@@ -271,14 +284,12 @@ Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& sur
 }
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
-                                                   const std::vector<HeightMap>& lower,
-                                                   const std::vector<HeightMap>& upper,
+                                                   ScanDeck& lower, ScanDeck* upper,
                                                    std::uint64_t seed) {
   const DevicePieces& pieces = solvers.front()->pieces_;
   std::mt19937_64 engine(seed);
-  const auto drawnPart = [&](const std::vector<HeightMap>& scans) {
-    const HeightMap& scan =
-        scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
+  const auto drawnPart = [&](ScanDeck& scans) {
+    const HeightMap& scan = scans.next();
     const int rows = static_cast<int>(pieces.size.rows);
     const int cols = static_cast<int>(pieces.size.cols);
     const cv::Rect part(std::uniform_int_distribution<int>(0, scan.cols() - cols)(engine),
@@ -288,7 +299,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     scan.heights()(part).convertTo(heights, CV_64F);
     return heights;
   };
-  const auto partOf = [&](const std::vector<HeightMap>& scans) {
+  const auto partOf = [&](ScanDeck& scans) {
     for (int draw = 0; draw < kMostDraws; ++draw) {
       cv::Mat heights = drawnPart(scans);
       if (cv::countNonZero(validMask(heights)) >=
@@ -306,7 +317,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   cv::Mat flowing;
   for (int piece = 0; piece < pieces.count; ++piece) {
     relief = partOf(lower);
-    if (!upper.empty()) relief -= partOf(upper);
+    if (upper != nullptr) relief -= partOf(*upper);
     gatherer.add(piece, 0, 0, relief);
     const int room = flowing_size.height - flowing.rows;
     if (room > 0)

@@ -4,9 +4,11 @@
 /// The force of one made surface of a device: all its contacts at one height of the
 /// counter-surface.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,22 @@ std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row);
 
 /// Whether scans have room for all pieces: then they need not be made.
 bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces);
+
+/// Scans in an order by lot, each once before any comes again: of a few scans, some would else
+/// speak for all.
+class ScanDeck {
+ public:
+  /// - @p scans one at least; they outlive the object
+  ScanDeck(const std::vector<HeightMap>& scans, std::uint64_t seed);
+
+  const HeightMap& next();
+
+ private:
+  const std::vector<HeightMap>* scans_;
+  std::mt19937_64 engine_;
+  std::vector<std::size_t> order_;
+  std::size_t next_ = 0;
+};
 
 /// Factors of figures from one area to a larger one [-].
 struct AreaGrowth {
@@ -50,10 +68,10 @@ class DeviceAreaSolver {
   /// one at least.
   static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers,
                                           DeviceSurface& surface);
-  /// The same on parts of scans that are chosen at random.
+  /// The same on parts of the next scans, at places by lot.
+  /// - @p upper nullptr: a plane
   static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers,
-                                          const std::vector<HeightMap>& lower,
-                                          const std::vector<HeightMap>& upper, std::uint64_t seed);
+                                          ScanDeck& lower, ScanDeck* upper, std::uint64_t seed);
 
   /// On a surface whose cells have been collected, all of them. Where too many are in reach, a
   /// frame of it is made.

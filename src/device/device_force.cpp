@@ -559,19 +559,32 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
     }
   }
   StatedSurfaces made(known, pieces);
+  const auto deckOf = [&](const std::vector<HeightMap>& scans, std::uint64_t seed) {
+    return scans.empty() ? std::nullopt : std::make_optional<ScanDeck>(scans, seed);
+  };
+  const auto ofParts = [&](std::optional<ScanDeck>& lower, std::optional<ScanDeck>& upper,
+                           std::uint64_t seed) {
+    return DeviceAreaSolver::realise(solvers, *lower, upper ? &*upper : nullptr, seed);
+  };
+  const std::uint64_t first_seed = realisationSeed(options, 0);
+  std::optional<ScanDeck> stated_lower = deckOf(parts_lower, first_seed + 4);
+  std::optional<ScanDeck> stated_upper = deckOf(parts_upper, first_seed + 5);
   const auto addOthers = [&](const std::vector<Realisation>& found) {
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->others.add(found[i]);
   };
   for (int number = 0; number < options.realisations; ++number) {
     const std::uint64_t seed = realisationSeed(options, number);
     const std::vector<Realisation> found =
-        has_parts ? DeviceAreaSolver::realise(solvers, parts_lower, parts_upper, seed)
+        has_parts ? ofParts(stated_lower, stated_upper, seed)
                   : DeviceAreaSolver::realise(solvers, made.surface(number, seed));
     progress((number + 0.5) / options.realisations);
     for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->add(found[i]);
     if (has_parts) {
-      addOthers(DeviceAreaSolver::realise(solvers, drawnAgain(parts_lower, seed + 1),
-                                          drawnAgain(parts_upper, seed + 2), seed + 3));
+      const std::vector<HeightMap> lower = drawnAgain(parts_lower, seed + 1);
+      const std::vector<HeightMap> upper = drawnAgain(parts_upper, seed + 2);
+      std::optional<ScanDeck> other_lower = deckOf(lower, seed + 6);
+      std::optional<ScanDeck> other_upper = deckOf(upper, seed + 7);
+      addOthers(ofParts(other_lower, other_upper, seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
       const bool has_upper = !scans.upper.empty();

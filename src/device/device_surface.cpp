@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "device/scan_list.hpp"
+#include "errors/short_number.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
@@ -15,6 +17,20 @@ namespace {
 
 /// Pixels along the side of the corner by which a surface is known.
 constexpr std::int64_t kCorner = 32;
+/// Along the side of a scan or a contact: fewer say nothing of its summits.
+constexpr int kLeastPixelsAlong = 8;
+
+/// @throw SurfaceError if pixels are too coarse for the contacts
+void checkContactWidth(const DeviceArea& area, double pitch) {
+  const double width = std::sqrt(area.area / area.contacts);
+  if (width > (kLeastPixelsAlong - 0.5) * pitch) return;
+  throw SurfaceError("device/contacts: each of " +
+                     countText(static_cast<std::size_t>(area.contacts), "contact") + " on " +
+                     shortNumber(area.area, 3) + " m^2 is " + shortNumber(width * 1e9, 3) +
+                     " nm wide, less than 8 pixels of " + shortNumber(pitch * 1e9, 3) +
+                     " nm: state fewer contacts or a larger device/contact_area, or give scans "
+                     "with finer pixels");
+}
 
 }  // namespace
 
@@ -32,19 +48,18 @@ void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area,
   if (surfaces.scans.empty())
     violations.emplace_back("the force of a device needs at least one scan of its surface");
   if (!violations.empty()) throw OptionsError(std::move(violations));
-  constexpr int kLeastPixels = 8;
   for (const std::vector<NamedScan>* scans : {&surfaces.scans, &surfaces.counter_surface}) {
     for (const NamedScan& scan : *scans) {
-      if (std::min(scan.surface.rows(), scan.surface.cols()) >= kLeastPixels) continue;
+      if (std::min(scan.surface.rows(), scan.surface.cols()) >= kLeastPixelsAlong) continue;
       throw SurfaceError(scan.name + ": " + std::to_string(scan.surface.cols()) + " x " +
                          std::to_string(scan.surface.rows()) +
                          " pixels say nothing of a device; at least 8 x 8 do");
     }
   }
+  checkContactWidth(area, madePitch(surfaces, options));
 }
 
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
-  constexpr std::int64_t kLeastSide = 8;
   DevicePieces pieces;
   pieces.count = area.contacts;
   const double most_area = most_cells * pitch * pitch;
@@ -57,7 +72,7 @@ DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
   const double side = std::sqrt(std::min(piece_area, most_area));
   pieces.size.pitch_x = pieces.size.pitch_y = pitch;
   pieces.size.rows = pieces.size.cols =
-      std::max(kLeastSide, static_cast<std::int64_t>(std::llround(side / pitch)));
+      std::max<std::int64_t>(kLeastPixelsAlong, std::llround(side / pitch));
   pieces.area_ratio = area.area / pieces.area();
   return pieces;
 }
@@ -112,11 +127,11 @@ void DeviceSurface::reseed(std::uint64_t seed) {
     return;
   }
   ends_ = ends;
-  lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below,
-                 blocksOf(pieces_.size));
+  const BlockChoice blocks = blocksOf(pieces_.size);
+  const Among among = pieces_.count > 1 ? Among::kOthers : Among::kNone;
+  lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below, blocks, among);
   if (laws_->upper) {
-    upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above,
-                   blocksOf(pieces_.size));
+    upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above, blocks, among);
   }
 }
 

@@ -116,7 +116,7 @@ SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side,
 
 MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation,
                          const MadeSize& size, double longest_wave, std::uint64_t seed,
-                         BlockChoice blocks)
+                         BlockChoice blocks, Among among)
     : law_(&law),
       size_(size),
       field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own),
@@ -134,6 +134,12 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
                           blocks);
     }
   }
+  if (among == Among::kOthers) {
+    const bool are_numbers = law.non_gaussian_share > 0.0 && law.split_wave_number == 0.0;
+    longer_waves_.emplace(are_numbers ? law.numbers : law.heights, 2.0 * kPi / law.longestWave(),
+                          2.0 * kPi / longest_wave,
+                          [&](double q) { return has_own_ ? law.own->openShare(q) : 1.0; });
+  }
   drawPlace(seed);
 }
 
@@ -144,8 +150,9 @@ void MadeSurface::reseed(std::uint64_t seed) {
 }
 
 void MadeSurface::drawPlace(std::uint64_t seed) {
-  if (!has_own_) return;
   std::mt19937_64 engine(seed);
+  if (longer_waves_) longer_waves_->draw(engine);
+  if (!has_own_) return;
   std::uniform_real_distribution<double> uniform;
   std::normal_distribution<double> normal;
   const OwnLongWaves& own = *law_->own;
@@ -159,6 +166,7 @@ void MadeSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
   field_.heights(row, col, tile);
   const bool are_numbers = law_->non_gaussian_share > 0.0 && law_->split_wave_number == 0.0;
   if (has_own_ && are_numbers) addOwnWaves(row, col, tile);
+  if (longer_waves_ && are_numbers) addLongerWaves(row, col, tile);
   if (translation_) {
     for (int i = 0; i < tile.rows; ++i) {
       float* line = tile.ptr<float>(i);
@@ -172,6 +180,12 @@ void MadeSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
     tile += spare_;
   }
   if (has_own_ && !are_numbers) addOwnWaves(row, col, tile);
+  if (longer_waves_ && !are_numbers) addLongerWaves(row, col, tile);
+}
+
+void MadeSurface::addLongerWaves(std::int64_t row, std::int64_t col, cv::Mat& tile) {
+  longer_waves_->addTo(tile, static_cast<double>(col) * size_.pitch_x,
+                       static_cast<double>(row) * size_.pitch_y, size_.pitch_x, size_.pitch_y);
 }
 
 void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile) {

@@ -12,6 +12,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "device/longer_waves.hpp"
 #include "device/surface_law.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "surface/tiled_surface.hpp"
@@ -55,13 +56,22 @@ struct MadeSize {
 /// two to three times as much for each pixel as blocks do and needs no kernel; else by blocks.
 BlockChoice blocksOf(const MadeSize& size);
 
+/// Beside what a surface lies.
+enum class Among {
+  kNone,   ///< it rests by itself
+  kOthers  ///< under one counter-surface with others
+};
+
 /// Heights by tile; one object serves one thread at a time.
 class MadeSurface {
  public:
   /// - @p law must outlive the object
   /// - @p longest_wave longer ones are left out: they tilt it [m]
+  /// - @p among whether it lies beside others, and longer waves that the scans show raise or
+  /// lower it
   MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-              double longest_wave, std::uint64_t seed, BlockChoice blocks = BlockChoice::kFast);
+              double longest_wave, std::uint64_t seed, BlockChoice blocks = BlockChoice::kFast,
+              Among among = Among::kNone);
 
   /// Goes on as the surface of another seed: the same as a new one, but sooner.
   void reseed(std::uint64_t seed);
@@ -74,7 +84,8 @@ class MadeSurface {
 
  private:
   void addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile);
-  /// Where in the widest scan it lies, and how it is tilted.
+  void addLongerWaves(std::int64_t row, std::int64_t col, cv::Mat& tile);
+  /// Where on the surface and in the widest scan it lies, and how it is tilted.
   void drawPlace(std::uint64_t seed);
 
   const SurfaceLaw* law_;
@@ -82,6 +93,7 @@ class MadeSurface {
   TiledSurface field_;                      ///< of g, or of z where all is Gaussian
   std::optional<TiledSurface> long_waves_;  ///< Gaussian, beyond the split
   std::optional<HeightTranslation> translation_;
+  std::optional<LongerWaves> longer_waves_;  ///< among others alone
   bool has_own_ = false;
   double place_x_ = 0.0;  ///< of the surface in the widest scan [m]
   double place_y_ = 0.0;

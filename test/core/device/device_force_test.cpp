@@ -95,6 +95,46 @@ TEST_F(DeviceForceTest, TheForceOfALargeSurfaceFromPartsOfIt) {
   EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
 }
 
+TEST_F(DeviceForceTest, ContactsWithoutRoomInTheScansStandAsUnevenAsThoseThatAreCut) {
+  constexpr int kContacts = 60;
+  for (const int seed : {1, 2}) {
+    const cv::Mat smooth = surfaceOf(kSide, 100e-9, 3e-9, seed);  // waves as long as a contact
+    const double area = kContacts * areaOfPixels(24);
+    surfaces_.scans = {part("whole", smooth, 0, 0, kSide)};
+    const DeviceForce cut = force(area, kContacts);
+    surfaces_.scans = {part("small", smooth, 0, 0, 160)};
+    const DeviceForce made = force(area, kContacts);
+    ASSERT_TRUE(cut.is_cut_from_scans);
+    ASSERT_FALSE(made.is_cut_from_scans);
+    EXPECT_GT(made.pull_off_force, cut.pull_off_force / 4.0) << seed;
+    EXPECT_LT(made.pull_off_force, cut.pull_off_force * 4.0) << seed;
+  }
+}
+
+TEST_F(DeviceForceTest, AFewScansOfTheDevicesSizeCountAlikeWhateverTheSeed) {
+  surfaces_.scans.clear();
+  for (int i = 0; i < 3; ++i) {
+    surfaces_.scans.push_back(part("scan " + std::to_string(i), large_, 0, 256 * i, 256));
+  }
+  options_.realisations = 6;
+  const double first = force(areaOfPixels(256)).pull_off_force;
+  for (options_.seed = 2; options_.seed < 5; ++options_.seed)
+    EXPECT_DOUBLE_EQ(force(areaOfPixels(256)).pull_off_force, first) << options_.seed;
+}
+
+TEST_F(DeviceForceTest, AContactOfAFewPixelsIsRefusedWithWhatWouldDo) {
+  try {
+    force(1e-12, 1000);
+    FAIL() << "32 nm are three pixels";
+  } catch (const SurfaceError& error) {
+    EXPECT_NE(std::string(error.what()).find("each of 1000 contacts"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("31.6 nm wide, less than 8 pixels of 10 nm"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(DeviceForceTest, TheOrderOfTheScansTellsNothing) {
   surfaces_.scans.push_back(part("third", large_, 200, 100, 256));
   surfaces_.scans.push_back(part("wide", large_, 0, 0, kSide));
