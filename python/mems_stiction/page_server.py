@@ -15,6 +15,7 @@ import logging
 import pathlib
 
 import tornado.httpserver
+import tornado.httputil
 import tornado.ioloop
 import tornado.netutil
 import tornado.web
@@ -219,10 +220,23 @@ class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
             pass
 
 
+class _Application(tornado.web.Application):
+    """Refuses bodies in pieces before they are read: nothing here takes a body, and tornado 6.2
+    reads for ever behind a piece of negative length."""
+
+    def find_handler(self, request, **kwargs):
+        if "Transfer-Encoding" not in request.headers:
+            return super().find_handler(request, **kwargs)
+        stream = request.connection.detach()
+        stream.write(b"HTTP/1.1 400 Bad Request\r\nConnection: close\r\n\r\n")
+        stream.close()
+        return tornado.httputil.HTTPMessageDelegate()
+
+
 def application(state, is_local, stale_after, patience=PATIENCE):
     """state: a PageState. stale_after [s]: without a scan for so long, the page marks what it shows
     as old; None: by the rate of the scans."""
-    return tornado.web.Application(
+    return _Application(
         [
             (r"/state", _StateSocket),
             (r"/map/(height|contacts)\.png", _Picture),

@@ -29,6 +29,7 @@ VERDICTS = (
     (YES, "sticks", "#ff5a4f", "s"),
     (UNKNOWN, "not known", "#a8adb8", "o"),
 )
+LARGEST = 1e60  # of what is drawn, and one over it the least: axes overflow further out
 LONGEST_LIMITS = 130  # letters of the line about flags and warnings
 STATES = (
     ((0,), "equilibrium", LINE, "o"),
@@ -81,6 +82,12 @@ def trend_picture(trend, width=1280, height=720, last=0):
     return figure
 
 
+def _drawn(prediction, name):
+    """A figure of a prediction, NaN where it is so far out that no axis can hold it."""
+    value = getattr(prediction, name)
+    return value if value == 0.0 or 1.0 / LARGEST <= abs(value) <= LARGEST else math.nan
+
+
 def _ratio(predicted):
     """The figure that the newest verdict rests on: margin, peel number, or none."""
     judged = [prediction for _, prediction in predicted if has_verdict(prediction)]
@@ -89,7 +96,9 @@ def _ratio(predicted):
 
 
 def _is_device(predicted):
-    return any(not math.isnan(prediction.device_pull_off_force) for _, prediction in predicted)
+    return any(
+        not math.isnan(_drawn(prediction, "device_pull_off_force")) for _, prediction in predicted
+    )
 
 
 def _line(axes, shown, value_of):
@@ -105,14 +114,14 @@ def _line(axes, shown, value_of):
 def _draw_force(axes, shown, predicted):
     if _is_device(predicted):
         name, label = "device_pull_off_force", "pull-off force\nof the device"
-        restoring = [prediction.restoring_force for _, prediction in predicted]
+        restoring = [_drawn(prediction, "restoring_force") for _, prediction in predicted]
     else:
         name, label, restoring = "pull_off_force", "pull-off force\nof the scan", []
-    forces = [getattr(prediction, name) for _, prediction in predicted]
+    forces = [_drawn(prediction, name) for _, prediction in predicted]
     finite = [force for force in forces + restoring if math.isfinite(force)]
     exponent, letter = prefix_for(max(finite, default=0.0))
     factor = 10.0**-exponent
-    _line(axes, shown, lambda prediction: getattr(prediction, name) * factor)
+    _line(axes, shown, lambda prediction: _drawn(prediction, name) * factor)
     numbers = np.array([number for number, _ in predicted])
     for states, text, colour, marker in STATES:
         use = np.array([prediction.status in states for _, prediction in predicted], dtype=bool)
@@ -156,7 +165,7 @@ def _draw_control(axes, shown, name, factor):
     ]
     series = of_newest_settings(
         [
-            (number, getattr(prediction, name), prediction.settings_hash)
+            (number, _drawn(prediction, name), prediction.settings_hash)
             for number, prediction in usable
         ]
     )
@@ -212,12 +221,12 @@ def _draw_ratio(axes, shown, predicted, ratio):
     name, label = ratio
 
     def value_of(prediction):
-        return getattr(prediction, name)
+        return _drawn(prediction, name)
 
     _line(axes, shown, value_of)
     limits = [
         [
-            getattr(scan.prediction, name + end) if scan.prediction is not None else math.nan
+            _drawn(scan.prediction, name + end) if scan.prediction is not None else math.nan
             for _, scan in shown
         ]
         for end in ("_lower", "_upper")

@@ -65,6 +65,7 @@ void cleanUp() {
 }  // namespace
 
 void cleanUpWhenInterrupted() {
+  signal(SIGXFSZ, SIG_IGN);
   sigset_t awaited;
   sigemptyset(&awaited);
   bool is_any = false;

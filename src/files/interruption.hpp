@@ -14,7 +14,8 @@ namespace mems_stiction {
 
 /// For the start of main(), before any thread: from now on INT, TERM and HUP end the children that
 /// are registered, with their process groups, remove the scratch paths, and then end the process as
-/// they would have. A signal that is ignored (nohup) stays ignored.
+/// they would have. A signal that is ignored (nohup) stays ignored. A file that grows beyond the
+/// limit of the shell is an error of its writer (EFBIG), and no signal.
 void cleanUpWhenInterrupted();
 
 /// Writes the text in place of the line that stands on the terminal of the standard error; an empty

@@ -8,7 +8,12 @@
 #include <thread>
 #include <utility>
 
+#include <ros/console_impl.h>
+#include <ros/names.h>
 #include <ros/param.h>
+#include <ros/service_manager.h>
+#include <roscpp/GetLoggers.h>
+#include <roscpp/Logger.h>
 
 namespace mems_stiction {
 namespace {
@@ -89,6 +94,28 @@ class OwnLog {
   bool is_closed_ = false;
 };
 
+/// Level and what GetLoggers calls it.
+struct NamedLevel {
+  ros::console::Level level;
+  const char* name;
+};
+constexpr NamedLevel kLevels[] = {{ros::console::levels::Debug, "debug"},
+                                  {ros::console::levels::Info, "info"},
+                                  {ros::console::levels::Warn, "warn"},
+                                  {ros::console::levels::Error, "error"},
+                                  {ros::console::levels::Fatal, "fatal"}};
+
+roscpp::Logger loggerOf(const std::string& name) {
+  void* const handle = ros::console::impl::getHandle(name);
+  roscpp::Logger logger;
+  logger.name = name;
+  for (const NamedLevel& named : kLevels) {
+    logger.level = named.name;
+    if (ros::console::impl::isEnabledFor(handle, named.level)) break;
+  }
+  return logger;
+}
+
 }  // namespace
 
 void logSoon(ros::console::Level level, std::string text) {
@@ -98,6 +125,18 @@ void logSoon(ros::console::Level level, std::string text) {
 void prepareLog() {
   bool ignored = false;
   ros::param::getCached("/rosout_disable_topics_generation", ignored);
+}
+
+ros::ServiceServer serveLoggers(ros::NodeHandle& handle) {
+  const std::string name = ros::names::resolve("~get_loggers");
+  ros::ServiceManager::instance()->unadvertiseService(name);
+  const boost::function<bool(roscpp::GetLoggers::Request&, roscpp::GetLoggers::Response&)> answer =
+      [](roscpp::GetLoggers::Request&, roscpp::GetLoggers::Response& response) {
+        for (const char* logger : {"ros", ROSCONSOLE_DEFAULT_NAME, "ros.roscpp"})
+          response.loggers.push_back(loggerOf(logger));
+        return true;
+      };
+  return handle.advertiseService(name, answer);
 }
 
 void finishLog() { OwnLog::ofThisProcess().finish(); }

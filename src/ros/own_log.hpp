@@ -8,6 +8,7 @@
 #include <string>
 
 #include <ros/console.h>
+#include <ros/node_handle.h>
 
 namespace mems_stiction {
 
@@ -18,6 +19,11 @@ void logSoon(ros::console::Level level, std::string text);
 /// While the master is there: asks it what roscpp else would ask with the first line of the log,
 /// and with each one after it until it is answered.
 void prepareLog();
+
+/// Answers ~get_loggers of this process in roscpp's place, which with log4cxx 1.0 frees the log
+/// that it asks: the next line from a new place in the code ends the process.
+/// - @p handle any; its queue calls back
+ros::ServiceServer serveLoggers(ros::NodeHandle& handle);
 
 /// Waits for the lines that wait, but not for long.
 void finishLog();

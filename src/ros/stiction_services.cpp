@@ -86,6 +86,7 @@ std::string effect(const LoadFigures& before, const Prediction& after) {
 
 void StictionServer::advertiseServices() {
   services_ = {
+      serveLoggers(service_handle_),
       service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
       service_handle_.advertiseService(kSetVoltageService, &StictionServer::setVoltage, this),
       service_handle_.advertiseService(kSetMechanicalLoadService,

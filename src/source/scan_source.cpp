@@ -35,6 +35,7 @@ ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       diagnostics_(handle_, name),
       spinner_(1, &queue_) {
   prepareLog();
+  loggers_ = serveLoggers(private_handle_);
   diagnostics_.add("scan_source", [this](auto& status) { accounting_.report(status); });
   diagnostics_timer_ =
       handle_.createSteadyTimer(ros::WallDuration(options_.diagnostic_period),

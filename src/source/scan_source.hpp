@@ -40,6 +40,7 @@ class ScanSource {
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_, private_handle_;
   ros::Publisher refused_;
+  ros::ServiceServer loggers_;
   SourceAccounting accounting_;
   ScanPublisher publisher_;
   Diagnostics diagnostics_;

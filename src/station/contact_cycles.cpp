@@ -12,6 +12,8 @@
 namespace mems_stiction {
 namespace {
 
+constexpr int kMostCycles = 1000000;  // each is a prediction, and a row of the result
+
 /// Over the pixels that are valid in both [m].
 double largestDifference(const cv::Mat& before, const cv::Mat& after) {
   double largest = 0.0;
@@ -39,9 +41,10 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
                                   const UncertaintyOptions& uncertainty, const RunControl& control,
                                   const std::vector<LoadedScale>& scales,
                                   const std::optional<MeasuredScan>& scan) {
-  if (count < 1) {
-    throw OptionsError(
-        {"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
+  if (count < 1 || count > kMostCycles) {
+    throw OptionsError({"count: " + std::to_string(count) +
+                        " is not allowed, must be an integer within [1, " +
+                        std::to_string(kMostCycles) + "]"});
   }
   AdhesionModel model(withDeformedSurfaces(options));
   const MeasuredScan measured = scan ? *scan : asMeasured(options, surfaces);

@@ -60,7 +60,7 @@ struct ContactCyclesResult {
   bool is_complete = false;  ///< false: cancelled
 };
 
-/// - @p count of contacts, >= 1
+/// - @p count of contacts, within [1, 1000000]
 /// - @p scales the device's own figures beside those of this frame, the first of them; without them
 /// the verdicts have the frame's
 /// - @p scan behind the surfaces; nothing: they are on the pixels that were measured

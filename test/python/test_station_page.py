@@ -1228,6 +1228,11 @@ class PatienceTest(unittest.TestCase):
         self.assertEqual(self.ended(b"GET / HTTP/1.1\r\nHost: localhost\r\n"), b"")
         self.assertIn(b" 200 OK", self.ended(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"))
 
+    def test_a_body_in_pieces_is_refused_unread(self):
+        request = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n-5\r\n"
+        self.assertIn(b" 400 ", self.ended(request))
+        self.assertIn(b" 200 OK", self.ended(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+
     def test_one_that_does_not_take_its_answer_ends(self):
         random = np.random.RandomState(1)
         self.state.set_map("height", 1, map_message(random.randint(0, 255, (500, 500))))

@@ -271,6 +271,15 @@ class TrendPictureTest(unittest.TestCase):
         self.assertEqual(figure.axes[1].get_ylabel(), "peel number [-]")
         self.assertIn("Scan 1: RELEASES", self.texts(figure))
 
+    def test_what_no_axis_can_hold_is_left_out(self):
+        for changes in (
+            dict(margin_upper=1e308),
+            dict(margin_lower=5e-324),
+            dict(restoring_force=1.7e308, device_pull_off_force=5e-324),
+        ):
+            figure = self.picture(prediction(2e-7, 0, 3.0), prediction(1e308, 0, 3.0, **changes))
+            figure.canvas.draw()
+
     def test_decades_of_force_are_logarithmic_with_a_unit_at_each_step(self):
         axes = self.picture(prediction(1e-9), prediction(1e-6)).axes[0]
         self.assertEqual(

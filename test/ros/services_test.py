@@ -18,6 +18,7 @@ from mems_stiction.srv import (
     SetMechanicalLoad,
     SetVoltage,
 )
+from roscpp.srv import GetLoggers, SetLoggerLevel
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -83,6 +84,20 @@ class ServicesTest(unittest.TestCase):
         self.assertEqual(
             (answer.success, answer.message, len(answer.prediction.curve)),
             (False, "no scan yet", 0),
+        )
+
+    def test_1b_who_asks_for_loggers_again_and_again_does_not_end_the_node(self):
+        get_loggers = rospy.ServiceProxy("stiction_node/get_loggers", GetLoggers)
+        for _ in range(5):
+            loggers = {logger.name: logger.level for logger in get_loggers().loggers}
+            self.assertEqual(loggers["ros.mems_stiction"], "info")
+        rospy.ServiceProxy("stiction_node/set_logger_level", SetLoggerLevel)(
+            "ros.mems_stiction", "warn"
+        )
+        levels = {logger.name: logger.level for logger in get_loggers().loggers}
+        self.assertEqual((levels["ros.mems_stiction"], levels["ros"]), ("warn", "info"))
+        rospy.ServiceProxy("stiction_node/set_logger_level", SetLoggerLevel)(
+            "ros.mems_stiction", "info"
         )
 
     def test_2_set_load_predicts_the_last_scan_and_the_force_goes_with_the_square_of_the_voltage(
