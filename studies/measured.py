@@ -119,7 +119,7 @@ def effects_section(results):
     """What measured parts have and the assumed ones have not, over what was measured."""
     shown = (cases.AS_ASSUMED,) + cases.EFFECTS
     text = [
-        "## What measured parts have beside",
+        "## Effects that were left out",
         "",
         "Predicted median over measured value. *native oxide*: 2 nm over silicon, retarded "
         "(`config/polysilicon_native_oxide.yaml`). *humidity*: with water films of 0.8 and 1.1 nm "
@@ -375,8 +375,7 @@ def page(study):
         " sphere: by Derjaguin, the pull-off force of a sphere is 2 pi R times the work of "
         "the planes from rest on.",
         "",
-        "A plate that springs tear off peels instead of staying parallel, so the prediction "
-        "is an upper bound for it.",
+        "If springs tear a plate off, it peels, so the prediction is an upper bound.",
         "",
     ]
     text += effects_section(results) + device_section(study) + beams_section(study, results)

@@ -40,9 +40,8 @@ void HalfSpaceOptions::describe(OptionVisitor& visitor) {
                   "larger frames are not solved for their flags alone");
   visitor.integer("half_space/max_flagged_products", max_flagged_products,
                   Range::within(1, 2000000000),
-                  "pairs of Fourier transforms after which a solution is given up that flags alone "
-                  "asked for, of the "
-                  "largest such frame; a smaller one has as many more as it has fewer pixels");
+                  "pairs of Fourier transforms: limit of a solution that only flags asked for, at "
+                  "the largest such frame; half as many pixels may take twice as many");
   visitor.integer("half_space/threads", threads, Range::within(1, 64),
                   "threads of one solution; its bits do not change");
 }

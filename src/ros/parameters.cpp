@@ -260,8 +260,8 @@ void NodeOptions::describe(OptionVisitor& visitor) {
       "drop_policy", drop_policy, {{"all", DropPolicy::kAll}, {"latest", DropPolicy::kLatest}},
       "all: every scan is predicted; latest: older scans are dropped and counted");
   visitor.number("max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
-                 "that what waits in one place may hold, with either drop_policy; older ones "
-                 "beyond it are given up and counted");
+                 "most that waits in one place, with either drop_policy; older ones beyond it are "
+                 "given up and counted");
   visitor.number("max_message_size", max_message_size, "bytes", Range::within(1e3, kLargestMessage),
                  "of an image, a scan_info, a goal or a request; larger ones are rejected before "
                  "they get memory");
@@ -275,8 +275,8 @@ void NodeOptions::describe(OptionVisitor& visitor) {
                   "of one part, kept for the force of its device; of more, the oldest of the "
                   "commonest grid goes");
   visitor.number("max_part_memory", max_part_memory, "bytes", Range::within(1e6, 1e12),
-                 "that the scans of all parts may hold that are kept for it; the part that has "
-                 "waited longest goes");
+                 "of all scans kept for the force of devices; the part that has waited longest "
+                 "goes");
   visitor.number("diagnostic_period", diagnostic_period, "s", kPeriod,
                  "between messages on /diagnostics");
   visitor.number("warning_period", warning_period, "s", Range::within(0.0, kLongestDuration),

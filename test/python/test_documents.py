@@ -207,9 +207,9 @@ class ValidityTest(unittest.TestCase):
         )
         resolution = source("include/mems_stiction/verdict/resolution.hpp")
         self.assertIn(
-            "fewer than %g pixels) and"
+            "`resolution/min_contact_pixels` pixels (%g)"
             % float(re.search(r"min_contact_pixels =\s*([\d.]+)", resolution).group(1)),
-            page,
+            " ".join(source("doc/scans.md").split()),
         )
 
 
