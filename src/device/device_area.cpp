@@ -34,7 +34,7 @@ constexpr std::int64_t kTiltedSide = 2048;
 /// So many contacts of a frame tell how those of a larger area flow.
 constexpr double kManyContacts = 100.0;
 /// So many of the highest cells tell nearly always. Where they do not, the surface is made once
-/// more, and it and those after it keep so many times as many.
+/// more, and so many times as many cells of it and of those after it count.
 constexpr std::int64_t kFewCells = 1 << 16;
 constexpr std::int64_t kMoreCells = 8;
 /// Pixels along the side of what is shown of a surface, at most.
@@ -204,7 +204,7 @@ class DeviceAreaSolver::Gatherer {
 
 DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area,
                                    const DevicePieces& pieces)
-    : model_(model), loaded_area_(loaded_area), pieces_(pieces), kept_cells_(kFewCells) {}
+    : model_(model), loaded_area_(loaded_area), pieces_(pieces), cell_limit_(kFewCells) {}
 
 void DeviceAreaSolver::warnOnce(const std::string& warning) { addMissing({warning}, warnings_); }
 
@@ -248,11 +248,11 @@ std::vector<Realisation> DeviceAreaSolver::followCells(
     const DeviceSurface::Visit& visit_once) {
   const AreaCellLimits all_cells;
   AreaCellLimits limits;
-  std::int64_t& kept_cells = solvers.front()->kept_cells_;
+  std::int64_t& cell_limit = solvers.front()->cell_limit_;
   std::map<DeviceAreaSolver*, Realisation> found;
   for (bool is_first = true; found.size() < solvers.size(); is_first = false) {
-    if (!is_first) kept_cells = std::min(kMoreCells * kept_cells, all_cells.most_cells);
-    limits.most_cells = kept_cells;
+    if (!is_first) cell_limit = std::min(kMoreCells * cell_limit, all_cells.most_cells);
+    limits.most_cells = cell_limit;
     Gatherer gatherer(solvers.front()->pieces_, limits);
     surface.visitTiles(0, surface.rows(),
                        [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
@@ -260,7 +260,7 @@ std::vector<Realisation> DeviceAreaSolver::followCells(
                          if (is_first) visit_once(piece, row, col, tile);
                        });
     gatherer.finish();
-    const bool are_all = gatherer.keepsAll() || kept_cells == all_cells.most_cells;
+    const bool are_all = gatherer.keepsAll() || cell_limit == all_cells.most_cells;
     for (DeviceAreaSolver* solver : solvers) {
       if (found.count(solver) > 0) continue;
       const auto ofSurface = [&] { return frame(*solver); };

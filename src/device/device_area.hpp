@@ -134,7 +134,7 @@ class DeviceAreaSolver {
   Options model_;
   double loaded_area_;
   DevicePieces pieces_;
-  std::int64_t kept_cells_;  ///< of a made surface, its highest ones
+  std::int64_t cell_limit_;  ///< of a made surface, its highest ones
   /// The last contacts that were followed may flow, and frames tell where: cells know whole
   /// contacts alone.
   bool may_flow_ = false;
