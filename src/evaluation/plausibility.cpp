@@ -7,6 +7,7 @@
 #include "configuration/usual_values.hpp"
 #include "evaluation/breakdown.hpp"
 #include "evaluation/half_space_call.hpp"
+#include "numeric/rounding.hpp"
 #include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
@@ -42,7 +43,7 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   checkPlate("lower", configuration.model.lower);
   checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;
-  if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
+  if (device.hasBeam() && exceeds(kSlenderness * device.beam_thickness, device.beam_length)) {
     lines.push_back("device/beam_length " + fourDigits(device.beam_length) +
                     " m beside device/beam_thickness " + fourDigits(device.beam_thickness) +
                     " m is no beam (at least " + fourDigits(kSlenderness) +

@@ -45,7 +45,7 @@ std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device,
     return std::nullopt;
   }
   return BeamElectrode{device.electrode_start, device.electrode_length,
-                       device.electrode_gap > 0.0 ? device.electrode_gap : device.beam_gap,
+                       std::max(device.electrode_gap, device.beam_gap),
                        interface.insulator_thickness / interface.insulator_relative_permittivity};
 }
 

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "mechanics/surface_forces.hpp"
+#include "numeric/rounding.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// Between the electrodes of a closed device on a spring [m].
+/// Between the electrodes of a closed device on a spring [m]; 0 where it lands on its electrode.
 double closedGap(const DeviceOptions& device) {
-  return device.electrode_gap > 0.0 ? device.electrode_gap - device.travel : 0.0;
+  return exceeds(device.electrode_gap, device.travel) ? device.electrode_gap - device.travel : 0.0;
 }
 
 /// By all of the electrode below a closed device; nothing where none is stated.
