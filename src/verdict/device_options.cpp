@@ -30,6 +30,12 @@ Beam DeviceOptions::beam() const {
           beam_modulus, beam_residual_stress, beam_width};
 }
 
+DeviceOptions DeviceOptions::withoutSpring() const {
+  DeviceOptions alone = *this;
+  alone.spring_stiffness = alone.travel = alone.electrode_area = 0.0;
+  return alone;
+}
+
 double DeviceOptions::beamContactLength() const {
   const double of_strip = contact_area / beam_width;
   return std::min(std::max(of_strip, std::sqrt(contact_area / contacts)), beam_length);
