@@ -24,8 +24,10 @@ struct ArmShape {
   double curvature = 0.0;   ///< phi''(xi) [-]
 };
 
-ArmShape armShape(BeamType type, double xi) {
-  if (type == BeamType::kCantilever)
+enum class Bend { kArc, kS };
+
+ArmShape armShape(Bend bend, double xi) {
+  if (bend == Bend::kArc)
     return {xi * xi * (1.5 - 0.5 * xi), xi * (3.0 - 1.5 * xi), 3.0 - 3.0 * xi};
   return {xi * xi * (3.0 - 2.0 * xi), 6.0 * xi * (1.0 - xi), 6.0 - 12.0 * xi};
 }
@@ -37,7 +39,7 @@ class ClosedArm {
   /// - @p length s [m]
   /// - @p from, to where the electrode lies, from the clamp [m]
   /// - @p rest_gap between beam and electrode at rest, with insulator and contact [m]
-  ClosedArm(const Beam& beam, double length, double from, double to, double rest_gap)
+  ClosedArm(const Beam& beam, Bend bend, double length, double from, double to, double rest_gap)
       : beam_(beam),
         length_(length),
         from_(std::clamp(from, 0.0, length)),
@@ -45,13 +47,15 @@ class ClosedArm {
         rest_gap_(rest_gap),
         step_(length / kArmCells) {
     Beam arm = beam;
-    arm.length = length;  // of a doubly clamped beam an arm without a slope at both ends
+    arm.length = length;
+    // an S has no slope at both ends
+    arm.type = bend == Bend::kArc ? BeamType::kCantilever : BeamType::kDoublyClamped;
     const BeamShape free = shapeUnder(arm, from_, to_ - from_, kArmCells);
-    const double lifted = beam.type == BeamType::kCantilever ? free.at_edges.back() : 0.0;
+    const double lifted = bend == Bend::kArc ? free.at_edges.back() : 0.0;
     double bending = 0.0;
     double stretch = 0.0;
     for (std::size_t cell = 0; cell < free.curvature.size(); ++cell) {
-      const ArmShape shape = armShape(beam.type, (static_cast<double>(cell) + 0.5) / kArmCells);
+      const ArmShape shape = armShape(bend, (static_cast<double>(cell) + 0.5) / kArmCells);
       const double curvature = free.curvature[cell] - lifted * shape.curvature / (length * length);
       const double slope = free.slope[cell] - lifted * shape.slope / length;
       bending += curvature * curvature * step_;
@@ -59,7 +63,7 @@ class ClosedArm {
     }
     for (int edge = 0; edge <= kArmCells; ++edge) {
       const double xi = static_cast<double>(edge) / kArmCells;
-      const ArmShape shape = armShape(beam.type, xi);
+      const ArmShape shape = armShape(bend, xi);
       phi_.push_back(shape.deflection);
       spread_.push_back(xi * shape.slope);
       psi_.push_back(free.at_edges[static_cast<std::size_t>(edge)] - lifted * shape.deflection);
@@ -67,7 +71,7 @@ class ClosedArm {
     const double section = beam.width * beam.thickness;
     stiffness_ = beam.modulus * section * beam.thickness * beam.thickness / 12.0 * bending;
     if (beam.type == BeamType::kDoublyClamped) {
-      const double strain = 2.4 * beam.gap * beam.gap / (beam.length * beam.length);
+      const double strain = 0.6 * beam.gap * beam.gap / (length * length);
       stiffness_ += section * (beam.residual_stress + beam.modulus * strain) * stretch;
     }
   }
@@ -133,21 +137,35 @@ class ClosedArm {
   std::vector<double> psi_;     ///< without a scale
 };
 
+double restGap(const BeamElectrode& electrode, double contact_gap) {
+  return electrode.gap + electrode.insulator_gap + contact_gap;
+}
+
 }  // namespace
 
 FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
                     double contact_gap) {
   if (beam.type == BeamType::kNone || voltage == 0.0) return {};
-  const double field = 0.5 * kVacuumPermittivity * voltage * voltage;
-  const double rest_gap = electrode.gap + electrode.insulator_gap + contact_gap;
+  if (beam.type == BeamType::kDoublyClamped)
+    return stuckFieldHold(beam, electrode, voltage, contact_gap, 0.5 * beam.length);
   const double end = electrode.start + electrode.length;
-  if (beam.type == BeamType::kCantilever) {
-    return ClosedArm(beam, beam.length, electrode.start, end, rest_gap).under(field);
-  }
-  const double arm = 0.5 * beam.length;
-  const FieldHold left = ClosedArm(beam, arm, electrode.start, end, rest_gap).under(field);
-  const FieldHold right =
-      ClosedArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
+  return ClosedArm(beam, Bend::kArc, beam.length, electrode.start, end,
+                   restGap(electrode, contact_gap))
+      .under(0.5 * kVacuumPermittivity * voltage * voltage);
+}
+
+FieldHold stuckFieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
+                         double contact_gap, double unstuck_length) {
+  if (beam.type == BeamType::kNone || voltage == 0.0) return {};
+  const double field = 0.5 * kVacuumPermittivity * voltage * voltage;
+  const double end = electrode.start + electrode.length;
+  const auto arm = [&](double from, double to) {
+    return ClosedArm(beam, Bend::kS, unstuck_length, from, to, restGap(electrode, contact_gap))
+        .under(field);
+  };
+  const FieldHold left = arm(electrode.start, end);
+  if (beam.type == BeamType::kCantilever) return left;
+  const FieldHold right = arm(beam.length - end, beam.length - electrode.start);
   return {left.force + right.force, 0.5 * (left.work + right.work)};
 }
 

@@ -49,4 +49,9 @@ struct FieldHold {
 FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
                     double contact_gap);
 
+/// The same of a beam that is stuck flat beyond its S-shaped arms.
+/// - @p unstuck_length of each arm, s [m], > 0
+FieldHold stuckFieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
+                         double contact_gap, double unstuck_length);
+
 }  // namespace mems_stiction

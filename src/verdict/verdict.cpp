@@ -93,6 +93,7 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double 
 struct Holding {
   const Prediction& prediction;     ///< of whoever judges the scan
   const DeviceOptions& device;      ///< that is held
+  const Options& options;           ///< those that the prediction was made with
   const AdhesionSpread& spread;     ///< of the figures that judge
   const DeviceEvidence* of_device;  ///< its own figures; nullptr: the scan's stand for it
   bool has_cleanings;               ///< the spread knows of other cleanings
@@ -192,8 +193,11 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const double of_electrodes = holding.electrodes.work;
   const double share = work / (work + of_electrodes);
   verdict.peel_number = peelNumber(beam, work + of_electrodes);
-  verdict.detachment_length = detachmentLength(beam, work);
-  verdict.unstuck_length = unstuckLength(beam, work);
+  const BeamLengths lengths =
+      stuckLengths(device, holding.options.interface, holding.options.load.contact_potential,
+                   holding.prediction.mean_gap, work);
+  verdict.detachment_length = lengths.detachment;
+  verdict.unstuck_length = lengths.unstuck;
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
   if (std::isinf(of_electrodes))
@@ -399,6 +403,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   const Holding holding{
       prediction,
       device,
+      options,
       spread,
       of_device,
       evidence.cleaning.has_value(),
