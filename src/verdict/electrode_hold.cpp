@@ -21,7 +21,7 @@ double closedGap(const DeviceOptions& device) {
 /// - @p isFree above 0 for a length at which it comes off
 template <typename Function>
 double lastPositive(double length, double most, const Function& isFree) {
-  constexpr double kTolerance = 1e-12;
+  constexpr double kTolerance = 1e-11;
   constexpr double kFactor = 1.2;
   constexpr double kFarthest = 1e6;  // times the length: held nowhere
   double free = length;
