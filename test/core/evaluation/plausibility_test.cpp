@@ -282,6 +282,26 @@ TEST(Plausibility, HalfASpringBesideABeamIsNamed) {
             "device/electrode_start 2e-05 has no effect: device/electrode_length is 0");
 }
 
+TEST(Plausibility, ABeamBentBeyondSmallSlopesIsNamed) {
+  Configuration configuration;
+  DeviceOptions& device = configuration.device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 200e-6;
+  device.beam_thickness = 2e-6;
+  device.beam_modulus = 169e9;
+  device.beam_gap = 0.2 * device.beam_length;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  device.beam_gap *= 1.01;
+  EXPECT_NE(onlyWarning(configuration)
+                .find("device/beam_gap 4.04e-05 m beside device/beam_length 0.0002 m "),
+            std::string::npos)
+      << onlyWarning(configuration);
+  device.beam_type = BeamType::kDoublyClamped;  // each half bends down
+  EXPECT_FALSE(settingsWarnings(configuration).empty());
+  device.beam_gap = 0.1 * device.beam_length;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+}
+
 TEST(Plausibility, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields
   Configuration configuration;
   configuration.model.interface.work_of_adhesion = 1e9;
