@@ -62,13 +62,14 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
   visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(),
                  "length of the beam");
   visitor.number("device/beam_width", beam_width, "m", Range::nonNegative(),
-                 "width of the beam, for its force and its pull-in voltage; 0 = not stated");
+                 "width of the beam, for its force and pull-in voltage; 0 = not stated");
   visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(),
                  "thickness of the beam");
   visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(),
                  "height of the beam above the substrate");
-  visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(),
-                 "Young's modulus of the beam");
+  visitor.number(
+      "device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(),
+      "Young's modulus of the beam; of one wider than five times its thickness E/(1 - nu^2)");
   visitor.number("device/beam_residual_stress", beam_residual_stress, "Pa", Range::any(),
                  "residual stress of a doubly clamped beam, tensile positive");
   visitor.number("device/electrode_start", electrode_start, "m", Range::nonNegative(),
