@@ -76,6 +76,19 @@ constexpr Idle kIdle[] = {
     {"device_force/pitch", isWithoutDeviceForce, kNoDeviceForce},
     {"device_force/max_cells", isWithoutDeviceForce, kNoDeviceForce},
     {"device_force/seed", isWithoutDeviceForce, kNoDeviceForce},
+    {"device/travel",
+     [](const Configuration& all) {
+       return all.device.hasBeam() && all.device.spring_stiffness == 0.0;
+     },
+     "device/spring_stiffness is 0 and the gap of a beam is device/beam_gap"},
+    {"device/spring_stiffness",
+     [](const Configuration& all) { return all.device.hasBeam() && all.device.travel == 0.0; },
+     "device/travel is 0"},
+    {"device/electrode_start",
+     [](const Configuration& all) {
+       return all.device.hasBeam() && all.device.electrode_length == 0.0;
+     },
+     "device/electrode_length is 0"},
     {"device/electrode_start", [](const Configuration& all) { return !all.device.hasBeam(); },
      "device/beam_type is none"},
     {"device/electrode_length", [](const Configuration& all) { return !all.device.hasBeam(); },

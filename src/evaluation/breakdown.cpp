@@ -52,9 +52,11 @@ std::vector<std::string> breakdownWarnings(const Options& options, const DeviceO
                              is_narrow ? "metals emit electrons" : "gaps in air break down"));
   };
   check("the mean gap", mean_gap);
-  const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
+  const bool is_beam = device.hasBeam() && !device.hasSpring();
+  const double travel = is_beam ? device.beam_gap : device.travel;
+  const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : travel;
   check("the electrodes' gap at rest", rest_gap);
-  check("the electrodes' gap when closed", rest_gap - device.travel);
+  check("the electrodes' gap when closed", rest_gap - travel);
   return lines;
 }
 

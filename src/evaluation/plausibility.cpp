@@ -7,6 +7,7 @@
 #include "configuration/usual_values.hpp"
 #include "evaluation/breakdown.hpp"
 #include "evaluation/half_space_call.hpp"
+#include "numeric/rounding.hpp"
 #include "verdict/missing_scan.hpp"
 
 namespace mems_stiction {
@@ -15,6 +16,8 @@ namespace {
 constexpr double kSoftestShare =
     2e-4;  // hardness over modulus: a quarter of that of indium, the softest metal for devices
 constexpr double kSlenderness = 5.0;  // length over thickness of a beam
+// gap over length of an arm: there the force of small slopes is 4 % below that of the elastica
+constexpr double kLargestSlant = 0.2;
 
 /// What settings say of each other.
 void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
@@ -42,11 +45,22 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   checkPlate("lower", configuration.model.lower);
   checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;
-  if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
+  if (device.hasBeam() && exceeds(kSlenderness * device.beam_thickness, device.beam_length)) {
     lines.push_back("device/beam_length " + fourDigits(device.beam_length) +
                     " m beside device/beam_thickness " + fourDigits(device.beam_thickness) +
                     " m is no beam (at least " + fourDigits(kSlenderness) +
                     " times as long as thick): were they swapped?");
+    return;
+  }
+  const double arm =
+      device.beam_type == BeamType::kDoublyClamped ? 0.5 * device.beam_length : device.beam_length;
+  if (device.hasBeam() && exceeds(device.beam_gap, kLargestSlant * arm)) {
+    lines.push_back("device/beam_gap " + fourDigits(device.beam_gap) +
+                    " m beside device/beam_length " + fourDigits(device.beam_length) +
+                    " m bends the beam beyond small slopes (a gap of at most " +
+                    fourDigits(kLargestSlant) +
+                    " of what lies between clamp and contact): its force and peel number are out "
+                    "of range");
   }
 }
 

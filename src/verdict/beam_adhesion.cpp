@@ -3,49 +3,41 @@
 #include <cmath>
 #include <limits>
 
+#include "numeric/bisection.hpp"
 #include "numeric/constants.hpp"
+#include "verdict/guided_arm.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 
-/// G(s) = bending/s^4 + tension/s^2 of one S-shaped arm.
-struct ArmTerms {
-  double bending = 0.0;  ///< [J m^2]
-  double tension = 0.0;  ///< [J]
+/// G s^4 of an S-shaped arm that bends alone [J m^2].
+double bendingTerm(const Beam& beam) {
+  return 1.5 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap;
+}
 
-  explicit ArmTerms(const Beam& beam) {
-    const double stretch = beam.gap / beam.thickness;
-    const double plain = 1.5 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap;
-    bending =
-        beam.type == BeamType::kDoublyClamped ? plain * (1.0 + 0.36 * stretch * stretch) : plain;
-    tension = beam.type == BeamType::kDoublyClamped
-                  ? 0.6 * beam.residual_stress * beam.thickness * beam.gap * beam.gap
-                  : 0.0;
-  }
-
-  double work(double length) const {
-    const double square = length * length;
-    return (bending / square + tension) / square;
-  }
-  /// The s with work(s) = given work: a quadratic equation in s^2, whose other root is negative.
-  double length(double given_work) const {
-    if (given_work == 0.0) return std::numeric_limits<double>::infinity();
-    const double half = 0.5 * tension / given_work;
-    return std::sqrt(half + std::sqrt(half * half + bending / given_work));
-  }
-};
+/// The s with sShapeWork(s) = given work, > 0: the work falls with s.
+double armLength(const Beam& beam, double work) {
+  const double plain = std::sqrt(std::sqrt(bendingTerm(beam) / work));
+  if (beam.type != BeamType::kDoublyClamped) return plain;
+  constexpr double kFactor = 1.5;
+  double low = plain;
+  double high = plain;
+  while (sShapeWork(beam, low) < work) low /= kFactor;
+  while (sShapeWork(beam, high) > work) high *= kFactor;
+  return signChange(low, high, 0.0, [&](double length) { return sShapeWork(beam, length) - work; });
+}
 
 }  // namespace
 
 double sShapeWork(const Beam& beam, double unstuck_length) {
-  return ArmTerms(beam).work(unstuck_length);
+  return beam.type == BeamType::kDoublyClamped ? guidedArm(beam, unstuck_length).work
+                                               : bendingTerm(beam) / std::pow(unstuck_length, 4);
 }
 
 double arcWork(const Beam& beam, double unstuck_length) {
-  return 0.375 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap /
-         std::pow(unstuck_length, 4);
+  return 0.25 * bendingTerm(beam) / std::pow(unstuck_length, 4);
 }
 
 double bucklingStress(const Beam& beam) {
@@ -70,9 +62,9 @@ double detachmentLength(const Beam& beam, double work) {
   switch (beam.type) {
     case BeamType::kCantilever:
       return std::sqrt(0.5) *
-             ArmTerms(beam).length(work);  // the arc's G is a quarter of the S-shape's
+             unstuckLength(beam, work);  // the arc's G is a quarter of the S-shape's
     case BeamType::kDoublyClamped:
-      return 2.0 * ArmTerms(beam).length(work);
+      return 2.0 * unstuckLength(beam, work);
     case BeamType::kNone:
       break;
   }
@@ -80,18 +72,12 @@ double detachmentLength(const Beam& beam, double work) {
 }
 
 double beamForce(const Beam& beam) {
-  const double plain =
-      beam.modulus * beam.width * std::pow(beam.thickness, 3) * beam.gap / std::pow(beam.length, 3);
   switch (beam.type) {
     case BeamType::kCantilever:
-      return 0.25 * plain;
-    case BeamType::kDoublyClamped: {
-      const double stretch = beam.gap / beam.thickness;
-      const double slenderness = beam.length / beam.thickness;
-      return 16.0 * plain *
-             (1.0 + 0.72 * stretch * stretch +
-              0.3 * beam.residual_stress / beam.modulus * slenderness * slenderness);
-    }
+      return 0.25 * beam.modulus * beam.width * std::pow(beam.thickness / beam.length, 3) *
+             beam.gap;
+    case BeamType::kDoublyClamped:
+      return 2.0 * beam.width * guidedArm(beam, 0.5 * beam.length).force;
     case BeamType::kNone:
       break;
   }
@@ -105,7 +91,8 @@ double peelLength(const Beam& beam, double work, double pressure) {
 }
 
 double unstuckLength(const Beam& beam, double work) {
-  return beam.type == BeamType::kNone ? kNotStated : ArmTerms(beam).length(work);
+  if (beam.type == BeamType::kNone || std::isnan(work)) return kNotStated;
+  return work > 0.0 ? armLength(beam, work) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace mems_stiction

@@ -3,38 +3,74 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-#include <vector>
+#include <optional>
 
 #include "numeric/constants.hpp"
-#include "verdict/beam_shape.hpp"
+#include "numeric/rounding.hpp"
+#include "verdict/bent_beam.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr int kCells = 400;       // along the beam; the integrals are then right to 1e-5
-constexpr int kAmplitudes = 400;  // between rest and landing; the maximum of V(a) is flat
+constexpr int kAmplitudes = 100;        // between rest and landing; the maximum of V(a) is flat
+constexpr int kMostDescentRounds = 30;  // of Newton's method
+constexpr double kFollowed = 1e-8;
 
-/// The shape of the beam at the middles of its cells; max = 1.
-struct ScaledShape {
-  std::vector<double> deflection;
-  double slope_square = 0.0;      ///< J [1/m]
-  double curvature_square = 0.0;  ///< integral phi''^2 dx [1/m^3]
-};
-
-ScaledShape scaledShape(const Beam& beam, const BeamElectrode& electrode) {
-  BeamShape bent = shapeUnder(beam, electrode.start, electrode.length, kCells);
-  ScaledShape shape;
-  for (const double slope : bent.slope) shape.slope_square += slope * slope * bent.step;
-  for (const double curvature : bent.curvature)
-    shape.curvature_square += curvature * curvature * bent.step;
-  shape.deflection = std::move(bent.deflection);
-  const double most = *std::max_element(shape.deflection.begin(), shape.deflection.end());
-  for (double& value : shape.deflection) value /= most;
-  shape.slope_square /= most * most;
-  shape.curvature_square /= most * most;
-  return shape;
+/// The shape under a field of which no deflection changes it, of any size.
+BentBeam::Vector firstShape(const BentBeam& beam) {
+  const BentBeam::Vector straight = BentBeam::Vector::Zero(beam.size());
+  BentBeam::Field field;
+  if (!beam.fieldOf(straight, field)) return straight;
+  return beam.stiffness(straight).ldlt().solve(field.pull);
 }
+
+/// Follows the beam down by the deflection of one place.
+class Descent {
+ public:
+  explicit Descent(const BentBeam& beam) : beam_(beam), bent_(firstShape(beam)) {
+    Eigen::Index place = 0;
+    beam_.deflections(bent_).maxCoeff(&place);
+    shapes_ = beam_.shapesAt(static_cast<int>(place));
+  }
+
+  /// (1/2) eps0 w V^2 that holds the place at a deflection [N m]; nothing where nothing does.
+  std::optional<double> fieldAt(double deflection) {
+    const double before = shapes_.dot(bent_);
+    if (!(before > 0.0)) return std::nullopt;
+    bent_ *= deflection / before;
+    const int size = beam_.size();
+    BentBeam::Matrix matrix = BentBeam::Matrix::Zero(size + 1, size + 1);
+    BentBeam::Vector excess = BentBeam::Vector::Zero(size + 1);
+    for (int round = 0; round < kMostDescentRounds; ++round) {
+      BentBeam::Field field;
+      if (!beam_.fieldOf(bent_, field)) return std::nullopt;
+      if (!has_field_) field_ = bent_.dot(beam_.resistance(bent_)) / bent_.dot(field.pull);
+      has_field_ = true;
+      excess.head(size) = field_ * field.pull - beam_.resistance(bent_);
+      excess(size) = deflection - shapes_.dot(bent_);
+      matrix.topLeftCorner(size, size) = beam_.stiffness(bent_) - field_ * field.slope;
+      matrix.topRightCorner(size, 1) = -field.pull;
+      matrix.bottomLeftCorner(1, size) = shapes_.transpose();
+      const BentBeam::Vector change = matrix.partialPivLu().solve(excess);
+      if (!change.allFinite()) return std::nullopt;
+      bent_ += change.head(size);
+      field_ += change(size);
+      const double moved = beam_.deflections(change.head(size)).cwiseAbs().maxCoeff();
+      if (moved <= kFollowed * deflection && std::abs(change(size)) <= kFollowed * std::abs(field_))
+        return field_;
+    }
+    return std::nullopt;
+  }
+
+  double deepest() const { return beam_.deflections(bent_).maxCoeff(); }
+
+ private:
+  const BentBeam& beam_;
+  BentBeam::Vector bent_;
+  BentBeam::Vector shapes_;  ///< of the place that is followed
+  double field_ = 0.0;
+  bool has_field_ = false;
+};
 
 }  // namespace
 
@@ -45,39 +81,28 @@ std::optional<BeamElectrode> electrodeOf(const DeviceOptions& device,
     return std::nullopt;
   }
   return BeamElectrode{device.electrode_start, device.electrode_length,
-                       device.electrode_gap > 0.0 ? device.electrode_gap : device.beam_gap,
+                       std::max(device.electrode_gap, device.beam_gap),
                        interface.insulator_thickness / interface.insulator_relative_permittivity};
 }
 
 double beamClosingVoltage(const Beam& beam, const BeamElectrode& electrode) {
   if (beam.type == BeamType::kNone || !(beam.width > 0.0))
     return std::numeric_limits<double>::quiet_NaN();
-  const ScaledShape shape = scaledShape(beam, electrode);
-  const double section = beam.width * beam.thickness;
-  double linear =
-      beam.modulus * section * beam.thickness * beam.thickness / 12.0 * shape.curvature_square;
-  double cubic = 0.0;
-  if (beam.type == BeamType::kDoublyClamped) {
-    linear += beam.residual_stress * section * shape.slope_square;
-    cubic = beam.modulus * section * shape.slope_square * shape.slope_square / (2.0 * beam.length);
-  }
-  const double step = beam.length / kCells;
+  const bool is_clamped = beam.type == BeamType::kDoublyClamped;
   const double gap = electrode.gap + electrode.insulator_gap;
+  const BentBeam bent(beam, beam.length, is_clamped ? BeamEnd::kClamped : BeamEnd::kFree,
+                      electrode.start, electrode.start + electrode.length, gap, is_clamped);
+  if (!bent.hasElectrode()) return std::numeric_limits<double>::quiet_NaN();
+  Descent descent(bent);
   double most = 0.0;
   for (int i = 1; i <= kAmplitudes; ++i) {
     const double amplitude = beam.gap * i / kAmplitudes;
     if (amplitude >= gap) break;  // the field there grows beyond all bounds
-    double pull = 0.0;
-    for (int cell = 0; cell < kCells; ++cell) {
-      const double x = (cell + 0.5) * step;
-      if (x < electrode.start || x > electrode.start + electrode.length) continue;
-      const double deflection = shape.deflection[static_cast<std::size_t>(cell)];
-      pull += deflection / ((gap - amplitude * deflection) * (gap - amplitude * deflection)) * step;
-    }
-    const double back = (linear + cubic * amplitude * amplitude) * amplitude;
-    most = std::max(most, 2.0 * back / (kVacuumPermittivity * beam.width * pull));
+    const std::optional<double> field = descent.fieldAt(amplitude);
+    if (!field || exceeds(descent.deepest(), beam.gap)) break;
+    most = std::max(most, *field);
   }
-  return std::sqrt(most);
+  return std::sqrt(2.0 * most / (kVacuumPermittivity * beam.width));
 }
 
 }  // namespace mems_stiction

@@ -1,153 +1,112 @@
 #include "verdict/beam_field.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 #include "numeric/constants.hpp"
-#include "verdict/beam_shape.hpp"
+#include "verdict/bent_beam.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr int kArmCells =
-    1000;  // along an arm; the gap is linear within each, which is right to 1e-4
-constexpr int kMostRounds = 500;  // of the balance: near the end of what balances it creeps
-constexpr double kBalanced = 1e-9;
+constexpr int kLoadSteps = 4;          // of V^2, each from the balance before
+constexpr int kMostClosedRounds = 50;  // of Newton's method
+constexpr double kClosedBalance = 1e-11;
 constexpr double kDiscretisation = 1e-4;  // of the deflection
+constexpr double kWithoutEnd = std::numeric_limits<double>::infinity();
 
-/// The shape of an arm, and how it changes as the arm grows.
-struct ArmShape {
-  double deflection = 0.0;  ///< phi [-]
-  double slope = 0.0;       ///< phi'(xi) [-]
-  double curvature = 0.0;   ///< phi''(xi) [-]
-};
-
-ArmShape armShape(BeamType type, double xi) {
-  if (type == BeamType::kCantilever)
-    return {xi * xi * (1.5 - 0.5 * xi), xi * (3.0 - 1.5 * xi), 3.0 - 3.0 * xi};
-  return {xi * xi * (3.0 - 2.0 * xi), 6.0 * xi * (1.0 - xi), 6.0 - 12.0 * xi};
-}
-
-/// An arm that is held by h at its end, above a part of the electrode; its edges are those of
-/// kArmCells cells from the clamp.
+/// An arm that is held by h at its end.
 class ClosedArm {
  public:
-  /// - @p length s [m]
-  /// - @p from, to where the electrode lies, from the clamp [m]
-  /// - @p rest_gap between beam and electrode at rest, with insulator and contact [m]
-  ClosedArm(const Beam& beam, double length, double from, double to, double rest_gap)
-      : beam_(beam),
-        length_(length),
-        from_(std::clamp(from, 0.0, length)),
-        to_(std::clamp(to, 0.0, length)),
-        rest_gap_(rest_gap),
-        step_(length / kArmCells) {
-    Beam arm = beam;
-    arm.length = length;  // of a doubly clamped beam an arm without a slope at both ends
-    const BeamShape free = shapeUnder(arm, from_, to_ - from_, kArmCells);
-    const double lifted = beam.type == BeamType::kCantilever ? free.at_edges.back() : 0.0;
-    double bending = 0.0;
-    double stretch = 0.0;
-    for (std::size_t cell = 0; cell < free.curvature.size(); ++cell) {
-      const ArmShape shape = armShape(beam.type, (static_cast<double>(cell) + 0.5) / kArmCells);
-      const double curvature = free.curvature[cell] - lifted * shape.curvature / (length * length);
-      const double slope = free.slope[cell] - lifted * shape.slope / length;
-      bending += curvature * curvature * step_;
-      stretch += slope * slope * step_;
-    }
-    for (int edge = 0; edge <= kArmCells; ++edge) {
-      const double xi = static_cast<double>(edge) / kArmCells;
-      const ArmShape shape = armShape(beam.type, xi);
-      phi_.push_back(shape.deflection);
-      spread_.push_back(xi * shape.slope);
-      psi_.push_back(free.at_edges[static_cast<std::size_t>(edge)] - lifted * shape.deflection);
-    }
-    const double section = beam.width * beam.thickness;
-    stiffness_ = beam.modulus * section * beam.thickness * beam.thickness / 12.0 * bending;
-    if (beam.type == BeamType::kDoublyClamped) {
-      const double strain = 2.4 * beam.gap * beam.gap / (beam.length * beam.length);
-      stiffness_ += section * (beam.residual_stress + beam.modulus * strain) * stretch;
-    }
+  ClosedArm(const BentBeam& arm, double gap)
+      : arm_(arm), gap_(gap), bent_(BentBeam::Vector::Zero(arm.size())) {
+    bent_(0) = gap;
   }
 
-  /// What the field on this arm adds. - @p field (1/2) eps0 V^2 [N]
-  FieldHold under(double field) const {
-    if (!(to_ > from_)) return {};
-    double amplitude = 0.0;
-    for (int round = 0; round < kMostRounds && isAbove(amplitude); ++round) {
-      const double next = field * beam_.width * sum(psi_, amplitude) / stiffness_;
-      if (!(next >= 0.0)) break;  // compressed beyond its stiffness
-      if (std::abs(next - amplitude) <= kBalanced * next) {
-        return {field * beam_.width * sum(phi_, next),
-                field * beam_.gap / length_ * sum(spread_, next)};
+  /// False where no balance is found before more of the arm lies on the substrate.
+  /// - @p field (1/2) eps0 w V^2 [N m]
+  bool balance(double field) {
+    const Eigen::Index free = arm_.size() - 1;
+    for (int round = 0; round < kMostClosedRounds; ++round) {
+      BentBeam::Vector excess = -arm_.resistance(bent_);
+      BentBeam::Matrix stiffness = arm_.stiffness(bent_);
+      if (field > 0.0) {
+        if (!arm_.fieldOf(bent_, of_field_)) return false;
+        excess += field * of_field_.pull;
+        stiffness -= field * of_field_.slope;
       }
-      amplitude = next;
+      const Eigen::LLT<BentBeam::Matrix> factors(stiffness.bottomRightCorner(free, free));
+      if (factors.info() != Eigen::Success) return false;
+      const BentBeam::Vector change = factors.solve(excess.tail(free));
+      bent_.tail(free) += change;
+      if (!(change.cwiseAbs().maxCoeff() > kClosedBalance * gap_))
+        return arm_.deflections(bent_).maxCoeff() <= gap_ * (1.0 + kDiscretisation);
     }
-    constexpr double kWithoutEnd = std::numeric_limits<double>::infinity();
-    return {kWithoutEnd, kWithoutEnd};
+    return false;
+  }
+
+  /// What has to hold its end [N], and what its energy loses when it grows [N], after balance().
+  FieldHold holdUnder(double field) const {
+    FieldHold hold{arm_.resistance(bent_)(0), arm_.release(bent_)};
+    if (field > 0.0) {
+      hold.force -= field * of_field_.pull(0);
+      hold.work -= field * of_field_.growth;
+    }
+    return hold;
   }
 
  private:
-  double deflectionAt(std::size_t edge, double amplitude) const {
-    return beam_.gap * phi_[edge] + amplitude * psi_[edge];
-  }
-
-  /// It does not lie on the substrate before its end.
-  bool isAbove(double amplitude) const {
-    for (std::size_t edge = 0; edge < phi_.size(); ++edge) {
-      if (deflectionAt(edge, amplitude) > beam_.gap * (1.0 + kDiscretisation)) return false;
-    }
-    return true;
-  }
-
-  /// Integral of a weight, given at the edges, over d^2 along the electrode.
-  double sum(const std::vector<double>& weight, double amplitude) const {
-    double total = 0.0;
-    for (std::size_t cell = 0; cell + 1 < phi_.size(); ++cell) {
-      const double begin = static_cast<double>(cell) * step_;
-      const double first = std::max(begin, from_);
-      const double last = std::min(begin + step_, to_);
-      if (!(last > first)) continue;
-      const double gap = rest_gap_ - deflectionAt(cell, amplitude);
-      const double rise =
-          (deflectionAt(cell, amplitude) - deflectionAt(cell + 1, amplitude)) / step_;
-      const double middle = (0.5 * (first + last) - begin) / step_;
-      const double of_middle = (1.0 - middle) * weight[cell] + middle * weight[cell + 1];
-      total += of_middle * (last - first) /
-               ((gap + rise * (first - begin)) * (gap + rise * (last - begin)));
-    }
-    return total;
-  }
-
-  Beam beam_;
-  double length_;  ///< s [m]
-  double from_;
-  double to_;
-  double rest_gap_;
-  double step_;             ///< of the cells [m]
-  double stiffness_ = 0.0;  ///< of b, on the scale of psi
-  std::vector<double> phi_;
-  std::vector<double> spread_;  ///< xi phi'(xi) [-]
-  std::vector<double> psi_;     ///< without a scale
+  const BentBeam& arm_;
+  double gap_;
+  BentBeam::Vector bent_;
+  BentBeam::Field of_field_;
 };
+
+/// What the field on one arm adds. - @p field (1/2) eps0 w V^2 [N m]
+FieldHold armHold(const BentBeam& arm, const Beam& beam, double field) {
+  if (!arm.hasElectrode()) return {};
+  ClosedArm closed(arm, beam.gap);
+  if (!closed.balance(0.0)) return {kWithoutEnd, kWithoutEnd};
+  const FieldHold bare = closed.holdUnder(0.0);
+  for (int step = 1; step <= kLoadSteps; ++step) {
+    if (!closed.balance(field * step / kLoadSteps)) return {kWithoutEnd, kWithoutEnd};
+  }
+  const FieldHold left = closed.holdUnder(field);
+  return {bare.force - left.force, (bare.work - left.work) / beam.width};
+}
+
+/// (1/2) eps0 w V^2 [N m].
+double fieldScale(const Beam& beam, double voltage) {
+  return 0.5 * kVacuumPermittivity * beam.width * voltage * voltage;
+}
+
+double restGap(const BeamElectrode& electrode, double contact_gap) {
+  return electrode.gap + electrode.insulator_gap + contact_gap;
+}
 
 }  // namespace
 
 FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
                     double contact_gap) {
   if (beam.type == BeamType::kNone || voltage == 0.0) return {};
-  const double field = 0.5 * kVacuumPermittivity * voltage * voltage;
-  const double rest_gap = electrode.gap + electrode.insulator_gap + contact_gap;
+  if (beam.type == BeamType::kDoublyClamped)
+    return stuckFieldHold(beam, electrode, voltage, contact_gap, 0.5 * beam.length);
+  const BentBeam arm(beam, beam.length, BeamEnd::kResting, electrode.start,
+                     electrode.start + electrode.length, restGap(electrode, contact_gap), false);
+  return armHold(arm, beam, fieldScale(beam, voltage));
+}
+
+FieldHold stuckFieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
+                         double contact_gap, double unstuck_length) {
+  if (beam.type == BeamType::kNone || voltage == 0.0) return {};
   const double end = electrode.start + electrode.length;
-  if (beam.type == BeamType::kCantilever) {
-    return ClosedArm(beam, beam.length, electrode.start, end, rest_gap).under(field);
-  }
-  const double arm = 0.5 * beam.length;
-  const FieldHold left = ClosedArm(beam, arm, electrode.start, end, rest_gap).under(field);
-  const FieldHold right =
-      ClosedArm(beam, arm, beam.length - end, beam.length - electrode.start, rest_gap).under(field);
+  const auto hold = [&](double from, double to) {
+    const BentBeam arm(beam, unstuck_length, BeamEnd::kGuided, from, to,
+                       restGap(electrode, contact_gap), beam.type == BeamType::kDoublyClamped);
+    return armHold(arm, beam, fieldScale(beam, voltage));
+  };
+  const FieldHold left = hold(electrode.start, end);
+  if (beam.type == BeamType::kCantilever) return left;
+  const FieldHold right = hold(beam.length - end, beam.length - electrode.start);
   return {left.force + right.force, 0.5 * (left.work + right.work)};
 }
 

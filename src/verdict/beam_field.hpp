@@ -3,34 +3,26 @@
 /// @file
 /// What does the field of the electrode add to what holds a beam that touches?
 ///
-/// The beam has come down by h where it touches, and lies in one of the shapes of
-/// beam_adhesion.hpp, of the arm s = l of a cantilever or s = l/2 of a doubly clamped beam, xi =
-/// x/s from the clamp:
+/// The beam has come down by h where it touches: the arm s = l of a cantilever with its tip, each
+/// arm s = l/2 of a doubly clamped beam flat. The arm bends further under the field, by Ritz's
+/// method (bent_beam.hpp), with the gap
 ///
-///     arc, a cantilever            phi = (3 xi^2 - xi^3)/2
-///     S-shape, doubly clamped      phi = 3 xi^2 - 2 xi^3
-///     gap at x                     d(x) = g + t_i/eps_i + d_c - h phi(x) - b psi(x)
+///     d(x) = g + t_i/eps_i + d_c - w(x)
 ///
-/// with the mean gap d_c of the rough surfaces in contact. psi is what an even load on the
-/// electrode adds to the shape of an arm while it stays where it touches, a cantilever as on a
-/// bearing, the arms of a doubly clamped beam without a slope. Its b follows from the balance of
-/// bending (and of the force N along a doubly clamped beam) with the field, as in
-/// beam_electrode.hpp:
+/// and the mean gap d_c of the rough surfaces in contact. Where nothing balances the field before
+/// more of the arm lies on the substrate the field alone holds the beam, with more force than there
+/// is to open it: infinite here.
 ///
-///     b [E I integral psi''^2 dx + N integral psi'^2 dx] = (1/2) eps0 w V^2 integral psi/d^2 dx
-///     N = w t (sigma + (12/5) E h^2/l^2)
+/// The energy U(h, s) of arm and field together says what has to hold the arm, and what peels it:
 ///
-/// Where no b balances before more of the arm lies on the substrate the field alone holds the beam,
-/// with more force than there is to open it: infinite here.
+///     F_e = F(V = 0) - F(V),   F(V) = dU/dh
+///     G_e = G(V = 0) - G(V),   G(V) = -dU/ds per width and arm
 ///
-/// The co-energy of the field, (1/2) eps0 w V^2 integral dx/d over the electrode, changes with h
-/// and with s, beside what adhesion brings:
-///
-///     force on what touches        (1/2) eps0 w V^2 integral phi/d^2 dx
-///     work of what is peeled       (1/2) eps0 V^2 integral h xi phi'(xi)/(s d^2) dx, per arm
+/// To first order in V^2 that is the change of the co-energy (1/2) eps0 w V^2 integral dx/d of the
+/// arm without a field.
 ///
 /// Assumptions: as beam_adhesion.hpp; no fringes. Against a finite-difference beam the force is
-/// within 5 % (test/core/verdict/beam_electrode_test.cpp).
+/// within 2 % (test/core/verdict/beam_electrode_test.cpp).
 
 #include "verdict/beam_electrode.hpp"
 
@@ -48,5 +40,10 @@ struct FieldHold {
 /// electrode
 FieldHold fieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
                     double contact_gap);
+
+/// The same of a beam that is stuck flat beyond its S-shaped arms.
+/// - @p unstuck_length of each arm, s [m], > 0
+FieldHold stuckFieldHold(const Beam& beam, const BeamElectrode& electrode, double voltage,
+                         double contact_gap, double unstuck_length);
 
 }  // namespace mems_stiction

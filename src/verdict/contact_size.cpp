@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "errors/short_number.hpp"
+#include "numeric/rounding.hpp"
 
 namespace mems_stiction {
-namespace {
-
-constexpr double kRounding = 1e-9;  // of areas that were typed
-
-}  // namespace
-
 bool hasSizeOfScan(const Prediction& prediction, const DeviceOptions& device) {
   if (!(device.contact_area > 0.0) || !(prediction.nominal_area > 0.0)) return true;
   const double ratio = device.contact_area / device.contacts / prediction.nominal_area;
-  return std::max(ratio, 1.0 / ratio) <= kTrustedAreaRatio * (1.0 + kRounding);
+  return !exceeds(std::max(ratio, 1.0 / ratio), kTrustedAreaRatio);
 }
 
 std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device,

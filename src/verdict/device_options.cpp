@@ -8,6 +8,7 @@
 
 #include "errors/short_number.hpp"
 #include "mechanics/surface_forces.hpp"
+#include "numeric/rounding.hpp"
 #include "verdict/beam_electrode.hpp"
 
 namespace mems_stiction {
@@ -27,6 +28,12 @@ std::string zerosOf(std::initializer_list<std::pair<const char*, double>> settin
 Beam DeviceOptions::beam() const {
   return {beam_type,    beam_length,          beam_thickness, beam_gap,
           beam_modulus, beam_residual_stress, beam_width};
+}
+
+DeviceOptions DeviceOptions::withoutSpring() const {
+  DeviceOptions alone = *this;
+  alone.spring_stiffness = alone.travel = alone.electrode_area = 0.0;
+  return alone;
 }
 
 double DeviceOptions::beamContactLength() const {
@@ -55,13 +62,14 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
   visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(),
                  "length of the beam");
   visitor.number("device/beam_width", beam_width, "m", Range::nonNegative(),
-                 "width of the beam, for its force and its pull-in voltage; 0 = not stated");
+                 "width of the beam, for its force and pull-in voltage; 0 = not stated");
   visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(),
                  "thickness of the beam");
   visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(),
                  "height of the beam above the substrate");
-  visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(),
-                 "Young's modulus of the beam");
+  visitor.number(
+      "device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(),
+      "Young's modulus of the beam; of one wider than five times its thickness E/(1 - nu^2)");
   visitor.number("device/beam_residual_stress", beam_residual_stress, "Pa", Range::any(),
                  "residual stress of a doubly clamped beam, tensile positive");
   visitor.number("device/electrode_start", electrode_start, "m", Range::nonNegative(),
@@ -75,25 +83,25 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
 
 std::vector<std::string> DeviceOptions::validate() const {
   std::vector<std::string> violations = rangeViolations(*this);
-  if (electrode_gap > 0.0 && travel > electrode_gap) {
+  if (electrode_gap > 0.0 && exceeds(travel, electrode_gap)) {
     violations.push_back("device/travel: " + numberText(travel) +
                          " m is not allowed, must not exceed " + "device/electrode_gap " +
                          numberText(electrode_gap) + " m");
   }
   if (!hasBeam()) return violations;
-  if (beam_width > 0.0 && contact_area > beam_width * beam_length && beam_length > 0.0) {
+  if (beam_width > 0.0 && beam_length > 0.0 && exceeds(contact_area, beam_width * beam_length)) {
     violations.push_back(
         "device/contact_area: " + numberText(contact_area) +
         " m^2 is not allowed, must not exceed device/beam_width times device/beam_length, " +
         numberText(beam_width * beam_length) + " m^2");
   }
-  if (electrode_start + electrode_length > beam_length && beam_length > 0.0) {
+  if (beam_length > 0.0 && exceeds(electrode_start + electrode_length, beam_length)) {
     violations.push_back("device/electrode_length: " + numberText(electrode_length) +
                          " m from device/electrode_start " + numberText(electrode_start) +
                          " m is not allowed, must end within device/beam_length " +
                          numberText(beam_length) + " m");
   }
-  if (electrode_gap > 0.0 && electrode_length > 0.0 && electrode_gap < beam_gap) {
+  if (electrode_gap > 0.0 && electrode_length > 0.0 && exceeds(beam_gap, electrode_gap)) {
     violations.push_back("device/electrode_gap: " + numberText(electrode_gap) +
                          " m is not allowed, must be at least device/beam_gap " +
                          numberText(beam_gap) + " m");

@@ -41,4 +41,16 @@ std::optional<FieldHold> voltageHold(const DeviceOptions& device, const Interfac
 FieldHold lastingHold(const DeviceOptions& device, const InterfaceOptions& interface,
                       double contact_potential, double contact_gap);
 
+/// Lengths of a beam that adhesion and the field together hold.
+struct BeamLengths {
+  double detachment = 0.0;  ///< longest beam that comes off by itself [m]
+  double unstuck = 0.0;     ///< free arm of the beam while it is stuck [m]
+};
+
+/// detachmentLength() and unstuckLength() with the work of the field that stays. A longer or
+/// shorter beam has an electrode of the same proportions.
+/// - @p work of adhesion, >= 0 [J/m^2]; NaN gives NaN
+BeamLengths stuckLengths(const DeviceOptions& device, const InterfaceOptions& interface,
+                         double contact_potential, double contact_gap, double work);
+
 }  // namespace mems_stiction

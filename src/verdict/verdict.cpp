@@ -93,6 +93,7 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double 
 struct Holding {
   const Prediction& prediction;     ///< of whoever judges the scan
   const DeviceOptions& device;      ///< that is held
+  const Options& options;           ///< those that the prediction was made with
   const AdhesionSpread& spread;     ///< of the figures that judge
   const DeviceEvidence* of_device;  ///< its own figures; nullptr: the scan's stand for it
   bool has_cleanings;               ///< the spread knows of other cleanings
@@ -192,8 +193,11 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const double of_electrodes = holding.electrodes.work;
   const double share = work / (work + of_electrodes);
   verdict.peel_number = peelNumber(beam, work + of_electrodes);
-  verdict.detachment_length = detachmentLength(beam, work);
-  verdict.unstuck_length = unstuckLength(beam, work);
+  const BeamLengths lengths =
+      stuckLengths(device, holding.options.interface, holding.options.load.contact_potential,
+                   holding.prediction.mean_gap, work);
+  verdict.detachment_length = lengths.detachment;
+  verdict.unstuck_length = lengths.unstuck;
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
   if (std::isinf(of_electrodes))
@@ -305,6 +309,32 @@ std::string historyOf(const Prediction& prediction, double contact_potential) {
   return loads.empty() ? "" : "; after " + loads + ", under which contacts have flowed";
 }
 
+/// Spring or beam, whichever is worse by its word, then by the ratio that decides.
+/// - @p of_spring the device without its beam
+/// - @p of_beam without its spring, with a margin and a peel number of its own
+Verdict worseOf(Verdict of_spring, Verdict of_beam) {
+  const double deciding =
+      of_beam.governed_by == kGovernedByPeeling ? of_beam.peel_number : of_beam.margin;
+  const int worse = gravity(of_beam.sticks) - gravity(of_spring.sticks);
+  const double pull_in = of_spring.pull_in_voltage;
+  if (worse > 0 || (worse == 0 && deciding < of_spring.margin)) {
+    of_beam.pull_in_voltage = pull_in;
+    of_beam.reason += "; that is of the beam, the worse of both";
+    if (!std::isnan(of_spring.margin)) {
+      of_beam.reason += " (the spring alone: margin " + shortNumber(of_spring.margin, 2) + ")";
+    }
+    return of_beam;
+  }
+  of_spring.apparent_work_of_adhesion = of_beam.apparent_work_of_adhesion;
+  of_spring.peel_number = of_beam.peel_number;
+  of_spring.peel_number_lower = of_beam.peel_number_lower;
+  of_spring.peel_number_upper = of_beam.peel_number_upper;
+  of_spring.detachment_length = of_beam.detachment_length;
+  of_spring.unstuck_length = of_beam.unstuck_length;
+  if (of_beam.governed_by == kGovernedByForce) of_spring.governed_by = kGovernedByForce;
+  return of_spring;
+}
+
 /// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
 /// - @p cell_area of the scan [m^2]
@@ -314,6 +344,15 @@ std::string historyOf(const Prediction& prediction, double contact_potential) {
 Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, const Options& options,
                   std::uint32_t flags, double cell_area, const Evidence& evidence,
                   double potential_deviation, const std::function<AdhesionSpread()>& spread_of) {
+  if (device.hasSpring() && device.withoutSpring().hasBeamContact()) {
+    DeviceOptions spring = device;
+    spring.beam_type = BeamType::kNone;
+    const auto alone = [&](const DeviceOptions& one) {
+      return verdictBy(prediction, one, options, flags, cell_area, evidence, potential_deviation,
+                       spread_of);
+    };
+    return worseOf(alone(spring), alone(device.withoutSpring()));
+  }
   Verdict verdict;
   verdict.regime_flags = flags;
   const double contact_potential = options.load.contact_potential;
@@ -364,6 +403,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   const Holding holding{
       prediction,
       device,
+      options,
       spread,
       of_device,
       evidence.cleaning.has_value(),

@@ -29,31 +29,63 @@ CapillaryOptions humid(double relative_humidity, double contact_angle) {
   return options;
 }
 
-/// Energy per width of one clamped-guided arm of length s [J/m]: bending, and stretching if held at
-/// both ends, by Simpson's rule over u = h (3 x^2/s^2 - 2 x^3/s^3), of which both integrands are
-/// polynomials of degree 4 and less.
-double armEnergy(double modulus, double thickness, double gap, double stress, bool is_stretched,
-                 double length) {
-  const int intervals = 200;
-  double bending = 0.0, slope_square = 0.0;
-  for (int i = 0; i <= intervals; ++i) {
-    const double x = static_cast<double>(i) / intervals;
-    const double weight =
-        (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * length / intervals / 3.0;
-    const double curvature = gap * (6.0 - 12.0 * x) / (length * length);
-    const double slope = 6.0 * gap * (x - x * x) / length;
-    bending += weight * modulus * thickness * thickness * thickness / 24.0 * curvature * curvature;
-    slope_square += weight * slope * slope;
+/// Energy per width of one clamped-guided arm of length s [J/m], by Simpson's rule: bending alone,
+/// over u = h (3 x^2/s^2 - 2 x^3/s^3), or with the stretching of an arm that is held at both ends
+/// and under tension, over the shape of a beam-column, u' ~ 1 - cosh(k (x - s/2))/cosh(k s/2).
+class ArmEnergy {
+ public:
+  ArmEnergy(double modulus, double thickness, double gap, double stress, double length)
+      : modulus_(modulus), thickness_(thickness), gap_(gap), stress_(stress), length_(length) {}
+
+  double bent() const {
+    integrate([](double x) { return x - x * x; }, [](double x) { return 1.0 - 2.0 * x; });
+    return bending_;
   }
-  if (!is_stretched) return bending;
-  const double strain = 0.5 * slope_square / length;
-  return bending + thickness * length * strain * (stress + 0.5 * modulus * strain);
-}
+
+  double stretched() const {
+    const double unit = modulus_ * std::pow(thickness_, 3) / (12.0 * length_ * length_);
+    double low = 1e-6;  // (k s)^2
+    double high = 1e6;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      solve(std::sqrt(middle));
+      (middle * unit < thickness_ * (stress_ + modulus_ * strain_) ? low : high) = middle;
+    }
+    return bending_ + thickness_ * length_ * strain_ * (stress_ + 0.5 * modulus_ * strain_);
+  }
+
+ private:
+  template <typename Slope, typename Curvature>
+  void integrate(const Slope& slope, const Curvature& curvature) const {
+    constexpr int kIntervals = 2000;
+    double sum = 0.0, squares = 0.0, curved = 0.0;
+    for (int i = 0; i <= kIntervals; ++i) {
+      const double x = static_cast<double>(i) / kIntervals;
+      const double weight = (i == 0 || i == kIntervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) / 3.0;
+      sum += weight / kIntervals * slope(x);
+      squares += weight / kIntervals * std::pow(slope(x), 2);
+      curved += weight / kIntervals * std::pow(curvature(x), 2);
+    }
+    const double scale = std::pow(gap_ / (sum * length_), 2);
+    strain_ = 0.5 * scale * squares;
+    bending_ = modulus_ * std::pow(thickness_, 3) / 24.0 * scale * curved / length_;
+  }
+
+  void solve(double ks) const {
+    integrate([ks](double x) { return 1.0 - std::cosh(ks * (x - 0.5)) / std::cosh(0.5 * ks); },
+              [ks](double x) { return ks * std::sinh(ks * (x - 0.5)) / std::cosh(0.5 * ks); });
+  }
+
+  double modulus_, thickness_, gap_, stress_, length_;
+  mutable double strain_ = 0.0;
+  mutable double bending_ = 0.0;
+};
 
 double slopeOfArmEnergy(double stress, bool is_stretched, double length) {
   const double step = 1e-4 * length;
   const auto energyAt = [&](double s) {
-    return armEnergy(169e9, 2 * kUm, 3 * kUm, stress, is_stretched, s);
+    const ArmEnergy energy(169e9, 2 * kUm, 3 * kUm, stress, s);
+    return is_stretched ? energy.stretched() : energy.bent();
   };
   return (energyAt(length - step) - energyAt(length + step)) / (2.0 * step);
 }

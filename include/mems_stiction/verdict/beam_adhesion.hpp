@@ -10,24 +10,22 @@
 ///     S-shape, flat on the substrate beyond s:    U = E t^3 h^2/(2 s^3),   G = (3/2) E t^3 h^2/s^4
 ///     arc, a cantilever that touches with its tip:  U = E t^3 h^2/(8 s^3),
 ///             G = (3/8) E t^3 h^2/s^4
-///     S-shape of a doubly clamped beam, stretched:
+///     S-shape of a doubly clamped beam, stretched: exact, as a beam-column, by guided_arm.hpp;
 ///         G = (3/2) E t^3 h^2/s^4 [1 + (9/25) (h/t)^2 + (2/5) sigma s^2/(E t^2)]
+///         while the bracket is near 1
 ///
 /// The peel number is G of the last shape before release over the real G: below 1 the beam stays
 /// stuck.
 ///
 ///     cantilever (arc, s = l):      N = 3 E t^3 h^2/(8 G l^4)
-///     doubly clamped (S, s = l/2):
-///             N = 24 E t^3 h^2/(G l^4) [1 + (9/25) (h/t)^2 + sigma l^2/(10 E t^2)]
+///     doubly clamped (S, s = l/2):  N = 24 E t^3 h^2/(G l^4), times the bracket
 ///
 /// Assumptions: slender beam of constant section, small slopes, no shear, a stiff substrate and
-/// rigid clamps; the doubly clamped beam keeps the shape of pure bending, u = h (3 x^2/s^2 - 2
-/// x^3/s^3), while it is stretched (an upper bound of the energy, good while the bracket is not
-/// much above 1), and what is stuck does not slide. sigma is the residual stress, tensile positive;
+/// rigid clamps, and what is stuck does not slide. sigma is the residual stress, tensile positive;
 /// a beam that buckles (bucklingStress()) is out of range. Sources: de Boer and
 /// Michalske, J. Appl. Phys. 86 (1999) 817 for the shapes; Mastrangelo and Hsu, J. MEMS 2 (1993) 33
 /// and 44 for the peel number and the idea of the doubly clamped form. That form is derived here
-/// from the exact clamped-guided arm: the trial shape of one polynomial, u = 16 h x^2 (l -
+/// from the clamped-guided arm: the trial shape of one polynomial, u = 16 h x^2 (l -
 /// x)^2/l^4, gives 128/5 in place of 24, the prefactor that goes by their names (recalled; their
 /// papers were not read here).
 ///
@@ -81,7 +79,7 @@ double unstuckLength(const Beam& beam, double work);
 /// BeamType::kNone.
 ///
 ///     cantilever          F = E w t^3 h/(4 l^3)
-///     doubly clamped      F = 16 E w t^3 h/l^3 [1 + (18/25) (h/t)^2 + (3/10) sigma l^2/(E t^2)]
+///     doubly clamped      F = 2 F_arm(l/2) by guided_arm.hpp; 16 E w t^3 h/l^3 of small gaps
 double beamForce(const Beam& beam);
 
 /// How far along the beam adhesion gives way at one time, before what lies behind takes part of the

@@ -58,6 +58,8 @@ struct DeviceOptions {
     return hasBeamContact() ? beamForce(beam()) : spring_stiffness * travel;
   }
   Beam beam() const;
+  /// The beam alone, where spring and beam are both stated.
+  DeviceOptions withoutSpring() const;
   /// How far the contact reaches along the beam [m]: over the whole width, or, where that is less,
   /// a square.
   double beamContactLength() const;

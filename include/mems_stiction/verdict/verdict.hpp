@@ -39,15 +39,16 @@
 /// scan. What speaks of the scan still counts. Other cleanings of the scan, if they were tried,
 /// widen the interval. The reason says both.
 ///
-/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no. A beam
-/// alone that states its width and its contact area has a margin, too: its force over the pull-off
-/// force. A contact that is shorter than what adhesion gives way to at one time (peelLength()) is
-/// judged by the margin, one of twice that by the peel number, between by the worse of both, and
-/// the reason says why. A beam without device/contact_area is judged by the scan's work, which it
-/// says. Assumptions: the scans stand for the whole contact area; the load has been taken away
-/// before the device is to open (voltage and mechanical load made the contact, they do not hold
-/// it); the spring pulls along the normal and evenly on all contacts, so that none peels before the
-/// others (a tilting part comes off more easily than said here).
+/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no; where
+/// both have one word, the lower ratio. The beam is judged as if it were alone. A beam that states
+/// its width and its contact area has a margin, too: its force over the pull-off force. A contact
+/// that is shorter than what adhesion gives way to at one time (peelLength()) is judged by the
+/// margin, one of twice that by the peel number, between by the worse of both, and the reason says
+/// why. A beam without device/contact_area is judged by the scan's work, which it says.
+/// Assumptions: the scans stand for the whole contact area; the load has been taken away before the
+/// device is to open (voltage and mechanical load made the contact, they do not hold it); the
+/// spring pulls along the normal and evenly on all contacts, so that none peels before the others
+/// (a tilting part comes off more easily than said here).
 ///
 ///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options,
 ///         scan.cellArea(), evidence);

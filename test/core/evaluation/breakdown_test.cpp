@@ -51,6 +51,12 @@ TEST(Breakdown, ofTheElectrodesIsAskedAtRestAndClosed) {
   const std::string closed = onlyLine(breakdownWarnings(optionsOf(300.0, 1e-6), device, 20e-9));
   EXPECT_NE(closed.find("the electrodes' gap when closed of 2e-06 m"), std::string::npos) << closed;
   EXPECT_EQ(breakdownWarnings(optionsOf(400.0, 1e-6), device, 20e-9).size(), 2u);
+
+  device.beam_type = BeamType::kCantilever;  // which comes down by its gap, whatever the travel
+  device.beam_gap = 2e-6;
+  const std::string of_beam = onlyLine(breakdownWarnings(optionsOf(200.0, 1e-6), device, 20e-9));
+  EXPECT_NE(of_beam.find("the electrodes' gap when closed of 1e-06 m"), std::string::npos)
+      << of_beam;
 }
 
 TEST(Breakdown, ofAContactPotentialCountsWithTheVoltages) {

@@ -259,6 +259,49 @@ TEST(Plausibility, ASettingOfWhatIsOffIsNamed) {
             "device/beam_length 0.0002 has no effect: device/beam_type is none");
 }
 
+TEST(Plausibility, HalfASpringBesideABeamIsNamed) {
+  Configuration configuration;
+  DeviceOptions& device = configuration.device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 200e-6;
+  device.beam_thickness = device.beam_gap = 2e-6;
+  device.beam_modulus = 169e9;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  device.travel = 1e-6;
+  EXPECT_EQ(onlyWarning(configuration),
+            "device/travel 1e-06 has no effect: device/spring_stiffness is 0 and the gap of a beam "
+            "is device/beam_gap");
+  device.spring_stiffness = 1.0;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  device.travel = 0.0;
+  EXPECT_EQ(onlyWarning(configuration),
+            "device/spring_stiffness 1 has no effect: device/travel is 0");
+  device.spring_stiffness = 0.0;
+  device.electrode_start = 20e-6;
+  EXPECT_EQ(onlyWarning(configuration),
+            "device/electrode_start 2e-05 has no effect: device/electrode_length is 0");
+}
+
+TEST(Plausibility, ABeamBentBeyondSmallSlopesIsNamed) {
+  Configuration configuration;
+  DeviceOptions& device = configuration.device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 200e-6;
+  device.beam_thickness = 2e-6;
+  device.beam_modulus = 169e9;
+  device.beam_gap = 0.2 * device.beam_length;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  device.beam_gap *= 1.01;
+  EXPECT_NE(onlyWarning(configuration)
+                .find("device/beam_gap 4.04e-05 m beside device/beam_length 0.0002 m "),
+            std::string::npos)
+      << onlyWarning(configuration);
+  device.beam_type = BeamType::kDoublyClamped;  // each half bends down
+  EXPECT_FALSE(settingsWarnings(configuration).empty());
+  device.beam_gap = 0.1 * device.beam_length;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+}
+
 TEST(Plausibility, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields
   Configuration configuration;
   configuration.model.interface.work_of_adhesion = 1e9;

@@ -77,6 +77,43 @@ TEST(DeviceOptions, namesEveryMissingPartOfABeam) {
   EXPECT_NE(violations[2].find("device/beam_modulus"), std::string::npos);
 }
 
+/// Sums and products of typed numbers differ from the typed one in their last digit.
+TEST(DeviceOptions, takesGeometryThatIsEqualButForRounding) {
+  DeviceOptions device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 300e-6;
+  device.beam_thickness = device.beam_gap = 2e-6;
+  device.beam_modulus = 160e9;
+  device.electrode_start = 250e-6;
+  device.electrode_length = 50e-6;
+  ASSERT_GT(device.electrode_start + device.electrode_length, device.beam_length);
+  EXPECT_TRUE(device.validate().empty());
+  device.electrode_length *= 1.0 + 1e-6;
+  EXPECT_EQ(device.validate().size(), 1U);
+  device.electrode_start = device.electrode_length = 0.0;
+
+  device.beam_width = 30e-6;
+  device.beam_length = 70e-6;
+  device.contact_area = 2.1e-9;
+  ASSERT_GT(device.contact_area, device.beam_width * device.beam_length);
+  EXPECT_TRUE(device.validate().empty());
+  device.contact_area *= 1.0 + 1e-6;
+  EXPECT_EQ(device.validate().size(), 1U);
+  device.contact_area = 0.0;
+
+  device.electrode_length = 50e-6;
+  device.electrode_gap = device.beam_gap * (1.0 - 1e-12);
+  EXPECT_TRUE(device.validate().empty());
+  device.electrode_gap = device.beam_gap * (1.0 - 1e-6);
+  EXPECT_EQ(device.validate().size(), 1U);
+
+  DeviceOptions lands = plate(2 * kUm);
+  lands.travel = lands.electrode_gap * (1.0 + 1e-12);
+  EXPECT_TRUE(lands.validate().empty());
+  lands.travel = lands.electrode_gap * (1.0 + 1e-6);
+  EXPECT_EQ(lands.validate().size(), 1U);
+}
+
 TEST(DeviceOptions, refusesAnElectrodeAreaBelowABeamAlone) {
   DeviceOptions device;
   device.beam_type = BeamType::kCantilever;

@@ -153,6 +153,38 @@ TEST(ElectrodeHold, countsInPeelNumberAndForceOfABeam) {
   EXPECT_EQ(verdict.apparent_work_of_adhesion, bare.apparent_work_of_adhesion);
 }
 
+/// The longest beam that comes off is the one whose peel number is 1, with the field of an
+/// electrode of the same proportions.
+TEST(ElectrodeHold, lengthsAreThoseOfAdhesionAndFieldTogether) {
+  for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
+    for (const double potential : {0.0, 2.0, -8.0}) {
+      const HeldDevice held(potential);
+      DeviceOptions device = beamAbove();
+      device.beam_type = type;
+      for (const double peel_number : {0.3, 0.9, 1.1, 5.0}) {
+        device.apparent_work_of_adhesion = peelNumber(device.beam(), 1.0) / peel_number;
+        const Verdict verdict = held.of(device);
+        EXPECT_EQ(verdict.peel_number > 1.0, verdict.detachment_length > device.beam_length);
+        DeviceOptions longest = device;
+        longest.beam_length = verdict.detachment_length;
+        const double scale = longest.beam_length / device.beam_length;
+        longest.electrode_start *= scale;
+        longest.electrode_length *= scale;
+        EXPECT_NEAR(held.of(longest).peel_number, 1.0, 1e-9)
+            << static_cast<int>(type) << ", " << potential << " V, " << peel_number;
+        const FieldHold field =
+            stuckFieldHold(device.beam(), *electrodeOf(device, held.options.interface), potential,
+                           held.prediction.mean_gap, verdict.unstuck_length);
+        EXPECT_NEAR((device.apparent_work_of_adhesion + field.work) /
+                        sShapeWork(device.beam(), verdict.unstuck_length),
+                    1.0, 1e-9);
+        EXPECT_LE(verdict.unstuck_length,
+                  unstuckLength(device.beam(), device.apparent_work_of_adhesion));
+      }
+    }
+  }
+}
+
 TEST(ElectrodeHold, aBeamThatItsFieldHoldsAloneSticks) {
   const HeldDevice held(50.0);
   DeviceOptions soft = beamAbove();

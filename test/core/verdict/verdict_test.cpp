@@ -285,6 +285,43 @@ TEST(Verdict, countsTheWorseOfSpringAndBeam) {
   EXPECT_NE(verdict.reason.find("peel number"), std::string::npos);
 }
 
+/// Whatever decides of the beam: a short contact opens by its force, a long one is peeled.
+TEST(Verdict, neverImprovesByASpringBesideABeam) {
+  const Spheres spheres;
+  for (const double reach_share : {1e-3, 0.9}) {
+    for (const double length : {50e-6, 100e-6, 300e-6, 1000e-6}) {
+      DeviceOptions beam = cantilever(length);
+      beam.contact_area = spheres.prediction.nominal_area;
+      beam.beam_width = beam.contact_area / (reach_share * length);
+      const Verdict of_beam = verdictFor(spheres, beam);
+      for (const double margin : {1e-2, 1.0, 1e2}) {
+        DeviceOptions both = springOf(margin * spheres.pullOff(), beam.contact_area);
+        const Verdict of_spring = verdictFor(spheres, both);
+        both.beam_type = beam.beam_type;
+        both.beam_length = beam.beam_length;
+        both.beam_width = beam.beam_width;
+        both.beam_thickness = beam.beam_thickness;
+        both.beam_gap = beam.beam_gap;
+        both.beam_modulus = beam.beam_modulus;
+        const Verdict verdict = verdictFor(spheres, both);
+        const std::string what = "length " + std::to_string(length) + ", spring's margin " +
+                                 std::to_string(margin) + ": " + verdict.reason;
+        EXPECT_EQ(gravity(verdict.sticks),
+                  std::max(gravity(of_beam.sticks), gravity(of_spring.sticks)))
+            << what;
+        if (isPeeled(of_beam)) {
+          EXPECT_DOUBLE_EQ(verdict.peel_number, of_beam.peel_number) << what;
+        } else {
+          EXPECT_DOUBLE_EQ(verdict.margin, std::min(of_beam.margin, of_spring.margin)) << what;
+          EXPECT_DOUBLE_EQ(verdict.restoring_force,
+                           std::min(beamForce(beam.beam()), of_spring.restoring_force))
+              << what;
+        }
+      }
+    }
+  }
+}
+
 TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
   const Spheres spheres;
   DeviceOptions device = cantilever(300e-6);
