@@ -501,7 +501,11 @@ class SlipTest(unittest.TestCase):
 
     def test_bags_that_are_none_are_named_before_anybody_waits(self):
         self.assertEqual(self.run_it("make_scan_bag", "-o", "good.bag", "scan.npy").returncode, 0)
-        (self.folder / "cut.bag").write_bytes((self.folder / "good.bag").read_bytes()[:5000])
+        good = (self.folder / "good.bag").read_bytes()
+        (self.folder / "cut.bag").write_bytes(good[:5000])
+        (self.folder / "index.bag").write_bytes(good[:-20])
+        place = good.find(b"index_pos=") + 10
+        index = int.from_bytes(good[place : place + 8], "little")
         for bag, expected in (
             ("folder.bag", "folder.bag cannot be read: is a folder, not a bag"),
             ("nowhere.bag", "nowhere.bag cannot be read: no such file"),
@@ -509,6 +513,11 @@ class SlipTest(unittest.TestCase):
                 "cut.bag",
                 "cut.bag cannot be read: was cut off, or is still being recorded; rosbag reindex "
                 "cut.bag mends it",
+            ),
+            (
+                "index.bag",
+                "index.bag cannot be read: was cut off inside its index; truncate -s %d index.bag "
+                "and then rosbag reindex index.bag mend it" % index,
             ),
         ):
             self.assert_refused(expected, "export_predictions", "-o", "a.csv", bag)
