@@ -366,6 +366,12 @@ class SlipTest(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0)
 
+    def test_a_list_may_have_a_byte_order_mark_and_lines_of_windows(self):
+        (self.folder / "list.txt").write_bytes(b"\xef\xbb\xbfscan.npy\r\n\r\n \t\r\n")
+        done = self.run_it("stiction_batch", "-o", "list.csv", "--inputs-from", "list.txt")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len((self.folder / "list.csv").read_text().splitlines()), 2)
+
     def test_scripts_name_numbers_and_places_before_they_run(self):
         self.assert_refused("the decimal sign is a point", "sweep_load", "--voltages", "0,05")
         self.assert_refused("more than 1000000 numbers", "sweep_load", "--voltages", "0:30:1e-9")
