@@ -623,6 +623,24 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(predicted, sound[: len(predicted)])
         self.assertEqual(len(rows) - len(of_cut), 3)
 
+    def test_where_memory_ends_the_scan_is_named_and_the_others_go_on(self):
+        if "MEMS_STICTION_SANITIZER" in os.environ:
+            self.skipTest("sanitizers reserve more address space than is left here")
+        np.save(str(self.folder / "large.npy"), np.zeros((9000, 9000)))
+        np.save(str(self.folder / "small.npy"), rough(48, 48))
+        settings = self.folder / "settings.yaml"
+        settings.write_text("scan: {pitch_x: 1e-8, pitch_y: 1e-8}\n")
+        done = run(
+            ["sh", "-c", 'ulimit -v 1200000; exec "$0" "$@"', self.batch, "--workers", "2"]
+            + ["-c", settings, "-o", self.folder / "rows.csv"]
+            + [self.folder / "large.npy", self.folder / "small.npy"]
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        large, small = self.rows("rows.csv")
+        reason = "large.npy: there is not enough memory for a scan of this size"
+        self.assertTrue(large["message"].endswith(reason), large["message"])
+        self.assertEqual(small["message"], "")
+
     def test_of_a_bag_that_was_cut_off_in_its_index_all_scans_are_predicted(self):
         whole = self.folder / "whole.bag"
         self.make_bag(whole, "--count", 3)
