@@ -3,6 +3,7 @@ what is."""
 
 import argparse
 import math
+import re
 
 from mems_stiction.version import version
 
@@ -44,7 +45,16 @@ def number(text):
             "'%s' is not allowed, must be a number: without its unit, and with a point as the "
             "decimal sign" % text
         )
+    if is_lost(text, value):
+        raise argparse.ArgumentTypeError(
+            "'%s' is not allowed: too near to 0 for a number; write 0 for none" % text
+        )
     return value
+
+
+def is_lost(text, value):
+    """Whether a number that is not 0 was read as 0, as 1e-400 is."""
+    return value == 0 and re.search("[1-9]", re.split("[eE]", text)[0]) is not None
 
 
 def number_in(least, most=math.inf, is_least_allowed=True):

@@ -2,6 +2,7 @@
 sentence."""
 
 import contextlib
+import re
 import struct
 
 import genpy
@@ -23,6 +24,17 @@ def _require_magic(path):
         raise UnfitFile("is not a bag" if begin else "is empty")
 
 
+def _index_place(path):
+    """Where a bag says that its index begins, behind all messages; 0 where it does not say it, or
+    ends before."""
+    with open(path, "rb") as stream:
+        begin = stream.read(4096)
+        size = stream.seek(0, 2)
+    found = re.search(b"index_pos=(.{8})", begin, re.DOTALL)
+    place = struct.unpack("<Q", found.group(1))[0] if found else 0
+    return place if place <= size else 0
+
+
 @contextlib.contextmanager
 def opened_bag(path):
     """rosbag.Bag(path) to read; also what goes wrong while it is read becomes a BagError."""
@@ -34,6 +46,12 @@ def opened_bag(path):
     except FileNotFoundError:
         raise BagError("%s cannot be read: no such file" % path)
     except rosbag.ROSBagUnindexedException:
+        place = _index_place(path)
+        if place:  # rosbag reindex would take nothing of it
+            raise BagError(
+                "%s cannot be read: was cut off inside its index; truncate -s %d %s and then "
+                "rosbag reindex %s mend it" % (path, place, path, path)
+            )
         raise BagError(
             "%s cannot be read: was cut off, or is still being recorded; rosbag reindex %s mends it"
             % (path, path)

@@ -10,6 +10,7 @@ import time
 import actionlib
 import rospy
 from actionlib import CommState, TerminalState
+from mems_stiction.arguments import is_lost
 from mems_stiction.interrupted import Waiting
 from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.row_table import units_of, write_rows
@@ -93,6 +94,9 @@ def numbers(text):
         raise NoNumbers(
             "'%s' is not allowed, must be numbers with commas between, or FIRST:LAST:STEP" % text
         )
+    for part, value in zip(parts, values):
+        if is_lost(part, value):
+            raise NoNumbers("'%s' is not allowed: %s is too near to 0 for a number" % (text, part))
     if ":" not in text:
         return values
     first, last, step = values

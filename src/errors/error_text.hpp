@@ -9,13 +9,17 @@
 
 namespace mems_stiction {
 
+/// Whether memory was not to be had, by the exception of C++ or of OpenCV.
+inline bool hasNoMemory(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         std::string(error.what()).find("Failed to allocate") != std::string::npos;
+}
+
 /// what(), or what is behind it where that are no words: memory that is not to be had, no text at
 /// all.
 inline std::string reasonOf(const std::exception& error) {
   const std::string text = error.what();
-  const bool has_no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-                             text.find("Failed to allocate") != std::string::npos;
-  if (has_no_memory) return "there is not enough memory for a scan of this size";
+  if (hasNoMemory(error)) return "there is not enough memory for a scan of this size";
   return text.empty() ? "unknown error" : text;
 }
 

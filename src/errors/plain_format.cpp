@@ -37,4 +37,9 @@ std::string plainFormat(const char* format, ...) {
 
 double plainStrtod(const char* text, char** end) { return strtod_l(text, end, pointLocale()); }
 
+bool isLostInReading(const std::string& text, double value) {
+  return value == 0.0 &&
+         text.substr(0, text.find_first_of("eE")).find_first_of("123456789") != std::string::npos;
+}
+
 }  // namespace mems_stiction

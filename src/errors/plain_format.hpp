@@ -18,6 +18,10 @@ namespace mems_stiction {
 /// - @p end where to put the end of the number; may be null
 double plainStrtod(const char* text, char** end = nullptr);
 
+/// Whether a number that is not 0 was read as 0, as 1e-400 is.
+/// - @p text that the value was read from
+bool isLostInReading(const std::string& text, double value);
+
 /// A text stream of the locale "C".
 struct PlainStream : std::ostringstream {
   PlainStream() { imbue(std::locale::classic()); }

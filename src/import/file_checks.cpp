@@ -1,17 +1,14 @@
 #include "import/file_checks.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <new>
 #include <vector>
 
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/header_lines.hpp"
-#include "import/plain_number.hpp"
+#include "import/unpacked_stream.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -22,39 +19,14 @@ namespace {
 /// begins such a group.
 constexpr std::size_t kTooManyForChance = 64;
 constexpr const char* kReplaced = "\xEF\xBF\xBD";  // U+FFFD
-constexpr const char* kZip = "the zip archive";
-constexpr std::uint32_t kZipEntry = 0x02014B50;     // in the central directory
-constexpr std::uint32_t kZipLocal = 0x04034B50;     // before the data
-constexpr std::uint64_t kNarrowLimit = 0xFFFFFFFF;  // larger sizes stand in a field of their own
-constexpr std::size_t kCreatecHeader = 16384;       // [bytes]
-constexpr std::size_t kMostFiller = 16384;          // [bytes] that programs add behind the data
+constexpr std::size_t kCreatecHeader = 16384;      // [bytes]
+constexpr std::size_t kMostFiller = 16384;         // [bytes] that programs add behind the data
 
 ByteCursor at(const std::string& bytes, std::size_t offset, const char* what,
               ByteOrder order = ByteOrder::kLittle) {
   ByteCursor cursor(bytes.data(), bytes.size(), what, order);
   cursor.take(offset);
   return cursor;
-}
-
-/// Unpacks a stream of zlib, with a header or (window_bits < 0) without, as long as `take(piece,
-/// size)` wants more of it.
-/// @return Z_STREAM_END if it was there to its end, Z_OK if `take` has ended it, else an error
-template <typename Take>
-int unpack(const Bytef* data, std::uint64_t size, int window_bits, Take take) {
-  z_stream stream{};
-  if (inflateInit2(&stream, window_bits) != Z_OK) throw std::bad_alloc();
-  stream.next_in = const_cast<Bytef*>(data);
-  stream.avail_in = static_cast<uInt>(size);
-  std::vector<Bytef> buffer(1 << 16);
-  int state = Z_OK;
-  for (bool wants_more = true; state == Z_OK && wants_more;) {
-    stream.next_out = buffer.data();
-    stream.avail_out = static_cast<uInt>(buffer.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    wants_more = take(buffer.data(), buffer.size() - stream.avail_out);
-  }
-  inflateEnd(&stream);
-  return state;
 }
 
 /// Zygo: a header, intensities of 2 bytes, phases of 4 bytes.
@@ -147,7 +119,7 @@ std::uint64_t unpackedCreatec(const std::string& bytes, std::size_t start, std::
   bool is_filler = true;
   const auto* data = reinterpret_cast<const Bytef*>(bytes.data() + start);
   const int state =
-      unpack(data, bytes.size() - start, MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
+      unpackStream(data, bytes.size() - start, MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
         for (std::size_t i = size < needed ? std::min<std::uint64_t>(needed - size, got) : 0;
              i < got; ++i) {
           is_filler = is_filler && piece[i] == 0;
@@ -284,47 +256,6 @@ bool hasReplacedBytes(const std::string& bytes) {
   return count >= kTooManyForChance;
 }
 
-/// What the central directory states of one entry.
-struct Entry {
-  std::string name;
-  int method = 0;
-  std::uint64_t packed = 0, size = 0, offset = 0;
-  std::uint32_t checksum = 0;
-};
-
-/// Checksum and size of the unpacked data. @throw FileError
-void checkEntry(const std::string& bytes, const Entry& entry) {
-  const std::string where = "the zip entry '" + shownPiece(entry.name) + "' ";
-  ByteCursor local = at(bytes, entry.offset, kZip);
-  if (local.number<std::uint32_t>() != kZipLocal)
-    throw FileError(where + "is not where the archive says: damaged");
-  local.take(22);
-  const auto name_size = local.number<std::uint16_t>();
-  const auto extra_size = local.number<std::uint16_t>();
-  local.take(std::size_t{name_size} + extra_size);
-  ByteCursor packed = local.part(static_cast<std::size_t>(entry.packed));
-  if (entry.size > kMaxFileBytes) throw FileError(where + "unpacks to more bytes than a scan has");
-  uLong checksum = crc32(0, nullptr, 0);
-  std::uint64_t size = 0;
-  const auto* data = reinterpret_cast<const Bytef*>(packed.take(packed.size()));
-  if (entry.method == 0) {
-    size = entry.packed;
-    checksum = crc32_z(checksum, data, static_cast<z_size_t>(size));
-  } else if (entry.method == Z_DEFLATED) {
-    const int state =
-        unpack(data, entry.packed, -MAX_WBITS, [&](const Bytef* piece, std::size_t got) {
-          checksum = crc32_z(checksum, piece, got);
-          size += got;
-          return size <= entry.size;
-        });
-    if (state != Z_STREAM_END) throw FileError(where + "cannot be unpacked: damaged");
-  } else {
-    return;  // a method that zlib does not know; who reads it must
-  }
-  if (size != entry.size || checksum != entry.checksum)
-    throw FileError(where + "does not have its checksum: damaged");
-}
-
 }  // namespace
 
 void demandLength(const std::string& maker, std::uint64_t length, std::uint64_t stated) {
@@ -397,46 +328,6 @@ void checkTransfer(const std::string& bytes) {
         "was transferred as text: bytes of its data were replaced by U+FFFD; copy it anew, as "
         "binary");
   }
-}
-
-std::vector<std::string> checkZip(const std::string& bytes) {
-  std::vector<std::string> names;
-  const std::size_t end = bytes.rfind(std::string("PK\5\6", 4));
-  if (end == std::string::npos) throw FileError("the zip archive has no directory: cut off");
-  ByteCursor cursor = at(bytes, end + 8, kZip);
-  cursor.take(2);
-  const auto count = cursor.number<std::uint16_t>();
-  cursor.take(4);
-  const auto start = cursor.number<std::uint32_t>();
-  cursor.take(cursor.number<std::uint16_t>());  // the archive's comment
-  if (start == kNarrowLimit) return names;  // a directory of the 64-bit kind: no scan is that large
-  ByteCursor directory = at(bytes, start, kZip);
-  std::uint64_t total = 0;
-  for (int i = 0; i < count; ++i) {
-    if (directory.number<std::uint32_t>() != kZipEntry)
-      throw FileError("the zip archive's directory is damaged");
-    directory.take(6);
-    Entry entry;
-    entry.method = directory.number<std::uint16_t>();
-    directory.take(4);  // time and date
-    entry.checksum = directory.number<std::uint32_t>();
-    entry.packed = directory.number<std::uint32_t>();
-    entry.size = directory.number<std::uint32_t>();
-    const auto name_size = directory.number<std::uint16_t>();
-    const auto extra_size = directory.number<std::uint16_t>();
-    const auto comment_size = directory.number<std::uint16_t>();
-    directory.take(8);
-    entry.offset = directory.number<std::uint32_t>();
-    entry.name = std::string(directory.take(name_size), name_size);
-    directory.take(std::size_t{extra_size} + comment_size);
-    names.push_back(entry.name);
-    if (entry.packed == kNarrowLimit || entry.size == kNarrowLimit) continue;
-    total += entry.size;
-    if (total > kMaxFileBytes)
-      throw FileError("the zip archive unpacks to more bytes than a scan has");
-    checkEntry(bytes, entry);
-  }
-  return names;
 }
 
 }  // namespace mems_stiction

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace mems_stiction {
 
@@ -32,12 +31,5 @@ std::optional<std::string> withWholeCreatecHeader(const std::string& bytes);
 /// @throw FileError without a file name if every line end was made CR LF, if bytes were replaced as
 /// no UTF-8, or if this is a web page or a pointer of Git LFS in place of the file.
 void checkTransfer(const std::string& bytes);
-
-/// Is a zip archive (x3p, plux and others) whole? Unpacks every entry and compares size and CRC-32
-/// with those that the archive states.
-/// @return the entries' names
-/// @throw FileError without a file name, naming the entry, if one differs or unpacks to more than
-/// kMaxFileBytes.
-std::vector<std::string> checkZip(const std::string& bytes);
 
 }  // namespace mems_stiction

@@ -13,9 +13,12 @@
 namespace mems_stiction {
 namespace {
 
-/// What follows "'key':" in the header, a Python dictionary of three entries.
+/// What follows "'key':" in the header, a Python dictionary of three entries. Of a key given twice
+/// numpy takes the last one.
 std::string entry(const std::string& header, const std::string& key) {
   const std::size_t at = header.find("'" + key + "'");
+  if (at != std::string::npos && header.find("'" + key + "'", at + 1) != std::string::npos)
+    throw FileError("the .npy header states '" + key + "' twice, must state it once");
   const std::size_t colon = at == std::string::npos ? at : header.find(':', at);
   if (colon == std::string::npos) throw FileError("the .npy header does not state '" + key + "'");
   const std::size_t begin = std::min(header.find_first_not_of(' ', colon + 1), header.size());
@@ -32,13 +35,18 @@ void readShape(const std::string& shape, std::uint64_t& rows, std::uint64_t& col
     throw FileError("an array of the shape " + shownPiece(shape) +
                     ") is no scan: it must have two dimensions");
   }
-  const auto size = [&shape](const std::string& digits) {
+  const auto size = [&shape](const std::string& text) {
+    std::string digits = trimmed(text, " ");
+    if (endsWith(digits, "L")) digits.pop_back();  // of Python 2
     const auto count = countIn(digits);
-    if (!count) throw FileError("an array of the shape " + shownPiece(shape) + ") is no scan");
+    if (!count || digits.find_first_not_of("0123456789") != std::string::npos) {
+      throw FileError("an array of the shape " + shownPiece(shape) +
+                      ") is no scan: it must have two whole numbers");
+    }
     return *count;
   };
-  rows = size(shape.substr(1));
-  cols = size(shape.substr(second));
+  rows = size(shape.substr(1, comma - 1));
+  cols = size(shape.substr(comma + 1));
 }
 
 using Reader = std::function<double(ByteCursor&)>;
@@ -46,6 +54,13 @@ using Reader = std::function<double(ByteCursor&)>;
 template <typename Number>
 double numberAs(ByteCursor& cursor) {
   return static_cast<double>(cursor.number<Number>());
+}
+
+bool isTransposed(const std::string& order) {
+  const std::string word = trimmed(order, " }\n");
+  if (word == "True" || word == "False") return word == "True";
+  throw FileError("the .npy header states '" + shownPiece(word) +
+                  "' as fortran_order, must be True or False");
 }
 
 /// "<f8": order, kind, bytes. @throw FileError
@@ -76,7 +91,11 @@ FileChannel parseNpy(const std::string& bytes) {
   ByteCursor cursor(bytes.data(), bytes.size(), "the .npy file");
   cursor.take(6);
   const int version = cursor.number<std::uint8_t>();
-  cursor.take(1);
+  const int minor = cursor.number<std::uint8_t>();
+  if (version < 1 || version > 3 || minor != 0) {
+    throw FileError("a .npy file of version " + std::to_string(version) + "." +
+                    std::to_string(minor) + " is not read, must be 1.0, 2.0 or 3.0");
+  }
   const std::size_t header_size =
       version == 1 ? cursor.number<std::uint16_t>() : cursor.number<std::uint32_t>();
   const std::string header(cursor.take(header_size), header_size);
@@ -87,7 +106,7 @@ FileChannel parseNpy(const std::string& bytes) {
   std::size_t size = 0;
   ByteOrder order = ByteOrder::kLittle;
   const Reader read = readerOf(entry(header, "descr"), size, order);
-  const bool is_transposed = startsWith(entry(header, "fortran_order"), "True");
+  const bool is_transposed = isTransposed(entry(header, "fortran_order"));
   if (cursor.size() != rows * cols * size) {
     throw FileError("the .npy file has " + std::to_string(cursor.size()) +
                     " bytes of numbers, its header states " + std::to_string(rows * cols * size));

@@ -15,6 +15,7 @@
 #include "import/plain_number.hpp"
 #include "import/stated_twice.hpp"
 #include "import/tiff_tags.hpp"
+#include "import/zip_check.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -58,22 +59,6 @@ Channels readNetcdf(const std::string& path, const std::string& bytes,
       channel.height = stated.pitch_y * channel.values.rows;
   }
   return channels;
-}
-
-/// x3p wants its files at the top of the archive; who packs the folder instead of its content moves
-/// them down.
-void checkX3pFolder(const std::vector<std::string>& names) {
-  const std::string file = "main.xml";
-  for (const std::string& name : names) {
-    if (name == file) return;
-  }
-  for (const std::string& name : names) {
-    const std::size_t slash = name.rfind('/');
-    if (slash == std::string::npos || name.substr(slash + 1) != file) continue;
-    throw FileError("the archive has its " + file + " in the folder '" +
-                    shownPiece(name.substr(0, slash)) +
-                    "': pack what is in the folder, not the folder itself");
-  }
 }
 
 /// Gwyddion's container of another version than the one that is read here: if at all, Gwyddion
@@ -159,7 +144,7 @@ void checkMatrixParameters(const std::string& path, const std::string& bytes) {
 /// against its bytes.
 Channels readByGwyddion(const std::string& path, const std::string& bytes,
                         const ImportOptions& options) {
-  if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
+  if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3p(bytes);
   const NanoscopeStatements stated = checkedNanoscope(bytes);
   checkMatrixParameters(path, bytes);
   checkStatedTwice(bytes);

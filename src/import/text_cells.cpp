@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -31,23 +32,29 @@ class CellReader {
 
   /// Appends the cells of the line. @return how many
   std::size_t read(const TextLine& line) {
-    std::vector<TextPiece> pieces = piecesOf(line.text, style_.separator);
-    if (style_.has_end && style_.separator != ' ') {
-      if (pieces.back().begin != pieces.back().end)
-        throw FileError(lineName(line) + "a quotation mark without its partner");
-      pieces.pop_back();
-    }
     if (style_.separator == ' ') checkTabs(line);
+    const bool has_end = style_.has_end && style_.separator != ' ';
     std::size_t column = 0;
-    for (const TextPiece& piece : pieces) {
+    std::optional<TextPiece> last;  // behind the separator that ends a line is no cell
+    const auto take = [&](const TextPiece& piece) {
       ++column;
       try {
         cells_.values.push_back(value(unquoted(line.text, piece)));
       } catch (const FileError& error) {
         throw FileError(lineName(line) + error.what() + ", column " + std::to_string(column));
       }
+    };
+    forEachPiece(line.text, style_.separator, [&](const TextPiece& piece) {
+      if (last) take(*last);
+      last = piece;
+      return true;
+    });
+    if (!has_end) {
+      take(*last);
+    } else if (last->begin != last->end) {
+      throw FileError(lineName(line) + "a quotation mark without its partner");
     }
-    return pieces.size();
+    return column;
   }
 
   TextCells finish(std::size_t cols, std::size_t rows) {

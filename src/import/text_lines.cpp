@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdint>
 
+#include "import/file_bytes.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -11,6 +12,9 @@
 
 namespace mems_stiction {
 namespace {
+
+constexpr std::size_t kMostLines = kMaxPixels / 2;  ///< a grid has two columns
+constexpr std::size_t kMostHeading = 1'000'000;     ///< with what is said between the numbers
 
 void appendUtf8(std::string& text, std::uint32_t code) {
   if (code < 0x80) {
@@ -151,6 +155,10 @@ TextLines textLines(const std::string& bytes) {
       begins_block = false;
       joinNoData(content);
       lines.data.push_back({number, content});
+    }
+    if (lines.data.size() > kMostLines || lines.heading.size() > kMostHeading) {
+      throw FileError("has more than " + std::to_string(kMostLines) + " lines of numbers or " +
+                      std::to_string(kMostHeading) + " of heading: no scan");
     }
   }
   return lines;

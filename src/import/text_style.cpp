@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <utility>
 
+#include "import/file_bytes.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
@@ -22,6 +25,7 @@ struct Signs {
   const TextLine* tight_comma = nullptr;  ///< between two digits
   const TextLine* loose_comma = nullptr;  ///< with a blank beside it
   const TextLine* bare_gap = nullptr;     ///< blanks between two numbers, without another separator
+  std::uint64_t semicolons = 0, commas = 0, gaps = 0;  ///< how many, but quoted commas
 };
 
 void gather(const TextLine& line, Signs& signs) {
@@ -34,10 +38,14 @@ void gather(const TextLine& line, Signs& signs) {
     const char c = text[i];
     if (isQuote(c)) is_quoted = !is_quoted;
     if (c == '.') signs.point = true;
-    if (c == ';') signs.semicolon = true;
+    if (c == ';') {
+      signs.semicolon = true;
+      ++signs.semicolons;
+    }
     if (c == ',' && is_quoted) signs.quoted_comma = true;
     if (c == ',' && !is_quoted) {
       signs.comma = true;
+      ++signs.commas;
       if (i == 0 || i + 1 == text.size()) continue;
       if (is_digit(i - 1) && is_digit(i + 1)) {
         signs.tight_comma = &line;
@@ -51,6 +59,7 @@ void gather(const TextLine& line, Signs& signs) {
       if (is_inside && text[i - 1] != ',' && text[i - 1] != ';' && text[next] != ',' &&
           text[next] != ';') {
         signs.bare_gap = &line;
+        ++signs.gaps;
       }
       i = std::min(next, text.size()) - 1;
     }
@@ -64,24 +73,30 @@ bool looksHalved(const std::vector<TextLine>& lines) {
   bool is_first_different = false;
   bool are_seconds_alike = true;
   for (const TextLine& line : lines) {
-    const std::vector<TextPiece> pieces = piecesOf(line.text, ',');
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      std::string cell = unquoted(line.text, pieces[i]);
+    std::size_t count = 0;
+    std::size_t first_size = 0;
+    bool begins_with_zero = false;
+    forEachPiece(line.text, ',', [&](const TextPiece& piece) {
+      std::string cell = unquoted(line.text, piece);
+      if (count == 0) first_size = cell.size();
       cell.erase(std::min(cell.find_first_of("eE"), cell.size()));
       const bool is_unsigned =
           !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
-      if (is_unsigned && cell.size() > 1 && cell[0] == '0') return true;
-      if (i % 2 == 0) {
+      begins_with_zero = is_unsigned && cell.size() > 1 && cell[0] == '0';
+      if (begins_with_zero) return false;
+      if (count++ % 2 == 0) {
         if (cell.size() != digits) is_first_different = true;
-        continue;
+        return true;
       }
       if (digits == 0 && is_unsigned) {
         digits = cell.size();
-        is_first_different = unquoted(line.text, pieces[0]).size() != digits;
+        is_first_different = first_size != digits;
       }
       if (!is_unsigned || cell.size() != digits) are_seconds_alike = false;
-    }
-    if (pieces.size() % 2 == 1) are_seconds_alike = false;
+      return true;
+    });
+    if (begins_with_zero) return true;
+    if (count % 2 == 1) are_seconds_alike = false;
   }
   return are_seconds_alike && is_first_different && digits > 1;
 }
@@ -93,13 +108,16 @@ bool startsThousands(std::string cell) {
          cell.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The numbers of a line if all groups of three digits are joined to what they may belong to.
-std::size_t countOfJoined(const std::string& text, char separator) {
+/// The numbers of a line, and how many they are if all groups of three digits are joined to what
+/// they may belong to.
+std::pair<std::size_t, std::size_t> countsOf(const std::string& text, char separator) {
   const std::string marks = separator == ',' ? "." : ".,";
+  std::size_t pieces = 0;
   std::size_t count = 0;
   std::size_t last_end = 0;
   bool is_open = false;  // the last number may go on
-  for (const TextPiece& piece : piecesOf(text, separator)) {
+  forEachPiece(text, separator, [&](const TextPiece& piece) {
+    ++pieces;
     const std::string cell = text.substr(piece.begin, piece.end - piece.begin);
     const bool is_near = separator != ' ' || (piece.begin == last_end + 1 && text[last_end] == ' ');
     const std::size_t digits = std::min(cell.find_first_not_of("0123456789"), cell.size());
@@ -112,8 +130,9 @@ std::size_t countOfJoined(const std::string& text, char separator) {
       is_open = startsThousands(cell);
     }
     last_end = piece.end;
-  }
-  return count;
+    return true;
+  });
+  return {pieces, count};
 }
 
 /// Every line has the same number of cells, 2 or more, if its groups of three digits are joined:
@@ -121,12 +140,18 @@ std::size_t countOfJoined(const std::string& text, char separator) {
 bool looksGrouped(const std::vector<TextLine>& lines, char separator) {
   std::size_t cols = 0;
   for (const TextLine& line : lines) {
-    const std::size_t joined = countOfJoined(line.text, separator);
-    if (joined == piecesOf(line.text, separator).size() || (cols != 0 && joined != cols))
-      return false;
+    const auto [pieces, joined] = countsOf(line.text, separator);
+    if (joined == pieces || (cols != 0 && joined != cols)) return false;
     cols = joined;
   }
   return cols > 1;
+}
+
+/// @throw FileError for more of what separates cells than a scan has pixels
+void checkCellCount(std::uint64_t separators) {
+  if (separators <= kMaxPixels) return;
+  throw FileError("its lines have more than the " + std::to_string(kMaxPixels) +
+                  " numbers that a scan may have");
 }
 
 char other(char mark) { return mark == ',' ? '.' : ','; }
@@ -136,16 +161,20 @@ char decimalOf(const std::vector<TextLine>& lines, char mark, char hint, TextSty
   const TextLine* line_of_either = nullptr;
   std::string either;
   bool has_groups = false;
+  bool is_decimal = false;
   for (const TextLine& line : lines) {
-    for (const TextPiece& piece : piecesOf(line.text, style.separator)) {
+    forEachPiece(line.text, style.separator, [&](const TextPiece& piece) {
       const std::string number = unquoted(line.text, piece);
       const MarkUse use = markUse(number, mark);
-      if (use == MarkUse::kDecimal) return mark;
+      is_decimal = use == MarkUse::kDecimal;
       if (use == MarkUse::kGroups) has_groups = true;
-      if (use != MarkUse::kEither || line_of_either != nullptr) continue;
-      line_of_either = &line;
-      either = number;
-    }
+      if (use == MarkUse::kEither && line_of_either == nullptr) {
+        line_of_either = &line;
+        either = number;
+      }
+      return !is_decimal;
+    });
+    if (is_decimal) return mark;
   }
   if (has_groups) return other(mark);
   if (line_of_either == nullptr) return mark;
@@ -188,8 +217,8 @@ void joinInCells(std::vector<TextLine>& lines, bool is_sure) {
 
 }  // namespace
 
-std::vector<TextPiece> piecesOf(const std::string& text, char separator) {
-  std::vector<TextPiece> pieces;
+void forEachPiece(const std::string& text, char separator,
+                  const std::function<bool(const TextPiece&)>& take) {
   TextPiece piece;
   char quote = '\0';
   for (std::size_t i = 0; i <= text.size(); ++i) {
@@ -202,9 +231,17 @@ std::vector<TextPiece> piecesOf(const std::string& text, char separator) {
     piece.end = i;
     while (piece.begin < piece.end && isSpaceOrTab(text[piece.begin])) ++piece.begin;
     while (piece.end > piece.begin && isSpaceOrTab(text[piece.end - 1])) --piece.end;
-    if (separator != ' ' || piece.end > piece.begin) pieces.push_back(piece);
+    if ((separator != ' ' || piece.end > piece.begin) && !take(piece)) return;
     piece.begin = i + 1;
   }
+}
+
+std::vector<TextPiece> piecesOf(const std::string& text, char separator) {
+  std::vector<TextPiece> pieces;
+  forEachPiece(text, separator, [&pieces](const TextPiece& piece) {
+    pieces.push_back(piece);
+    return true;
+  });
   return pieces;
 }
 
@@ -240,6 +277,7 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
   TextStyle style;
   if (signs.semicolon) {
     style.separator = ';';
+    checkCellCount(signs.semicolons);
   } else if (signs.tight_comma != nullptr && signs.bare_gap != nullptr) {
     if (signs.loose_comma != nullptr) {
       throw FileError(lineName(*signs.loose_comma) +
@@ -247,6 +285,7 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
     }
   } else if (signs.comma) {
     style.separator = ',';
+    checkCellCount(signs.commas);
     const bool is_halved =
         !signs.point &&
         ((signs.tight_comma != nullptr && signs.loose_comma != nullptr) || looksHalved(lines));
@@ -260,6 +299,7 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
           "that they separate");
     }
   }
+  if (style.separator == ' ') checkCellCount(signs.gaps);
   const bool has_comma = signs.quoted_comma || (signs.comma && style.separator != ',');
   if (stated != '\0') {
     style.decimal = stated;

@@ -3,6 +3,7 @@
 /// @file
 /// Which character separates the numbers of a text, and which is the decimal one.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct TextPiece {
 /// separator none is empty.
 std::vector<TextPiece> piecesOf(const std::string& text, char separator);
 
+/// The same one by one, as a line may have millions: calls `take(piece)` until it returns false.
+void forEachPiece(const std::string& text, char separator,
+                  const std::function<bool(const TextPiece&)>& take);
+
 /// The piece without the quotes around it.
 std::string unquoted(const std::string& text, const TextPiece& piece);
 
@@ -39,7 +44,8 @@ void joinThousands(std::vector<TextLine>& lines);
 /// separate the cells.
 /// - @p stated the decimal sign, '.' or ','; 0 = not stated
 /// - @p hint the decimal sign of other numbers in the file, for marks that may be either; 0 = none
-/// @throw FileError without a file name, with a line, where two readings are possible.
+/// @throw FileError without a file name, with a line, where two readings are possible; without a
+/// line for more cells than a scan may have.
 TextStyle textStyle(const std::vector<TextLine>& lines, char stated = '\0', char hint = '\0');
 
 }  // namespace mems_stiction

@@ -184,26 +184,78 @@ void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& lay
   }
 }
 
-/// Without compression the bytes of a page follow from its size: where they are others, size or
-/// bits are damaged. Strips and tiles may be padded by a line.
-void checkByteCount(TIFF* tiff, const Layout& layout, std::uint64_t line_bytes) {
-  if (tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE ||
-      TIFFIsTiled(tiff) != 0) {
-    return;
-  }
-  const std::uint32_t strips = TIFFNumberOfStrips(tiff);
+/// Where a strip or tile stands in the file.
+struct Extent {
+  std::uint64_t begin = 0, end = 0;
+  std::uint32_t number = 0;
+};
+
+[[noreturn]] void refuseExtent(bool is_tiled, std::uint32_t number, std::uint32_t count,
+                               const std::string& why) {
+  throw FileError(std::string(is_tiled ? "tile " : "strip ") + std::to_string(number + 1) + " of " +
+                  std::to_string(count) + " " + why);
+}
+
+/// Bytes of the strip or tile without compression.
+std::uint64_t fullSize(TIFF* tiff, const Layout& layout, std::uint32_t number, std::uint32_t count,
+                       std::uint32_t high) {
+  if (TIFFIsTiled(tiff) != 0) return TIFFTileSize64(tiff);
+  const std::uint32_t in_plane =
+      count / static_cast<std::uint32_t>(layout.is_separate ? layout.samples : 1);
+  const std::uint64_t first = std::uint64_t{high} * (number % std::max(in_plane, 1u));
+  const std::uint64_t lines =
+      std::min<std::uint64_t>(high, layout.rows - std::min<std::uint64_t>(first, layout.rows));
+  return TIFFVStripSize64(tiff, static_cast<std::uint32_t>(lines));
+}
+
+/// A strip or tile that was not written has offset or byte count 0: libtiff would read the file's
+/// heading in its place. Two strips share no bytes. Without compression the bytes of a strip follow
+/// from the page's size: other bytes tell of damage. Strips may be padded by a line.
+void checkExtents(TIFF* tiff, const Layout& layout, std::uint32_t high, std::uint64_t line_bytes,
+                  std::uint64_t file_bytes) {
+  const bool is_tiled = TIFFIsTiled(tiff) != 0;
+  const bool is_plain =
+      tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_NONE;
+  const std::uint64_t heading = TIFFIsBigTIFF(tiff) != 0 ? 16 : 8;
+  const std::uint32_t count = is_tiled ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  std::vector<Extent> extents;
   std::uint64_t stated = 0;
-  for (std::uint32_t strip = 0; strip < strips; ++strip)
-    stated += TIFFGetStrileByteCount(tiff, strip);
-  const std::uint64_t needed = line_bytes * layout.rows *
-                               static_cast<std::uint64_t>(layout.is_separate ? layout.samples : 1);
-  if (stated > needed + line_bytes * strips) {
+  std::uint64_t needed = 0;
+  for (std::uint32_t number = 0; number < count; ++number) {
+    const std::uint64_t begin = TIFFGetStrileOffset(tiff, number);
+    const std::uint64_t size = TIFFGetStrileByteCount(tiff, number);
+    if (begin < heading || size == 0 || begin >= file_bytes) {
+      refuseExtent(is_tiled, number, count,
+                   "is not in the file: the file states offset " + std::to_string(begin) + " and " +
+                       std::to_string(size) + " bytes for it");
+    }
+    const std::uint64_t full = fullSize(tiff, layout, number, count, high);
+    if (is_plain && size < full) {
+      refuseExtent(is_tiled, number, count,
+                   "is cut off: the file states " + std::to_string(size) +
+                       " bytes for it, must be " + std::to_string(full));
+    }
+    stated += size;
+    needed += full;
+    // Padding is not read. Writers state too many compressed bytes, which stand for themselves.
+    extents.push_back({begin, begin + (is_plain ? full : 1), number});
+  }
+  if (is_plain && !is_tiled && stated > needed + line_bytes * count) {
     throw FileError("a page states " + std::to_string(stated) +
                     " bytes of pixels, its size needs " + std::to_string(needed) + ": damaged");
   }
+  std::sort(extents.begin(), extents.end(),
+            [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
+  for (std::size_t i = 1; i < extents.size(); ++i) {
+    if (extents[i].begin >= extents[i - 1].end) continue;
+    refuseExtent(is_tiled, std::max(extents[i].number, extents[i - 1].number), count,
+                 "overlaps number " +
+                     std::to_string(std::min(extents[i].number, extents[i - 1].number) + 1) +
+                     ": the heights of one of them are not in the file");
+  }
 }
 
-cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
+cv::Mat pixelsOf(TIFF* tiff, const Layout& layout, std::uint64_t file_bytes) {
   const std::string damaged =
       "the image cannot be read: cut off, damaged, or of a compression that libtiff lacks";
   const bool is_tiled = TIFFIsTiled(tiff) != 0;
@@ -218,7 +270,7 @@ cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
       static_cast<std::uint64_t>(size) > kMaxFileBytes) {
     throw FileError(damaged);
   }
-  checkByteCount(tiff, layout, static_cast<std::uint64_t>(line_bytes));
+  checkExtents(tiff, layout, high, static_cast<std::uint64_t>(line_bytes), file_bytes);
   cv::Mat pixels =
       cv::Mat::zeros(static_cast<int>(layout.rows), static_cast<int>(layout.cols), typeOf(layout));
   std::vector<unsigned char> buffer(static_cast<std::size_t>(size));
@@ -287,7 +339,8 @@ std::string titleOf(TIFF* tiff) {
   return is_for_programs ? "" : title;
 }
 
-FileChannel channelOf(TIFF* tiff, int page, int pages, const std::string& page_zero_description) {
+FileChannel channelOf(TIFF* tiff, int page, int pages, const std::string& page_zero_description,
+                      std::uint64_t file_bytes) {
   FileChannel channel;
   channel.id = page;
   channel.title = titleOf(tiff);
@@ -299,7 +352,7 @@ FileChannel channelOf(TIFF* tiff, int page, int pages, const std::string& page_z
                                     CV_8UC(std::clamp(layout.samples, 3, 4)));
     return channel;
   }
-  channel.values = upright(pixelsOf(tiff, layout),
+  channel.values = upright(pixelsOf(tiff, layout, file_bytes),
                            tag<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT));
   TiffNotes notes = notesOf(tiff);
   if (notes.description.empty()) notes.description = page_zero_description;
@@ -336,7 +389,7 @@ std::vector<FileChannel> parseTiff(const std::string& bytes) {
     const Layout layout = layoutOf(tiff.get());
     pixels += std::uint64_t{layout.cols} * layout.rows;
     checkPixelCount(pixels, 1);
-    channels.push_back(channelOf(tiff.get(), page, pages, description));
+    channels.push_back(channelOf(tiff.get(), page, pages, description, bytes.size()));
   }
   if (channels.empty()) throw FileError("the file has no page that is no thumbnail");
   return channels;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "numeric/words.hpp"
 #include "settings/yaml_text.hpp"
 
@@ -44,7 +45,8 @@ bool parseNumber(const std::string& text, double& value) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double parsed = 0.0;
-  if (!(stream >> parsed) || !(stream >> std::ws).eof()) return false;
+  if (!(stream >> parsed) || !(stream >> std::ws).eof() || isLostInReading(text, parsed))
+    return false;
   value = parsed;
   return true;
 }
@@ -112,13 +114,14 @@ bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
   return true;
 }
 
-/// " (write 0.05: ...)" for 0,05; else empty.
-std::string commaHint(const YAML::Node& node) {
-  if (!node.IsScalar() || node.Scalar().size() > kLongestQuotation ||
-      std::count(node.Scalar().begin(), node.Scalar().end(), ',') != 1) {
-    return "";
-  }
+/// " (write 0.05: ...)" for 0,05, " (write 0 ...)" for 1e-400; else empty.
+std::string numberHint(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Scalar().size() > kLongestQuotation) return "";
   std::string text = node.Scalar();
+  char* end = nullptr;
+  if (isLostInReading(text, plainStrtod(text.c_str(), &end)) && *end == '\0')
+    return " (write 0 for none: the number is too near to it)";
+  if (std::count(text.begin(), text.end(), ',') != 1) return "";
   text[text.find(',')] = '.';
   double number = 0.0;
   return parseNumber(text, number) ? " (write " + text + ": the decimal sign is a point)" : "";
@@ -308,7 +311,7 @@ class YamlReader : public OptionVisitor {
 
   void wrongType(const std::string& key, const YAML::Node& node, const std::string& allowed) {
     lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed +
-                     commaHint(node));
+                     numberHint(node));
   }
 
   void append(const OptionValidator& validator) {

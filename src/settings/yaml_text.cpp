@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -30,6 +31,21 @@ std::size_t lineWithTab(const std::string& text) {
     begin = end + 1;
   }
   return 0;
+}
+
+/// UTF-16 and UTF-32 have bytes 0 by themselves; their files begin with a byte order mark.
+bool hasWideLetters(const std::string& text) {
+  return startsWith(text, "\xFF\xFE") || startsWith(text, "\xFE\xFF") ||
+         startsWith(text, std::string("\0\0\xFE\xFF", 4));
+}
+
+/// The parser takes a byte 0 for one of its own signs. @throw FileError
+void requireNoZeroByte(const std::string& text, const std::string& name) {
+  const std::size_t zero = text.find('\0');
+  if (zero == std::string::npos || hasWideLetters(text)) return;
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(zero);
+  throw FileError(name + ": is not a text, so no file of settings: line " +
+                  std::to_string(1 + std::count(text.begin(), end, '\n')) + " has a byte 0");
 }
 
 bool isBinary(const std::string& text) {
@@ -54,11 +70,17 @@ class YamlMeter : public YAML::EventHandler {
         max_values_(std::max(kMaxValues, text_size)),
         max_bytes_(std::max(kMaxBytes, text_size)) {}
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ == 1) return;
+    refuse(mark,
+           "a second document begins, must be one: put what belongs together under one key, and "
+           "leave out --- and ...");
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(mark, anchor, {}); }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                 const std::string& value) override {
+    if (value.find('\0') != std::string::npos) refuse(mark, "a text has a byte 0; must not");
     add(mark, anchor, {1, value.size(), 0});
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -130,6 +152,7 @@ class YamlMeter : public YAML::EventHandler {
   const std::string& name_;
   std::uint64_t max_values_;
   std::uint64_t max_bytes_;
+  int documents_ = 0;
   std::vector<OpenNode> open_;
   std::map<YAML::anchor_t, NodeSize> sizes_;  ///< of anchored nodes that are complete
 };
@@ -137,11 +160,12 @@ class YamlMeter : public YAML::EventHandler {
 }  // namespace
 
 YAML::Node parseYaml(const std::string& text, const std::string& name) {
+  requireNoZeroByte(text, name);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     YamlMeter meter(name, text.size());
-    parser.HandleNextDocument(meter);
+    if (parser.HandleNextDocument(meter)) parser.HandleNextDocument(meter);
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     if (isBinary(text)) throw FileError(name + ": is not a text, so no file of settings");

@@ -52,6 +52,9 @@ class BagWalk {
     return BagEnd::kWhole;
   }
 
+  /// After walk().
+  std::uint64_t indexPlace() const { return index_place_ <= size_ ? index_place_ : 0; }
+
  private:
   [[noreturn]] void fail(std::uint64_t place, const std::string& what) const {
     throw FileError(path_ + ": the bag is damaged at byte " + std::to_string(place) + ": " + what);
@@ -176,9 +179,11 @@ class BagWalk {
     const Record header = recordAt(place, size_);
     if (header.op != kBagHeader) fail(place, "the header of the bag is missing");
     const auto index_place = field<std::uint64_t>(header, "index_pos");
+    index_place_ = index_place;
     if (index_place == 0) throw CutOff();  // whoever wrote it did not come to its end
     std::set<std::uint64_t> chunks;
     std::set<std::uint64_t> places;
+    std::uint64_t chunk_infos = 0;
     std::set<std::uint32_t>
         connections;  // that stand behind all chunks, where rosbag looks for them
     for (place = header.end; place < size_;) {
@@ -192,6 +197,7 @@ class BagWalk {
         checkIndex(record);
       } else if (record.op == kChunkInfo) {
         checkChunkInfo(record, chunks);
+        ++chunk_infos;
       } else if (record.op == kConnection) {
         if (place >= index_place) connections.insert(field<std::uint32_t>(record, "conn"));
       } else {
@@ -202,6 +208,11 @@ class BagWalk {
     if (index_place > size_) throw CutOff();
     if (index_place != size_ && places.count(index_place) == 0)
       fail(kMagic.size(), "its index is not where it states");
+    // Between two of the last records, where nothing but their number tells of a cut.
+    if (connections.size() < field<std::uint32_t>(header, "conn_count") ||
+        chunk_infos < field<std::uint32_t>(header, "chunk_count")) {
+      throw CutOff();
+    }
     for (const auto& [connection, named_at] : named_) {
       if (connections.count(connection) == 0) {
         fail(named_at,
@@ -213,6 +224,7 @@ class BagWalk {
   std::string path_;
   std::ifstream stream_;
   std::uint64_t size_;
+  std::uint64_t index_place_ = 0;
   std::uint64_t chunk_size_ = 0;                     ///< of the last chunk
   bool is_compressed_ = false;                       ///< the last chunk
   std::map<std::uint64_t, std::uint32_t> messages_;  ///< in the last chunk: place and connection
@@ -222,5 +234,10 @@ class BagWalk {
 }  // namespace
 
 BagEnd checkBag(const std::string& path) { return BagWalk(path).walk(); }
+
+std::uint64_t cutIndexPlace(const std::string& path) {
+  BagWalk walk(path);
+  return walk.walk() == BagEnd::kCutOff ? walk.indexPlace() : 0;
+}
 
 }  // namespace mems_stiction

@@ -9,6 +9,7 @@
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -124,12 +125,15 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
   std::vector<std::string> inputs = arguments.inputs;
   if (!arguments.input_list.empty()) {
     const std::string text = readInput(arguments.input_list, kInputList);
+    // Lists made elsewhere begin with a byte order mark, and end their lines with CR LF.
+    const std::size_t start = startsWith(text, "\xEF\xBB\xBF") ? 3 : 0;
     const bool is_text = text.find('\0') == std::string::npos;
-    std::istringstream stream(text);
+    std::istringstream stream(text.substr(start));
     for (std::string line; std::getline(stream, line);) {
+      if (endsWith(line, "\r")) line.pop_back();
       if (!is_text || line.size() >= PATH_MAX)
         throw FileError(arguments.input_list + ": is no list with an INPUT on each line");
-      if (!line.empty()) inputs.push_back(line);
+      if (line.find_first_not_of(" \t") != std::string::npos) inputs.push_back(line);
     }
   }
   if (inputs.empty()) throw OptionsError({"INPUT: no bag and no scan file is given"});

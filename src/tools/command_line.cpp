@@ -138,6 +138,14 @@ std::string positive(const std::string& text) {
              : "";
 }
 
+std::string notLost(const std::string& text) {
+  char* end = nullptr;
+  const double value = plainStrtod(text.c_str(), &end);
+  return *end == '\0' && isLostInReading(text, value)
+             ? "'" + text + "' is not allowed: too near to 0 for a number; write 0 for none"
+             : "";
+}
+
 Configuration configurationFile(const std::string& path, bool accept_implausible) {
   Configuration configuration;
   configuration.limits.accept_implausible = accept_implausible;

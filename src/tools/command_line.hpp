@@ -89,6 +89,9 @@ void printVersion(const std::string& program);
 /// Numbers above 0, as an option's check.
 std::string positive(const std::string& text);
 
+/// Numbers that are not read as 0 without being 0, as an option's check.
+std::string notLost(const std::string& text);
+
 /// Calls handle(path) for each scan, sidecars aside. One that throws is named with the reason; the
 /// others go on.
 /// @return the exit status
@@ -143,11 +146,13 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
 template <typename Arguments>
 void addLoadOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("-u,--voltage", arguments.voltage, "voltage between the surfaces [V]")
-      ->type_name("V");
+      ->type_name("V")
+      ->check(notLost);
   app.add_option("-l,--load", arguments.load,
                  "external force pressing the scanned area together [N]; goes before load/pressure "
                  "and load/device_force")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(notLost);
 }
 
 /// What was given by them.

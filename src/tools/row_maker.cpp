@@ -31,6 +31,11 @@ void append(const RowFields& more, RowFields& fields) {
   fields.insert(fields.end(), more.begin(), more.end());
 }
 
+/// What is wrong with a scan, with its name where memory ends: that says nothing of the file.
+std::string reasonFor(const std::string& input, const std::exception& error) {
+  return (hasNoMemory(error) ? input + ": " : "") + reasonOf(error);
+}
+
 }  // namespace
 
 RowFields batchSample(const std::string& formulation, bool with_verdict, bool with_half_space) {
@@ -61,24 +66,34 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
   origin.number = scan.number;
   origin.file = scan.input;
   origin.scan = scan.place;
-  std::string reason = scan.reason;
-  Subject subject;
   ScanState state = scan.state;
+  std::string reason = scan.reason;
   if (reason.empty()) {
+    Subject subject;
     try {
       subject = predict(scan, origin, state);
     } catch (const std::exception& error) {
-      reason = reasonOf(error);
+      reason = reasonFor(scan.input, error);
+    }
+    try {
+      if (reason.empty()) return predictedRow(origin, state, subject, tell);
+    } catch (const std::exception& error) {
+      if (!hasNoMemory(error)) throw;  // other scans may be smaller
+      reason = reasonFor(scan.input, error);
     }
   }
   BatchRow row;
-  row.is_predicted = reason.empty();
   row.message = reason;
   row.fields = originFields(origin, reason);
-  if (!row.is_predicted) {
-    append(stateFields(state), row.fields);
-    return row;
-  }
+  append(stateFields(state), row.fields);
+  return row;
+}
+
+BatchRow RowMaker::predictedRow(const ScanOrigin& origin, const ScanState& state, Subject& subject,
+                                const std::function<void(const std::string&)>& tell) {
+  BatchRow row;
+  row.is_predicted = true;
+  row.fields = originFields(origin, "");
   beside_ = Evidence();
   if (arguments_.rowsHaveDeviceForce()) {
     DeviceForce force;
@@ -102,7 +117,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
          row.fields);
   if (has_half_space) append(halfSpaceFields(half_space, verdict), row.fields);
   append(stateFields(state), row.fields);
-  if (!arguments_.dump.empty()) dump(scan.number, row.fields, half_space.solution);
+  if (!arguments_.dump.empty()) dump(origin.number, row.fields, half_space.solution);
   return row;
 }
 

@@ -58,6 +58,9 @@ class RowMaker {
 
   bool hasDevice() const { return configuration_.device.isStated(); }
   Subject predict(const BatchScan& scan, ScanOrigin& origin, ScanState& state);
+  /// The row of a scan that is predicted. Adds warnings to @p subject.
+  BatchRow predictedRow(const ScanOrigin& origin, const ScanState& state, Subject& subject,
+                        const std::function<void(const std::string&)>& tell);
   HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell);
   /// On the device, if it is stated; by the half-space, if it was asked and can.
   std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "own_thread.hpp"
+
 namespace mems_stiction {
 
 RowQueue::RowQueue(const BatchArguments& arguments, const Configuration& configuration,
@@ -27,11 +29,11 @@ BatchRow RowQueue::next(const std::function<void(const std::string&)>& tell) {
   for (; started_ < numbers_.size() && rows_.size() < makers_.size(); ++started_) {
     // A maker is free again when the row before its next one has been taken.
     RowMaker& maker = *makers_[started_ % makers_.size()];
-    rows_.push_back(std::async(is_alone ? std::launch::deferred : std::launch::async,
-                               [&maker, &tell, is_alone, scan = scans_.read(numbers_[started_])] {
-                                 return maker.row(
-                                     scan, is_alone ? tell : [](const std::string&) {});
-                               }));
+    const auto make = [&maker, &tell, is_alone, scan = scans_.read(numbers_[started_])] {
+      return maker.row(
+          scan, is_alone ? tell : [](const std::string&) {});
+    };
+    rows_.push_back(is_alone ? std::async(std::launch::deferred, make) : onOwnThread(make));
   }
   std::future<BatchRow> row = std::move(rows_.front());
   rows_.pop_front();

@@ -77,8 +77,14 @@ void readBytes(const rosbag::MessageInstance& message, const Function& read) {
 template <typename Message>
 boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& message) {
   if (!message.isType<Message>()) {
+    const std::string type = ros::message_traits::DataType<Message>::value();
+    if (message.getDataType() == type) {
+      throw SurfaceError("topic '" + message.getTopic() + "' carries " + type +
+                         " of another definition (md5 sum " + message.getMD5Sum() + ", must be " +
+                         ros::message_traits::MD5Sum<Message>::value() + ")");
+    }
     throw SurfaceError("topic '" + message.getTopic() + "' carries " + message.getDataType() +
-                       ", must be " + ros::message_traits::DataType<Message>::value());
+                       ", must be " + type);
   }
   const auto content = boost::make_shared<Message>();
   readBytes(message, [&](ros::serialization::IStream stream) {
@@ -164,9 +170,20 @@ void ScanBagReader::openMended() {
   mended_folder_ = std::make_unique<PrivateFolder>();
   const std::string folder = mended_folder_->path().string();
   const std::string cut = path_ + ": the bag was cut off; ";
+  std::string source = path_;
+  // rosbag takes nothing of a bag whose index ends too early, and all of one without an index.
+  if (const std::uint64_t index = cutIndexPlace(path_)) {
+    fs::create_directory(folder + "/cut");
+    source = folder + "/cut/" + fs::path(path_).filename().string();
+    std::error_code error;
+    fs::copy_file(path_, source, error);
+    if (!error) fs::resize_file(source, index, error);
+    if (error) throw FileError(cut + "it cannot be mended: " + error.message());
+  }
   const ChildResult result =
-      runChild({"rosbag", "reindex", "--quiet", "--output-dir=" + folder, path_},
+      runChild({"rosbag", "reindex", "--quiet", "--output-dir=" + folder, source},
                environmentWithout({}, {}), folder + "/log", kMendingTimeout);
+  fs::remove_all(folder + "/cut");
   if (!result.started) throw FileError(cut + "the program rosbag, which mends it, was not found");
   const fs::path mended = fs::path(folder) / fs::path(path_).filename();
   if (!fs::exists(mended)) throw FileError(cut + "rosbag reindex could not mend it");
@@ -174,7 +191,8 @@ void ScanBagReader::openMended() {
     checkBag(mended.string());
     bag_.open(mended.string(), rosbag::bagmode::Read);
   } catch (const std::exception& error) {
-    throw FileError(cut + "nothing before the cut can be read: " + error.what());
+    throw FileError(cut + "nothing before the cut can be read: " +
+                    replaced(error.what(), mended.string() + ": ", ""));
   }
 }
 

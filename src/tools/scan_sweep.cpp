@@ -62,6 +62,8 @@ std::vector<double> numbersOf(const std::string& option, const std::string& text
     const double value = plainStrtod(part.c_str(), &end);
     const bool is_number =
         end != part.c_str() && part.find_first_not_of(' ', end - part.c_str()) == std::string::npos;
+    if (is_number && isLostInReading(part, value))
+      refuseNumbers(option, text, ": " + part + " is too near to 0 for a number");
     if (!is_number || !std::isfinite(value)) break;
     values.push_back(value);
   }

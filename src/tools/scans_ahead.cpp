@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "own_thread.hpp"
+
 namespace mems_stiction {
 
 ScansAhead::ScansAhead(const ScanOptions& scan, const ScanFileOptions& options,
@@ -50,8 +52,7 @@ ScanAhead ScansAhead::take(const std::string& path) {
 void ScansAhead::startMore() {
   for (; started_ < paths_.size() && reading_.size() < at_a_time_; ++started_) {
     const std::string& path = paths_[started_];
-    reading_.emplace_back(path,
-                          std::async(std::launch::async, [this, &path] { return read(path); }));
+    reading_.emplace_back(path, onOwnThread([this, &path] { return read(path); }));
   }
 }
 

@@ -15,6 +15,7 @@
 #include "import/format_readers.hpp"
 #include "import/nanoscope_check.hpp"
 #include "import/stated_twice.hpp"
+#include "import/zip_check.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -64,7 +65,7 @@ const std::array<Reader, 17>& readers() {
       {"\x93NUMPY", [](const std::string& bytes) { return Channels{parseNpy(bytes)}; }},
       {"PK\3\4",
        [](const std::string& bytes) {
-         checkZip(bytes);
+         checkX3p(bytes);
          return Channels();
        }},
       {"", checkWhole},

@@ -623,6 +623,54 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(predicted, sound[: len(predicted)])
         self.assertEqual(len(rows) - len(of_cut), 3)
 
+    def test_where_memory_ends_the_scan_is_named_and_the_others_go_on(self):
+        if "MEMS_STICTION_SANITIZER" in os.environ:
+            self.skipTest("sanitizers reserve more address space than is left here")
+        np.save(str(self.folder / "large.npy"), np.zeros((9000, 9000)))
+        np.save(str(self.folder / "small.npy"), rough(48, 48))
+        settings = self.folder / "settings.yaml"
+        settings.write_text("scan: {pitch_x: 1e-8, pitch_y: 1e-8}\n")
+        done = run(
+            ["sh", "-c", 'ulimit -v 1200000; exec "$0" "$@"', self.batch, "--workers", "2"]
+            + ["-c", settings, "-o", self.folder / "rows.csv"]
+            + [self.folder / "large.npy", self.folder / "small.npy"]
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        large, small = self.rows("rows.csv")
+        reason = "large.npy: there is not enough memory for a scan of this size"
+        self.assertTrue(large["message"].endswith(reason), large["message"])
+        self.assertEqual(small["message"], "")
+
+    def test_of_a_bag_that_was_cut_off_in_its_index_all_scans_are_predicted(self):
+        whole = self.folder / "whole.bag"
+        self.make_bag(whole, "--count", 3)
+        self.predict("whole.csv", inputs=[whole])
+        content = whole.read_bytes()
+        place = content.find(b"index_pos=") + 10
+        index = int.from_bytes(content[place : place + 8], "little")
+        cut = self.folder / "cut.bag"
+        for length in (index, index + 200, (index + len(content)) // 2, len(content) - 1):
+            cut.write_bytes(content[:length])
+            self.predict("rows%d.csv" % length, inputs=[cut])
+            rows = self.rows("rows%d.csv" % length)
+            self.assertEqual(len(rows), 4, length)
+            self.assertIn("cut off", rows[-1]["message"])
+            self.assertEqual(
+                [row["pull_off_force"] for row in rows[:-1]],
+                [row["pull_off_force"] for row in self.rows("whole.csv")],
+            )
+
+    def test_a_message_of_another_definition_is_named_so(self):
+        bag = self.folder / "other.bag"
+        self.make_bag(bag, "--count", 2)
+        content = bag.read_bytes()
+        image = b"060021388200f6f0f447d0fcd9c64743"  # md5 sum of sensor_msgs/Image
+        self.assertIn(image, content)
+        bag.write_bytes(content.replace(image, image[::-1]))
+        self.predict("rows.csv", inputs=[bag], status=1)
+        message = self.rows("rows.csv")[0]["message"]
+        self.assertIn("sensor_msgs/Image of another definition (md5 sum 3474", message)
+
     def test_of_a_bag_whose_scans_share_a_stamp_none_gets_the_scan_info_of_another(self):
         def without_stamps(path, differ):
             """The scans of a.bag, of which one has lost its scan_info."""

@@ -1,6 +1,7 @@
 """Surfaces of stylus profiles: a random one has the heights, slopes and curvatures of the surface
 that the profile was taken from; grooves are the line; what is no profile is refused."""
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -136,24 +137,64 @@ class ProfileTest(unittest.TestCase):
                 made.unlink()
             for text, words in (
                 ("1 2\n2 3\n9 1\n10 1\n", "positions must be even"),
-                ("1\n2\n", "--pitch"),
                 ("nothing\n", "holds no line"),
                 ("1 2 3\n", "has 3 numbers"),
                 ("1 2\nx\n", "line 2: 'x' is no number"),
+                ("z\n0,6\n1,12\n", "line 2: '0,6' is the number 0.6 with a decimal comma, or"),
+                ("1\n2\n\n4\n", "line 3: is empty between heights"),
+                ("1,5\n;\n2\n3\n", "line 2: is empty between heights"),
             ):
                 path.write_text(text, encoding="utf-8")
-                done = self.run_program(path)
+                done = self.run_program(path, "--pitch", "1")
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(words, done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertFalse(made.exists())
 
-    def run_program(self, *arguments):
+    def test_commas_are_decimal_where_the_numbers_say_so(self):
+        count = range(64)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.txt"
+            for lines, heights in (
+                (["-0,%d" % place for place in count], [-float("0.%d" % n) for n in count]),
+                (["3,%02d" % place for place in count], [3 + n / 100 for n in count]),
+                (["%d,%d" % (n, n % 7 - 3) for n in count], [n % 7 - 3 for n in count]),
+                (["%d, %d" % (n, n % 7) for n in count], [n % 7 for n in count]),
+                (["%d,0 %d,2" % (n, n % 7) for n in count], [n % 7 + 0.2 for n in count]),
+                (["%d,5" % (n % 7) for n in count] + ["3"], [n % 7 + 0.5 for n in count] + [3]),
+                (["%d,5\n" % (n % 7) for n in count] + ["3"], [n % 7 + 0.5 for n in count] + [3]),
+            ):
+                for heading in ("", "Profile no. 1, 0.5 um/s\n"):
+                    path.write_text(heading + "\n".join(lines) + "\n", encoding="utf-8")
+                    done = self.run_program("--pitch", "1", "--kind", "grooves", path)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), lines[:2])
+                    made = np.load(str(path.with_name("a_grooves.npy")))
+                    np.testing.assert_allclose(made[0], heights, atol=1e-12)
+
+    def test_what_is_no_file_is_refused_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = pathlib.Path(folder) / "pipe.txt"
+            os.mkfifo(str(pipe))
+            large = pathlib.Path(folder) / "large.txt"
+            large.touch()
+            os.truncate(str(large), 1 << 32)
+            for path, words in (
+                ("/dev/zero", "is a pipe, a socket or a device, not a file"),
+                (pipe, "is a pipe, a socket or a device, not a file"),
+                (folder, "is a folder, not a profile"),
+                (large, "more than the 50000000 of a profile"),
+            ):
+                done = self.run_program(path, timeout=60)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(words, done.stderr)
+
+    def run_program(self, *arguments, timeout=None):
         return subprocess.run(
             [sys.executable, PROGRAM, *map(str, arguments)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             universal_newlines=True,
+            timeout=timeout,
         )
 
 

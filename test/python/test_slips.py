@@ -366,6 +366,12 @@ class SlipTest(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0)
 
+    def test_a_list_may_have_a_byte_order_mark_and_lines_of_windows(self):
+        (self.folder / "list.txt").write_bytes(b"\xef\xbb\xbfscan.npy\r\n\r\n \t\r\n")
+        done = self.run_it("stiction_batch", "-o", "list.csv", "--inputs-from", "list.txt")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len((self.folder / "list.csv").read_text().splitlines()), 2)
+
     def test_scripts_name_numbers_and_places_before_they_run(self):
         self.assert_refused("the decimal sign is a point", "sweep_load", "--voltages", "0,05")
         self.assert_refused("more than 1000000 numbers", "sweep_load", "--voltages", "0:30:1e-9")
@@ -501,7 +507,11 @@ class SlipTest(unittest.TestCase):
 
     def test_bags_that_are_none_are_named_before_anybody_waits(self):
         self.assertEqual(self.run_it("make_scan_bag", "-o", "good.bag", "scan.npy").returncode, 0)
-        (self.folder / "cut.bag").write_bytes((self.folder / "good.bag").read_bytes()[:5000])
+        good = (self.folder / "good.bag").read_bytes()
+        (self.folder / "cut.bag").write_bytes(good[:5000])
+        (self.folder / "index.bag").write_bytes(good[:-20])
+        place = good.find(b"index_pos=") + 10
+        index = int.from_bytes(good[place : place + 8], "little")
         for bag, expected in (
             ("folder.bag", "folder.bag cannot be read: is a folder, not a bag"),
             ("nowhere.bag", "nowhere.bag cannot be read: no such file"),
@@ -509,6 +519,11 @@ class SlipTest(unittest.TestCase):
                 "cut.bag",
                 "cut.bag cannot be read: was cut off, or is still being recorded; rosbag reindex "
                 "cut.bag mends it",
+            ),
+            (
+                "index.bag",
+                "index.bag cannot be read: was cut off inside its index; truncate -s %d index.bag "
+                "and then rosbag reindex index.bag mend it" % index,
             ),
         ):
             self.assert_refused(expected, "export_predictions", "-o", "a.csv", bag)

@@ -98,8 +98,10 @@ class ArgumentsTest(unittest.TestCase):
             "0:30:1e-9",
             "0,05",
             "1:2:3:4",
+            "0,1e-400",
         ):
             self.assertRaises(ValueError, numbers, wrong)
+        self.assertEqual(numbers("0e-400,-0.0"), [0.0, 0.0])
         with self.assertRaisesRegex(NoNumbers, "the decimal sign is a point"):
             numbers("0,05")
 

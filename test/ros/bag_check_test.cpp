@@ -59,6 +59,17 @@ TEST_F(BagCheck, ABagWithoutItsEndIsCutOffWhereverItEnds) {
   }
 }
 
+TEST_F(BagCheck, ABagThatWasCutOffInsideItsIndexSaysWhereItsMessagesEnd) {
+  std::uint64_t index = 0;
+  whole_.copy(reinterpret_cast<char*>(&index), sizeof index, whole_.find("index_pos=") + 10);
+  for (std::size_t length = index - 32; length < whole_.size(); length += 32) {
+    const std::string path = folder_.write("cut.bag", whole_.substr(0, length));
+    EXPECT_EQ(checkBag(path), BagEnd::kCutOff) << length;
+    EXPECT_EQ(cutIndexPlace(path), length < index ? 0 : index) << length;
+  }
+  EXPECT_EQ(cutIndexPlace(folder_.file("whole.bag")), 0u);
+}
+
 TEST_F(BagCheck, AFieldThatIsLongerThanItsHeaderIsRefused) {
   EXPECT_NE(refusal(changed("topic=", 4, 0xfffffff0u)).find("longer than its header"),
             std::string::npos);

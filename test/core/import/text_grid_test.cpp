@@ -1,9 +1,11 @@
 #include "import/format_readers.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
 
+#include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
@@ -469,6 +471,30 @@ TEST(TextGrid, AQuotationMarkWithoutItsPartnerTakesNoCellsAway) {
   // the separator at the end of the first lines stands inside the quotes: no cell is left of them
   EXPECT_THROW(parseTextGrid("'4,\n'4,\n,,\n"), FileError);
   EXPECT_THROW(parseTextGrid("1,2,\n'4,\n"), FileError);
+}
+
+TEST(TextGrid, MoreCellsThanAScanHasAreRefusedWithoutTheirMemory) {
+  struct rusage before {};
+  getrusage(RUSAGE_SELF, &before);
+  for (const char* cell : {",", ";", "1 "}) {
+    std::string line;
+    line.reserve(240'000'000);
+    for (std::uint64_t i = 0; i < kMaxPixels / 2 + 10; ++i) line += cell;
+    line += "1\n";
+    const std::string size = line + line;
+    line = std::string();
+    try {
+      parseTextGrid(size);
+      FAIL() << cell;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("more than the 100000000 numbers"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  struct rusage after {};
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 1'500'000) << "kB for a file of 200 MB";
 }
 
 }  // namespace

@@ -351,6 +351,80 @@ TEST_F(TiffFile, ASizeThatDoesNotMatchItsBytesIsRefused) {
   EXPECT_THROW(parseTiff(bytes), FileError);
 }
 
+/// Where the number @p index of a tag's list stands, of type LONG, or SHORT.
+std::size_t listAt(const std::string& bytes, int tag, std::size_t index, std::size_t& size) {
+  const auto number = [&bytes](std::size_t at, int count) {
+    std::size_t value = 0;
+    for (int i = count; i-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
+    return value;
+  };
+  std::size_t entry = directoryAt(bytes) + 2;
+  while (number(entry, 2) != static_cast<std::size_t>(tag)) entry += 12;
+  size = number(entry + 2, 2) == TIFF_SHORT ? 2 : 4;
+  const std::size_t list = number(entry + 4, 4) * size <= 4 ? entry + 8 : number(entry + 8, 4);
+  return list + index * size;
+}
+
+std::string withNumber(std::string bytes, int tag, std::size_t index, std::uint32_t value) {
+  std::size_t size = 0;
+  const std::size_t at = listAt(bytes, tag, index, size);
+  for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(value >> 8 * i & 0xFF);
+  return bytes;
+}
+
+TEST_F(TiffFile, AStripThatWasNotWrittenIsRefused) {
+  const auto fault = [](const std::string& bytes) -> std::string {
+    try {
+      parseTiff(bytes);
+      return "taken";
+    } catch (const FileError& error) {
+      return error.what();
+    }
+  };
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE}) {
+    Page page = floatPage();
+    page.tags = [=](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_COMPRESSION, compression); };
+    const std::string whole = write({page});
+    ASSERT_EQ(fault(whole), "taken");
+    EXPECT_EQ(fault(withNumber(whole, TIFFTAG_STRIPBYTECOUNTS, 1, 0)).find("strip 2 of 2 is not"),
+              0u);
+    EXPECT_EQ(fault(withNumber(whole, TIFFTAG_STRIPOFFSETS, 0, 0)).find("strip 1 of 2 is not"), 0u);
+    EXPECT_EQ(fault(withNumber(whole, TIFFTAG_STRIPOFFSETS, 1, 8)).find("strip 2 of 2 overlaps"),
+              0u);
+  }
+  const std::string whole = write({floatPage()});
+  EXPECT_EQ(fault(withNumber(whole, TIFFTAG_STRIPOFFSETS, 1, 12)).find("strip 2 of 2 overlaps"),
+            0u);
+  EXPECT_EQ(fault(withNumber(whole, TIFFTAG_STRIPBYTECOUNTS, 1, 36)),
+            "strip 2 of 2 is cut off: the file states 36 bytes for it, must be 40");
+}
+
+TEST_F(TiffFile, ATileThatWasNotWrittenIsRefused) {
+  TIFF* tiff = TIFFOpen(path().c_str(), "w");
+  for (const auto& [tag, value] : std::vector<std::pair<int, int>>{{TIFFTAG_IMAGEWIDTH, 32},
+                                                                   {TIFFTAG_IMAGELENGTH, 16},
+                                                                   {TIFFTAG_BITSPERSAMPLE, 8},
+                                                                   {TIFFTAG_SAMPLESPERPIXEL, 1},
+                                                                   {TIFFTAG_PHOTOMETRIC, 1},
+                                                                   {TIFFTAG_TILEWIDTH, 16},
+                                                                   {TIFFTAG_TILELENGTH, 16}})
+    TIFFSetField(tiff, static_cast<std::uint32_t>(tag), value);
+  std::string tile(256, 'x');
+  for (const std::uint32_t number : {0u, 1u}) TIFFWriteEncodedTile(tiff, number, tile.data(), 256);
+  TIFFClose(tiff);
+  const std::string whole = ScratchFolder::read(path());
+  ASSERT_EQ(parseTiff(whole).size(), 1u);
+  const std::string sparse = withNumber(whole, TIFFTAG_TILEOFFSETS, 1, 0);
+  try {
+    parseTiff(sparse);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "tile 2 of 2 is not in the file: the file states offset 0 and 256 bytes for it");
+  }
+}
+
 TEST_F(TiffFile, APageThatCannotBeFoundIsNotLeftOut) {
   std::string bytes = write({floatPage(), floatPage()});
   ASSERT_EQ(parseTiff(bytes).size(), 2u);

@@ -306,6 +306,33 @@ TEST(NpyFile, WhatIsNoMatrixOfNumbersIsRefused) {
       mentions(refusal([&] { parseNpy(npy("<f8", "", "(2, " + many + ")")); }), "is no scan"));
 }
 
+TEST(NpyFile, AHeaderThatNumpyReadsOtherwiseOrNotIsRefused) {
+  const std::string data(48, '\0');
+  const auto with = [&data](const std::string& from, const std::string& to) {
+    std::string bytes = npy("<f8", data);
+    bytes.replace(bytes.find(from), from.size(), to);
+    const auto header = static_cast<std::uint16_t>(bytes.size() - data.size() - 10);
+    return bytes.replace(8, 2, littleBytes(header));
+  };
+  const std::string shape = "'shape': (2, 3)";
+  EXPECT_EQ(parseNpy(with(shape, "'shape': (2L, 3L)")).values.size(), cv::Size(3, 2)) << "Python 2";
+  EXPECT_TRUE(mentions(refusal([&] { parseNpy(with(shape, "'shape': (3, 2), " + shape)); }),
+                       "states 'shape' twice"));
+  EXPECT_TRUE(mentions(refusal([&] { parseNpy(with(shape, "'descr': '<f4', " + shape)); }),
+                       "states 'descr' twice"));
+  for (const char* wrong : {"'shape': (2.0, 3)", "'shape': (2, 3.0)", "'shape': (2, 0x3)",
+                            "'shape': (-2, 3)", "'shape': (2 + 0, 3)"}) {
+    EXPECT_TRUE(mentions(refusal([&] { parseNpy(with(shape, wrong)); }), "two whole numbers"))
+        << wrong;
+  }
+  EXPECT_TRUE(mentions(refusal([&] { parseNpy(with("False", "Wrong")); }), "True or False"));
+  for (const char* version : {"\x09", "\x04"}) {
+    std::string bytes = npy("<f8", data);
+    bytes.replace(6, 1, version);
+    EXPECT_TRUE(mentions(refusal([&] { parseNpy(bytes); }), "must be 1.0, 2.0 or 3.0"));
+  }
+}
+
 // ---- Createc
 
 /// Compressed, one channel of heights; @p is_filled: with the header up to byte 16384, as older

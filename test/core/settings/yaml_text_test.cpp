@@ -95,6 +95,27 @@ TEST(YamlText, WhatIsNoYamlIsSaidInWords) {
   EXPECT_EQ(parseError("a: [1\x01").rfind("a.yaml: is not a text", 0), 0u);
 }
 
+TEST(YamlText, ASecondDocumentIsRefusedWithItsLine) {
+  for (const char* text : {"a: 1\n---\nb: 2\n", "---\na: 1\n---\nb: 2\n", "a: 1\n...\nb: 2\n",
+                           "a: 1\n...\n---\nb: 2\n", "{a: 1}\nb: 2\n", "---\n---\na: 1\n"}) {
+    EXPECT_NE(parseError(text).find("a second document begins, must be one"), std::string::npos)
+        << text << parseError(text);
+  }
+  EXPECT_EQ(parseError("---\na: 1\n---\nb: 2\n").rfind("a.yaml: line 3: a second", 0), 0u);
+  for (const char* text : {"---\na: 1\n", "a: 1\n...\n", "%YAML 1.2\n---\na: 1\n...\n# end\n"})
+    EXPECT_EQ(parseError(text), "no error") << text;
+}
+
+TEST(YamlText, AByte0IsRefusedWithItsLine) {
+  using std::string_literals::operator""s;
+  EXPECT_EQ(parseError("load:\n  a\0b: 1\n"s),
+            "a.yaml: is not a text, so no file of settings: line 2 has a byte 0");
+  EXPECT_EQ(parseError("a\0b: 1\n"s).rfind("a.yaml: is not a text", 0), 0u);
+  EXPECT_EQ(parseError("# \0\na: 1\n"s).rfind("a.yaml: is not a text", 0), 0u);
+  EXPECT_EQ(parseError("a: \"x\\0y\"\n"), "a.yaml: line 1: a text has a byte 0; must not");
+  EXPECT_EQ(parseYaml("\xFF\xFE"s + "a\0:\0 \0001\0\n\0"s, "a.yaml")["a"].as<int>(), 1);
+}
+
 TEST(YamlText, EveryFileOfSettingsIsReadSo) {
   const ScratchFolder folder;
   for (const std::string& text : {std::string("scan: &x {b: *x}"), anchorBomb("{", "}", "k: ")}) {

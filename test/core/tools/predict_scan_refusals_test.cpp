@@ -51,6 +51,23 @@ TEST_F(PredictScan, BadSettingsAreOneLineEach) {
   EXPECT_EQ(run("--load heavy " + scan).status, 2);
 }
 
+TEST_F(PredictScan, NumbersTooNearTo0AreNotTakenFor0) {
+  const std::string scan = sphere();
+  for (const char* text : {"1e-400", "-1e-400", "0.001E-999"}) {
+    const std::string tiny = text;
+    const std::string config =
+        folder_.write("tiny.yaml", "load: {mechanical_load: " + tiny + "}\n");
+    for (const std::string& arguments :
+         {"-c " + config, "--load=" + tiny, "--voltage=" + tiny, "--sweep-load=0," + tiny}) {
+      const Outcome outcome = run("--pitch 20e-9 " + arguments + " " + scan);
+      EXPECT_EQ(outcome.status, 2) << arguments;
+      ASSERT_EQ(outcome.errors.size(), 1u) << arguments;
+      EXPECT_NE(outcome.errors[0].find(tiny), std::string::npos) << outcome.errors[0];
+    }
+  }
+  EXPECT_EQ(run("--pitch 20e-9 --load 0e-400 --voltage 0.0 " + scan).status, 0);
+}
+
 TEST_F(PredictScan, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
   const std::string old = folder_.write("old.yaml", "approach: {formulation: corrected}\n");
   const Outcome outcome = run("--pitch 20e-9 --config " + old + " " + sphere());
