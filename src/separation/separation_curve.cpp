@@ -185,9 +185,10 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   curve.beyond_rest = below;
   const double narrow = chosen::kAccuracy * (below.approach - above.approach);
   for (int search = 0; below.approach - above.approach > narrow; ++search) {
+    const double middle = 0.5 * (above.approach + below.approach);
+    if (!(above.approach < middle && middle < below.approach)) break;  // no number lies between
     // every third time the middle: where one side is a wall, the line hardly moves the other
-    const double place =
-        search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
+    const double place = search % 3 == 2 ? middle : crossing(above, below, load);
     found = stateAt(frame, place, curve.way);
     const double excess = found.force() + load;
     if (std::abs(excess) <= chosen::kAccuracy * std::max(found.carried, load)) break;

@@ -35,6 +35,18 @@ TEST(CapillaryPrediction, ofASphereIsFourPiGammaR) {
   }
 }
 
+// Rest lies between two neighbouring numbers: nothing is carried at 0, all at the next.
+TEST(CapillaryPrediction, ofAPlaneEndsAndBonds) {
+  const HeightMap plane(cv::Mat::zeros(8, 8, CV_64FC1), 1 * kNm, 1 * kNm);
+  for (const double humidity : {1e-12, 0.01, 0.5}) {
+    Options options;
+    options.capillary.relative_humidity = humidity;
+    const Prediction prediction = AdhesionModel(options).predict(plane);
+    EXPECT_EQ(prediction.status, Status::kBonded) << humidity;
+    EXPECT_GT(prediction.pull_off_force, 0.0);
+  }
+}
+
 TEST(CapillaryPrediction, isOffByDefault) {
   const HeightMap sphere = analytic::paraboloid(101, 101, 1 * kNm, 1 * kNm, 2e-6);
   EXPECT_EQ(AdhesionModel(paperOptions()).predict(sphere).capillary_force, 0.0);
