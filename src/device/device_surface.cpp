@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "device/scan_list.hpp"
-#include "errors/short_number.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
-#include "numeric/words.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
@@ -17,20 +15,6 @@ namespace {
 
 /// Pixels along the side of the corner by which a surface is known.
 constexpr std::int64_t kCorner = 32;
-/// Along the side of a scan or a contact: fewer say nothing of its summits.
-constexpr int kLeastPixelsAlong = 8;
-
-/// @throw SurfaceError if pixels are too coarse for the contacts
-void checkContactWidth(const DeviceArea& area, double pitch) {
-  const double width = std::sqrt(area.area / area.contacts);
-  if (width > (kLeastPixelsAlong - 0.5) * pitch) return;
-  throw SurfaceError("device/contacts: each of " +
-                     countText(static_cast<std::size_t>(area.contacts), "contact") + " on " +
-                     shortNumber(area.area, 3) + " m^2 is " + shortNumber(width * 1e9, 3) +
-                     " nm wide, less than 8 pixels of " + shortNumber(pitch * 1e9, 3) +
-                     " nm: state fewer contacts or a larger device/contact_area, or give scans "
-                     "with finer pixels");
-}
 
 }  // namespace
 
@@ -56,15 +40,15 @@ void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area,
                          " pixels say nothing of a device; at least 8 x 8 do");
     }
   }
-  checkContactWidth(area, madePitch(surfaces, options));
 }
 
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
   DevicePieces pieces;
   pieces.count = area.contacts;
   const double most_area = most_cells * pitch * pitch;
-  const double piece_area = area.area / area.contacts;
-  pieces.is_part = area.area > most_area;
+  const double piece_area =
+      std::max(area.area / area.contacts, kLeastPixelsAlong * kLeastPixelsAlong * pitch * pitch);
+  pieces.is_part = piece_area * area.contacts > most_area;
   if (pieces.is_part) {
     // fewer pieces of their own size, or a part of one
     pieces.count = std::clamp(static_cast<int>(most_area / piece_area), 1, area.contacts);

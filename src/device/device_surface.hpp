@@ -21,6 +21,9 @@
 
 namespace mems_stiction {
 
+/// Along the side of a scan or a contact: fewer say nothing of its summits.
+constexpr int kLeastPixelsAlong = 8;
+
 /// The contacts of a device as squares of one size, each on a surface of its own.
 struct DevicePieces {
   int count = 1;
@@ -37,6 +40,7 @@ struct DevicePieces {
 void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area,
                  const DeviceForceOptions& options);
 
+/// Smaller contacts are as wide as kLeastPixelsAlong.
 /// - @p most_cells of all pieces together
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells);
 

@@ -4,6 +4,7 @@
 
 #include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
+#include "numeric/words.hpp"
 #include "roughness/merged_spectrum.hpp"
 #include "verdict/missing_scan.hpp"
 
@@ -86,6 +87,17 @@ std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& mod
   UnresolvedWaves both = above.rms_height > below.rms_height ? above : below;
   both.rms_height = std::hypot(below.rms_height, above.rms_height);
   return whatIsMissing(shortWaves(both, model), who);
+}
+
+std::string missingPixels(const DeviceArea& area, double pitch) {
+  const double width = std::sqrt(area.area / area.contacts);
+  if (width > (kLeastPixelsAlong - 0.5) * pitch) return "";
+  return "each of " + countText(static_cast<std::size_t>(area.contacts), "contact") + " on " +
+         shortNumber(area.area, 3) + " m^2 is " + shortNumber(width * 1e9, 3) +
+         " nm wide, less than " + std::to_string(kLeastPixelsAlong) + " pixels of " +
+         shortNumber(pitch * 1e9, 3) + " nm: a scan with pixels of " +
+         shortNumber(width * 1e9 / kLeastPixelsAlong, 2) +
+         " nm or less is missing, or device/contacts is too large";
 }
 
 std::vector<std::string> contradictions(const DeviceSurfaces& surfaces) {

@@ -22,6 +22,10 @@ std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const 
 /// warning.
 std::string missingShortWaves(const DeviceSurfaces& surfaces, const Options& model);
 
+/// The fine scan without which contacts have too few pixels; empty if they have enough.
+/// - @p pitch of the surfaces that are generated [m]
+std::string missingPixels(const DeviceArea& area, double pitch);
+
 /// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.
 std::vector<std::string> contradictions(const DeviceSurfaces& surfaces);
 

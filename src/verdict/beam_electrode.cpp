@@ -18,7 +18,7 @@ constexpr double kFollowed = 1e-8;
 
 /// The shape under a field of which no deflection changes it, of any size.
 BentBeam::Vector firstShape(const BentBeam& beam) {
-  const BentBeam::Vector straight = BentBeam::Vector::Zero(beam.size());
+  BentBeam::Vector straight = BentBeam::Vector::Zero(beam.size());
   BentBeam::Field field;
   if (!beam.fieldOf(straight, field)) return straight;
   return beam.stiffness(straight).ldlt().solve(field.pull);

@@ -18,27 +18,27 @@ double closedGap(const DeviceOptions& device) {
 
 /// The length at which a beam is just held, next to a given one: above it where that is free.
 /// - @p most above which no beam is free; may be infinite
-/// - @p isFree above 0 for a length at which it comes off
+/// - @p is_free above 0 for a length at which it comes off
 template <typename Function>
-double lastPositive(double length, double most, const Function& isFree) {
+double lastPositive(double length, double most, const Function& is_free) {
   constexpr double kTolerance = 1e-11;
   constexpr double kFactor = 1.2;
   constexpr double kFarthest = 1e6;  // times the length: held nowhere
   double free = length;
   double stuck = length;
-  if (isFree(length) > 0.0) {
-    while (stuck < most && isFree(stuck) > 0.0) {
+  if (is_free(length) > 0.0) {
+    while (stuck < most && is_free(stuck) > 0.0) {
       if (stuck > kFarthest * length) return std::numeric_limits<double>::infinity();
       free = stuck;
       stuck = std::min(most, kFactor * stuck);
     }
   } else {
-    while (free > length / kFarthest && !(isFree(free) > 0.0)) {
+    while (free > length / kFarthest && !(is_free(free) > 0.0)) {
       stuck = free;
       free /= kFactor;
     }
   }
-  return signChange(free, stuck, kTolerance, isFree);
+  return signChange(free, stuck, kTolerance, is_free);
 }
 
 /// By all of the electrode below a closed device; nothing where none is stated.

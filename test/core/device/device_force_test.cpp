@@ -122,17 +122,13 @@ TEST_F(DeviceForceTest, AFewScansOfTheDevicesSizeCountAlikeWhateverTheSeed) {
     EXPECT_DOUBLE_EQ(force(areaOfPixels(256)).pull_off_force, first) << options_.seed;
 }
 
-TEST_F(DeviceForceTest, AContactOfAFewPixelsIsRefusedWithWhatWouldDo) {
-  try {
-    force(1e-12, 1000);
-    FAIL() << "32 nm are three pixels";
-  } catch (const SurfaceError& error) {
-    EXPECT_NE(std::string(error.what()).find("each of 1000 contacts"), std::string::npos)
-        << error.what();
-    EXPECT_NE(std::string(error.what()).find("31.6 nm wide, less than 8 pixels of 10 nm"),
-              std::string::npos)
-        << error.what();
-  }
+TEST_F(DeviceForceTest, ContactsOfAFewPixelsMissAScan) {
+  const DeviceForce found = force(1e-12, 1000);
+  EXPECT_NE(found.missing_scan.find("each of 1000 contacts on 1e-12 m^2 is 31.6 nm wide, less than "
+                                    "8 pixels of 10 nm: a scan with pixels of 4 nm or less"),
+            std::string::npos)
+      << found.missing_scan;
+  EXPECT_EQ(force(1000 * areaOfPixels(8), 1000).missing_scan, "");
 }
 
 TEST_F(DeviceForceTest, TheOrderOfTheScansTellsNothing) {
