@@ -19,6 +19,7 @@ from typing import (
     Mapping,
     NamedTuple,
     Optional,
+    Sequence,
     Set,
     Tuple,
 )
@@ -77,7 +78,8 @@ NUMBERS = (
 
 
 class Place(NamedTuple):
-    """One row. Texts are empty and numbers NaN where the row does not say."""
+    """One row, or the rows of one site. Texts are empty and numbers NaN where a row does not
+    say."""
 
     lot: str
     wafer: str
@@ -356,6 +358,40 @@ def _places(table: _Table, figure: str, force: str, against: str) -> Tuple[Place
             names,
         )
     )
+
+
+def at_sites(places: Iterable[Place]) -> List[Place]:
+    """One place for each site of a part, whose figures are the geometric means of its scans: scans
+    of one site are no independent places. Of what nothing holds on one scan, the others tell; a row
+    without a site is a place by itself."""
+    groups: Dict[Any, List[Place]] = {}
+    for number, place in enumerate(places):
+        key = (place.x, place.y) if place.has_site() else number
+        groups.setdefault((place.lot, place.wafer, place.part, place.at, key), []).append(place)
+    return [_mean_of(scans) if len(scans) > 1 else scans[0] for scans in groups.values()]
+
+
+def _mean_of(scans: List[Place]) -> Place:
+    value = _mean([scan.value for scan in scans])
+    lower, upper = (
+        value * _mean([getattr(scan, end) / scan.value for scan in scans])
+        for end in ("lower", "upper")
+    )
+    return scans[0]._replace(
+        value=value,
+        lower=value if math.isinf(value) else lower,
+        upper=value if math.isinf(value) else upper,
+        force=_mean([scan.force for scan in scans]),
+        rms_height=_mean([scan.rms_height for scan in scans]),
+        name=", ".join(dict.fromkeys(scan.name for scan in scans if scan.name)),
+    )
+
+
+def _mean(values: Sequence[float]) -> float:
+    """Geometric, of those that are finite and > 0; infinite where all that are known are."""
+    known = [value for value in values if value > 0.0]
+    finite = [math.log(value) for value in known if value < math.inf]
+    return math.exp(sum(finite) / len(finite)) if finite else math.inf if known else math.nan
 
 
 def word_of(place: Place) -> str:

@@ -686,6 +686,47 @@ class SentencesTest(unittest.TestCase):
             found.statements,
         )
 
+    def test_scans_of_one_site_are_one_place(self):
+        random = np.random.RandomState(1)
+        rows = [
+            row(
+                wafer=str(wafer),
+                site=site,
+                part_id="p%d" % place,
+                margin=3.0 * math.exp(of_part + 0.1 * random.standard_normal()),
+            )
+            for wafer in range(40)
+            for place, site in enumerate(SITES[::5])
+            for of_part in [0.2 * random.standard_normal()]
+            for _ in range(3)
+        ]
+        rows += [dict(rows[0], margin="")]
+        found = mems_stiction.compare_lots(rows)
+        self.assertIn(
+            "scans of one site are averaged, since they are no independent places: 1201 rows are "
+            "400 places",
+            found.statements,
+        )
+        self.assertLessEqual(sum(found.trends.chance < 0.05), 6)  # 2 of 40, and their spread
+        self.assertEqual(found.trends.places.max(), 10)
+        self.assertEqual((found.shares.places[0], found.shares.lost[0]), (400, 1))
+        wafers = found.units[found.units.level == "wafers"]
+        self.assertEqual(set(wafers.places), {10})
+        self.assertAlmostEqual(
+            math.log(wafers.value[0]), np.mean(np.log([one["margin"] for one in rows[:30]]))
+        )
+        levels = dict(zip(found.components.level, found.components.deviation))
+        self.assertAlmostEqual(levels["parts and their places"], 0.2, delta=0.02)
+        self.assertAlmostEqual(levels["scans"], 0.1, delta=0.01)
+        _, _, figure = next(found.maps())
+        self.assertIn("10 places", figure._suptitle.get_text())
+        bad = dict(rows[0], margin=0.3)
+        found = mems_stiction.compare_lots([bad, bad, bad] + rows[3:])
+        self.assertEqual(
+            [(one.site_x, one.site_y) for one in found.bad_places if one.wafer_id == "0"],
+            [SITES[0]],
+        )
+
     def test_rows_alone(self):
         """Of a new user: no lot, no wafer, no site."""
         found = mems_stiction.compare_lots([{"margin": 2.0 + 0.1 * place} for place in range(10)])
