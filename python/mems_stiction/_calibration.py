@@ -17,9 +17,11 @@ from mems_stiction.calibration_data import Measurement, measurements_of
 from mems_stiction.calibration_search import Found, Search
 from mems_stiction.calibration_second import with_second
 from mems_stiction.calibration_statements import (
+    of_high_work,
     of_misfit,
     of_other_places,
     of_outliers,
+    of_radii,
     of_units,
     open_end,
 )
@@ -285,7 +287,10 @@ def _calibration(
         if relative is not None:
             constants["uncertainty/" + word] = relative
     statements = of_other_places(data) + of_outliers(data, found) + of_misfit(found) + statements
-    if not found.axes[0].tells(found.intervals[0]):
+    is_told = found.axes[0].tells(found.intervals[0])
+    least = fit.parameters[0] if is_told else found.intervals[0].lower
+    statements[:0] = of_radii(data) + of_high_work(found, least)
+    if not is_told:
         statements[:0] = [open_end(found)] + of_units(data, found)
         figures.update(
             work_of_adhesion=math.nan,

@@ -8,6 +8,7 @@ import itertools
 import json
 import math
 import os
+import warnings
 from concurrent.futures import Executor, as_completed
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 
@@ -17,10 +18,10 @@ from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._device import Pitches, scans_of_device
 from mems_stiction._settings import Config, OptionsError, values_of
 from mems_stiction._types import Scans, UpperScans
-from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction._warnings import ScanWarning, SettingsWarning, warn
 from mems_stiction.other_packages import require_package
-from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, TRAVEL, Axis
-from mems_stiction.design_points import GAP, POTENTIAL, Holding, axes_of
+from mems_stiction.design_axes import AREA, BEAM, ETCH, OF_THE_SPRING, STIFFNESS, TRAVEL, Axis
+from mems_stiction.design_points import GAP, POTENTIAL, Holding, axes_of, warnings_of
 from mems_stiction.design_rows import FIGURES, Rows
 from mems_stiction.design_words import statements_of, told_once
 from mems_stiction.quantities import counted
@@ -49,6 +50,7 @@ class DesignSweep(ReadOnly):
 
     def __init__(self, rows: Rows) -> None:
         listed = rows.all_rows()
+        self._whole = [axis.name for axis in rows.axes if axis.is_whole]
         self._units = {axis.name: axis.unit for axis in rows.axes}
         self._origin = {"version": rows.version, "sweep": rows.fingerprint}
         shape = [len(axis.values) for axis in rows.axes]
@@ -91,6 +93,7 @@ class DesignSweep(ReadOnly):
             self._origin,
             axes={name: list(map(float, values)) for name, values in self.axes.items()},
             units=dict(self._units),
+            whole=list(self._whole),
             statements=list(self.statements),
             rows=[
                 {name: plain_value(row[name]) for name in self.rows.dtype.names}
@@ -157,14 +160,19 @@ def design_sweep(
     Client.get_executor() of Dask.
 
     Each margin is that of predict_device(). Stiffness and travel of the spring do not change what
-    holds: their values cost no time.
+    holds: their values cost no time. Beams are not swept.
     Ctrl-C ends it; the rows that are written stay. Raises OptionsError, SurfaceError and FileError.
     """
     count = os.cpu_count() or 1 if workers is None else workers
     if not isinstance(count, int) or isinstance(count, bool) or count < 1:
         raise OptionsError("workers: %r is not allowed, must be an integer >= 1" % (workers,))
-    lower, above, checked = scans_of_device(scans, None, pitch, None, config, upper, settings, {})
-    sought = axes_of(axes, checked)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SettingsWarning)  # said of the axes' ends
+        lower, above, checked = scans_of_device(
+            scans, None, pitch, None, config, upper, settings, {}
+        )
+        sought = axes_of(axes, checked)
+    warn(told_once(warnings_of(sought, checked)), SettingsWarning)
     _check_etching(sought, etch_wavelength)
     _check_electrodes(sought, values_of(checked))
     fixed = _fixed(sought, values_of(checked))
@@ -221,6 +229,18 @@ def _check_electrodes(axes: List[Axis], values: Dict[str, Any]) -> None:
 def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
     """What of the spring is no axis. Raises OptionsError where the device is not stated."""
     swept = [axis.name for axis in axes]
+    if values[BEAM] != "none":
+        raise OptionsError(
+            "%s: '%s' is not allowed: a sweep judges springs, not beams; call predict_device() for "
+            "each design of a beam%s"
+            % (
+                BEAM,
+                values[BEAM],
+                ", or state none, and its spring is judged alone"
+                if STIFFNESS in swept or values[STIFFNESS] > 0
+                else "",
+            )
+        )
     for name in OF_THE_SPRING + (AREA,):
         if name not in swept and not values[name] > 0:
             raise OptionsError("%s: is not stated; must be > 0, or one of the axes" % name)

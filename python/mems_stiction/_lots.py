@@ -12,7 +12,16 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
-from mems_stiction.lots_data import RELEASING, RMS_HEIGHT, WORDS, Lots, Place, by_wafer, lots_of
+from mems_stiction.lots_data import (
+    RELEASING,
+    RMS_HEIGHT,
+    WORDS,
+    Lots,
+    Place,
+    at_sites,
+    by_wafer,
+    lots_of,
+)
 from mems_stiction.lots_variance import Components, components_of, hierarchy_of
 from mems_stiction.lots_wafer import (
     BadPlace,
@@ -72,8 +81,8 @@ class LotComparison(ReadOnly):
     bad_places: np.recarray
     statements: Tuple[str, ...]
 
-    def __init__(self, lots: Lots, figures: Dict[str, Any]) -> None:
-        self._lots = lots
+    def __init__(self, lots: Lots, sites: List[Place], figures: Dict[str, Any]) -> None:
+        self._lots, self._sites = lots, sites
         self.__dict__.update(figures, figure=lots.figure, against=lots.against)
 
     def to_dict(self) -> Dict[str, Any]:
@@ -131,7 +140,7 @@ class LotComparison(ReadOnly):
         require_package("matplotlib", "a picture")
         from mems_stiction.lots_maps import has_map, map_figure
 
-        for (lot, wafer), places in by_wafer(self._lots.chosen).items():
+        for (lot, wafer), places in by_wafer(self._sites).items():
             if has_map((self.figure, self._lots.force), places):
                 trends = [
                     trend for trend in self.trends if (trend.lot_id, trend.wafer_id) == (lot, wafer)
@@ -142,8 +151,8 @@ class LotComparison(ReadOnly):
                     map_figure(
                         (self.figure, self._lots.force),
                         places,
-                        missing_sites(places, self._lots.chosen),
-                        self._lots.chosen,
+                        missing_sites(places, self._sites),
+                        self._sites,
                         [
                             bad
                             for bad in self.bad_places
@@ -214,6 +223,7 @@ def compare_lots(
     [m] as far as they are known.
     figure: what is compared; the first of margin, peel_number, device_pull_off_force and
     pull_off_force that the rows have. Of beams that are peeled, peel_number comes first.
+    Scans of one site of a part are one place, with the geometric means of their figures.
     against: the column of a condition under which the share that sticks is asked. Without it the
     voltage, where rows of several are there.
     The model knows no ageing: against a time stuck down only a column of measured times tells.
@@ -224,11 +234,12 @@ def compare_lots(
     """
     require_package("scipy", "compare_lots")
     lots = lots_of(rows, figure, against)
+    sites = at_sites(lots.chosen)
     finite = [place for place in lots.chosen if place.is_known() and math.isfinite(place.value)]
-    bad = _bad_places(lots)
-    outlying = {id(found.place) for found in bad if found.figure == lots.figure}
-    sound = [place for place in finite if id(place) not in outlying]
-    statements = of_rows(lots)
+    bad = _bad_places(lots, sites)
+    outlying = {_site_of(found.place) for found in bad if found.figure == lots.figure}
+    sound = [place for place in finite if _site_of(place) not in outlying]
+    statements = of_rows(lots, len(sites))
     hierarchy = hierarchy_of(sound)
     components = (
         components_of(np.log([place.value for place in sound]), hierarchy)
@@ -237,7 +248,7 @@ def compare_lots(
     )
     trends = [
         trend
-        for trend in (trend_of(places) for places in by_wafer(sound).values())
+        for trend in (trend_of(places) for places in by_wafer(at_sites(sound)).values())
         if trend is not None
     ]
     shares = _shares(lots) if lots.figure in RELEASING else []
@@ -246,9 +257,10 @@ def compare_lots(
         statements += of_components(components, hierarchy, len(outlying))
     else:
         statements.append("one row does not tell how far places differ")
-    statements += of_trends(trends, lots.figure, _trends_of_heights(lots, bad))
+    statements += of_trends(trends, lots.figure, _trends_of_heights(sites, bad))
     return LotComparison(
         lots,
+        sites,
         {
             "components": _components_table(components),
             "units": _units_table(finite, lots.figure),
@@ -260,20 +272,26 @@ def compare_lots(
     )
 
 
-def _trends_of_heights(lots: Lots, bad: Sequence[BadPlace]) -> List[Trend]:
+def _site_of(place: Place) -> Any:
+    """The same for all scans of a site."""
+    names = (place.lot, place.wafer, place.part)
+    return names + ((place.x, place.y) if place.has_site() else (id(place),))
+
+
+def _trends_of_heights(sites: Sequence[Place], bad: Sequence[BadPlace]) -> List[Trend]:
     """Of the rms height, over the places that are none of its bad ones."""
     outlying = {id(found.place) for found in bad if found.figure == RMS_HEIGHT}
     heights = [
         place._replace(value=place.rms_height)
-        for place in lots.chosen
+        for place in sites
         if place.rms_height > 0.0 and id(place) not in outlying
     ]
     return [trend for trend in map(trend_of, by_wafer(heights).values()) if trend is not None]
 
 
-def _bad_places(lots: Lots) -> List[BadPlace]:
+def _bad_places(lots: Lots, sites: Sequence[Place]) -> List[BadPlace]:
     found: List[BadPlace] = []
-    for places in by_wafer(lots.chosen).values():
+    for places in by_wafer(sites).values():
         for figure, values in figures_of(lots.figure, lots.force, places).items():
             found += bad_places(places, figure, values)
     return found
@@ -282,10 +300,11 @@ def _bad_places(lots: Lots) -> List[BadPlace]:
 def _shares(lots: Lots) -> List[Share]:
     found = []
     for at in lots.conditions():
-        places = lots.under(at)
-        known = [place for place in places if place.is_known()]
+        rows = lots.under(at)
+        known = [place for place in at_sites(rows) if place.is_known()]
         if known:
-            found.append(share_of(places, hierarchy_of(known), at))
+            share = share_of(known, hierarchy_of(known), at)
+            found.append(share._replace(lost=sum(not row.is_known() for row in rows)))
     return found
 
 
@@ -361,15 +380,16 @@ def _units_table(known: Sequence[Place], figure: str) -> np.recarray:
             else math.nan
         )
         for key, places in groups.items():
+            sites = at_sites(places)
             mean = float(means[key].mean())
             half = _reach(freedom) * math.sqrt(square / len(means[key])) if freedom else math.nan
-            sticking = sum(place.value < 1.0 for place in places) if figure in RELEASING else 0
+            sticking = sum(place.value < 1.0 for place in sites) if figure in RELEASING else 0
             rows.append(
                 (level,)
                 + key
                 + ("",) * (2 - depth)
                 + (
-                    len(places),
+                    len(sites),
                     math.exp(mean),
                     math.exp(mean - half),
                     math.exp(mean + half),

@@ -4,10 +4,13 @@ they do not tell the work of adhesion."""
 from __future__ import annotations
 
 import math
+import warnings
 from typing import List
 
 import numpy as np
 
+from mems_stiction._settings import Settings
+from mems_stiction.calibration_constants import RANGE, WORK
 from mems_stiction.calibration_data import Measurement
 from mems_stiction.calibration_search import COARSE_NODES, Found
 from mems_stiction.calibration_words import UNITS
@@ -16,6 +19,8 @@ from mems_stiction.quantities import ratio, with_unit
 # Between what both ends of the range of a constant give: less hardly depends on it.
 DEPENDING = 2.0
 FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
+HIGH_WORK = 0.5 * RANGE[WORK][1]  # [J/m^2]
+TIP_RADIUS = "preprocessing/tip/radius"  # whose usual values are those of a probe
 MOST_ASKED = 3  # values that are asked for their unit
 
 
@@ -101,6 +106,35 @@ def of_units(data: List[Measurement], found: Found) -> List[str]:
                 )
             )
     return said[:MOST_ASKED]
+
+
+def of_radii(data: List[Measurement]) -> List[str]:
+    """Of probes that no microscope has: mostly in another unit."""
+    said = []
+    for datum in data:
+        radius = datum.place.radius
+        if radius is None:
+            continue
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            Settings(**{TIP_RADIUS: radius})
+        if told:
+            said.append(
+                "%s: a radius of %s is stated, which no probe has: is it in SI units?"
+                % (datum.name, with_unit(radius, "m"))
+            )
+    return said[:MOST_ASKED]
+
+
+def of_high_work(found: Found, parameter: float) -> List[str]:
+    """parameter: of the work of adhesion, or the lower end of its interval."""
+    work = found.axes[0].value(parameter)
+    if work < HIGH_WORK:
+        return []
+    return [
+        "hardly any solids have a work of adhesion of %s: are all values in SI units?"
+        % with_unit(work, "J/m^2")
+    ]
 
 
 def of_misfit(found: Found) -> List[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple, Tuple
 
 STIFFNESS, TRAVEL, AREA = "device/spring_stiffness", "device/travel", "device/contact_area"
+BEAM = "device/beam_type"
 OF_THE_SPRING = (STIFFNESS, TRAVEL)
 SCALE, POLISH, ETCH = "roughness/scale", "roughness/polish", "roughness/etch"
 OF_THE_SURFACE = {SCALE: "", POLISH: "m", ETCH: ""}  # with their units
@@ -28,11 +29,12 @@ def settings_named(name: str) -> Tuple[str, ...]:
 
 class Axis(NamedTuple):
     """One quantity of the design. name: of the setting, or roughness/...; unit: as SI has it;
-    values: ascending."""
+    values: ascending; is_whole: it takes whole numbers alone."""
 
     name: str
     unit: str
     values: Tuple[float, ...]
+    is_whole: bool = False
 
     @property
     def word(self) -> str:

@@ -61,7 +61,7 @@ def save_design(record, path):
     }
     words = np.array([row["sticks"] for row in record["rows"]]).reshape(margins["margin"].shape)
     if len(spans) == 1:
-        _draw_line(axes, spans[0], margins, words)
+        _draw_line(axes, spans[0], margins, words, spans[0][0] in record["whole"])
     else:
         _draw_map(axes, spans, margins, words)
     figure.suptitle(
@@ -126,7 +126,7 @@ def _legend(axes, handles):
     )
 
 
-def _draw_line(axes, span, margins, words):
+def _draw_line(axes, span, margins, words, is_whole):
     name, values, unit = span
     margin, lower, upper = (
         10.0 ** margins[key] for key in ("margin", "margin_lower", "margin_upper")
@@ -146,7 +146,7 @@ def _draw_line(axes, span, margins, words):
         axes.plot(values, margin, color=LINE, marker=".", label="margin")
         for limit in crossings(values, lower):
             beyond = values >= limit.above if limit.rises else values <= limit.below
-            is_sure = (words[beyond & (lower > 1.0)] == "no").all()
+            is_sure = (words[beyond] == "no").all()
             side = ("above" if limit.rises else "below") if is_sure else "at"
             axes.axvline(
                 limit.value,
@@ -157,7 +157,7 @@ def _draw_line(axes, span, margins, words):
                 % (
                     "releases surely" if is_sure else "lower end 1",
                     side,
-                    typeset(safe_text(limit, unit)),
+                    typeset(safe_text(limit, Axis(name, unit, tuple(values), is_whole))),
                 ),
             )
     axes.axhline(1.0, color=ONE, linewidth=1.4, label="margin 1: above it the device opens")

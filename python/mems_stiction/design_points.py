@@ -8,6 +8,7 @@ and its margins go with their product.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import math
 import re
 import warnings
@@ -23,6 +24,7 @@ from mems_stiction._settings import OptionsError, Settings, values_of
 from mems_stiction._warnings import SettingsWarning
 from mems_stiction.design_axes import (
     AREA,
+    BEAM,
     BY_RATIO,
     ETCH,
     OF_BOTH_BODIES,
@@ -38,6 +40,7 @@ from mems_stiction.design_axes import (
 
 GAP, POTENTIAL = "device/electrode_gap", "load/contact_potential"
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"
+NO_EFFECT = " has no effect: "  # of a warning
 MOST_AXES = 2
 MOST_VALUES = 10000  # of an axis
 MOST_WHOLE = 1e9  # that a setting counts
@@ -46,7 +49,7 @@ MOST_WHOLE = 1e9  # that a setting counts
 SURE_SPRING: Dict[str, Any] = {
     STIFFNESS: 1e6,
     TRAVEL: 1e-2,
-    "device/beam_type": "none",
+    BEAM: "none",
 }  # the strongest that is taken: 10 kN
 
 
@@ -122,7 +125,8 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
         unit = OF_THE_SURFACE.get(
             name, comment[1:].partition("]")[0] if comment.startswith("[") else ""
         )
-        axis = Axis(str(name), unit, _values(name, values, "an integer" in comment))
+        is_whole = "an integer" in comment
+        axis = Axis(str(name), unit, _values(name, values, is_whole), is_whole)
         _check(axis, known, settings)
         axes.append(axis)
     return axes
@@ -195,6 +199,53 @@ def _check(axis: Axis, known: Dict[str, Any], settings: Settings) -> None:
         Settings(settings, **{name: setting_value(value) for name in settings_named(axis.name)})
 
 
+def settings_at(settings: Settings, point: Dict[str, float]) -> Settings:
+    """Those of a point of the sweep."""
+    stated = {
+        name: setting_value(value)
+        for axis, value in point.items()
+        if axis not in OF_THE_SURFACE
+        for name in settings_named(axis)
+    }
+    if point.get(POLISH):
+        stated[LOW_PASS] = max(point[POLISH], float(values_of(settings)[LOW_PASS]))
+    return Settings(settings, **stated)
+
+
+def warnings_of(axes: List[Axis], settings: Settings) -> List[str]:
+    """What looks wrong at an end of the axes. That a setting has no effect is said where it has
+    none at any value of the other axes."""
+    ends = [
+        {axis.name: value for axis, value in zip(axes, values)}
+        for values in itertools.product(*({axis.values[0], axis.values[-1]} for axis in axes))
+    ]
+    said = []
+    for point in ends:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            settings_at(settings, point)
+        said.append((point, [str(warning.message) for warning in told]))
+    return list(
+        dict.fromkeys(
+            text
+            for point, texts in said
+            for text in texts
+            if NO_EFFECT not in text
+            or all(
+                text in others
+                for other, others in said
+                if all(other[name] == point[name] for name in _axes_named(text, axes))
+            )
+        )
+    )
+
+
+def _axes_named(text: str, axes: List[Axis]) -> List[str]:
+    """That state the setting that a warning begins with."""
+    setting = text.partition(" ")[0]
+    return [axis.name for axis in axes if setting in settings_named(axis.name)]
+
+
 def setting_value(value: float) -> Any:
     """Settings that are whole numbers take no others."""
     return int(value) if value == round(value) and abs(value) < MOST_WHOLE else value
@@ -247,15 +298,7 @@ class Holding:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             warnings.simplefilter("ignore", SettingsWarning)  # said of the axes
-            stated = {
-                name: setting_value(value)
-                for axis, value in point.items()
-                if axis not in OF_THE_SURFACE
-                for name in settings_named(axis)
-            }
-            if point.get(POLISH):
-                stated[LOW_PASS] = max(point[POLISH], float(values_of(self.settings)[LOW_PASS]))
-            settings = Settings(self.settings, **stated)
+            settings = settings_at(self.settings, point)
             values = values_of(settings)
             scans = [self._changed(scan, point) for scan in self.scans]
             found = mems_stiction.predict_device(

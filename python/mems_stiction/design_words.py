@@ -32,10 +32,10 @@ class Stretch(NamedTuple):
     start: Optional[Crossing]  # where it begins before the first; None: with it
     end: Optional[Crossing]
 
-    def text(self, unit: str) -> str:
+    def text(self, axis: Axis) -> str:
         return _between(
-            safe_text(self.start, unit) if self.start else text_of(self.first, unit),
-            safe_text(self.end, unit) if self.end else text_of(self.last, unit),
+            safe_text(self.start, axis) if self.start else _on(axis, self.first),
+            safe_text(self.end, axis) if self.end else _on(axis, self.last),
         )
 
 
@@ -43,6 +43,11 @@ def text_of(value: float, unit: str) -> str:
     if not unit:
         return ratio(value)
     return area(value) if unit == "m^2" else re.sub(r"\.0+ ", " ", with_unit(value, unit))
+
+
+def _on(axis: Axis, value: float) -> str:
+    """A value of an axis."""
+    return "%d" % value if axis.is_whole and not axis.unit else text_of(value, axis.unit)
 
 
 def crossings(values: Sequence[float], margins: Sequence[float]) -> List[Crossing]:
@@ -115,7 +120,7 @@ def statements_of(axes: List[Axis], rows: List[Dict[str, Any]]) -> Tuple[str, ..
         "at %s %s: %s"
         % (
             other.word,
-            text_of(value, other.unit),
+            _on(other, value),
             _sentence(sought, [row for row in rows if row[other.name] == value]),
         )
         for value in other.values
@@ -135,7 +140,7 @@ def _surely(row: Dict[str, Any]) -> float:
 def _sentence(axis: Axis, rows: List[Dict[str, Any]]) -> str:
     rows = sorted(rows, key=lambda row: row[axis.name])
     lowest = [_surely(row) for row in rows]
-    ends = "%s to %s" % (text_of(axis.values[0], axis.unit), text_of(axis.values[-1], axis.unit))
+    ends = "%s to %s" % (_on(axis, axis.values[0]), _on(axis, axis.values[-1]))
     unknown = [row["sticks"] == UNKNOWN for row in rows]
     why = _reasons([row["doubt"] for row in rows if row["sticks"] == UNKNOWN])
     if all(unknown):
@@ -148,9 +153,9 @@ def _sentence(axis: Axis, rows: List[Dict[str, Any]]) -> str:
         place
         for first, last in _runs(unknown)
         for place in (
-            [_between(*(text_of(axis.values[end], axis.unit) for end in (first, last)))]
+            [_between(*(_on(axis, axis.values[end]) for end in (first, last)))]
             if last > first + 1
-            else ["at " + text_of(value, axis.unit) for value in axis.values[first : last + 1]]
+            else ["at " + _on(axis, value) for value in axis.values[first : last + 1]]
         )
     ]
     return "%s; the verdict is unknown %s%s" % (text, _listed(places), why)
@@ -174,32 +179,57 @@ def _limit(axis: Axis, rows: List[Dict[str, Any]], lowest: List[float], ends: st
         return "no %s of %s releases surely, though the lower end of the margin is above 1 %s" % (
             axis.word,
             ends,
-            _listed([stretch.text(axis.unit) for stretch in above]),
+            _listed([stretch.text(axis) for stretch in above]),
         )
-    is_first, is_last = sure[0].first == axis.values[0], sure[0].last == axis.values[-1]
-    if is_first and is_last:
+    alternates = axis.name not in OF_THE_SPRING and _alternates(words)
+    if alternates:
+        # no further than the first value that is not sure
+        chosen = sure[:1] if words[0] == "no" or words[-1] != "no" else sure[-1:]
+    else:
+        chosen = sure
+    is_first, is_last = chosen[0].first == axis.values[0], chosen[-1].last == axis.values[-1]
+    if is_first and is_last and len(chosen) == 1:
         return "every %s of %s releases surely" % (axis.word, ends)
-    limit = sure[0].start if is_last else sure[0].end if is_first else None
-    if len(sure) > 1 or limit is None:
-        return "%s releases surely %s" % (
-            axis.word,
-            _listed([stretch.text(axis.unit) for stretch in sure]),
-        )
+    limit = chosen[0].end if is_first else chosen[0].start if is_last else None
+    more = (
+        "; values %s are sure, too, but not those between: the scatter of the generated surfaces "
+        "may decide there, and a larger device_force/realisations makes it surer"
+        % _listed([stretch.text(axis) for stretch in sure if stretch not in chosen])
+        if alternates
+        else ""
+    )
+    if len(chosen) > 1 or limit is None:
+        return (
+            "%s releases surely %s" % (axis.word, _listed([one.text(axis) for one in chosen]))
+        ) + more
     text = "%s %s that releases surely: %s" % (
         "smallest" if limit.rises else "largest",
         axis.word,
-        safe_text(limit, axis.unit),
+        safe_text(limit, axis),
     )
     notes = []
     even = crossings(axis.values, [row["margin"] for row in rows])
     if len(even) == 1:
-        notes.append("the margin is 1 at %s" % text_of(even[0].value, axis.unit))
+        notes.append(
+            "the margin is 1 between %d and %d"
+            % (math.floor(even[0].value), math.floor(even[0].value) + 1)
+            if axis.is_whole
+            else "the margin is 1 at %s" % _on(axis, even[0].value)
+        )
     if axis.name not in OF_THE_SPRING:
         notes.append(
-            "interpolated between %s and %s"
-            % (text_of(limit.below, axis.unit), text_of(limit.above, axis.unit))
+            "interpolated between %s and %s" % (_on(axis, limit.below), _on(axis, limit.above))
         )
-    return text + (" (%s)" % "; ".join(notes) if notes else "")
+    return text + (" (%s)" % "; ".join(notes) if notes else "") + more
+
+
+def _alternates(words: Sequence[str]) -> bool:
+    """Whether values that are not sure, for another reason than an unknown verdict, lie between
+    sure ones."""
+    runs = _runs([word == "no" for word in words])
+    return any(
+        set(words[before[1] + 1 : behind[0]]) != {UNKNOWN} for before, behind in zip(runs, runs[1:])
+    )
 
 
 def _none(axis: Axis, ends: str, rows: List[Dict[str, Any]], lowest: List[float]) -> str:
@@ -208,29 +238,29 @@ def _none(axis: Axis, ends: str, rows: List[Dict[str, Any]], lowest: List[float]
         axis.word,
         ends,
         ratio(lowest[place]),
-        text_of(axis.values[place], axis.unit),
+        _on(axis, axis.values[place]),
     )
     if axis.name in OF_THE_SPRING and rows[-1]["sticks"] != UNKNOWN and lowest[-1] > 0:
         wanted = Crossing(axis.values[-1] / lowest[-1], True, 0.0, math.inf)
         doubt = rows[-1]["doubt"]
         text += "; the margin goes in proportion, " + (
             "but from %s on the verdict would be unknown" if doubt else "so %s would"
-        ) % safe_text(wanted, axis.unit)
+        ) % safe_text(wanted, axis)
         text += _reasons([doubt])
     return text
 
 
-def safe_text(crossing: Crossing, unit: str) -> str:
+def safe_text(crossing: Crossing, axis: Axis) -> str:
     """Rounded to where the margin is larger."""
     step = (
         10.0 ** (math.floor(math.log10(abs(crossing.value))) - DIGITS + 1)
-        if crossing.value
+        if crossing.value and not axis.is_whole
         else 1.0
     )
     steps = crossing.value / step
     if abs(steps - round(steps)) > 1e-9 * abs(steps):
         steps = math.ceil(steps) if crossing.rises else math.floor(steps)
-    return text_of(steps * step, unit)
+    return _on(axis, steps * step)
 
 
 def _stretches(

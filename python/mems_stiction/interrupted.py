@@ -13,10 +13,14 @@ prints its traceback. Here it comes once more a moment later. A library that tur
 of its own (an import that failed) is told apart by the error's context; for one that excepts
 everything and says nothing there is raise_if_swallowed(). In the last moments of a process, when
 Python takes its modules apart and neither hook of this one is left, Ctrl-C ends it without a word.
+
+A program whose output nobody reads any more (`| head`) ends without a word, too, with the status
+that a shell gives one that SIGPIPE ends. That signal itself would also end it for a closed socket.
 """
 
 import atexit
 import contextlib
+import io
 import os
 import pathlib
 import shutil
@@ -26,6 +30,7 @@ import tempfile
 
 AGAIN_AFTER = 0.02  # [s]
 STATUS = 130  # after TERM and HUP
+UNREAD = 128 + signal.SIGPIPE
 OTHERS = (signal.SIGTERM, signal.SIGHUP)
 ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
 
@@ -88,8 +93,38 @@ def _raise_again(dropped):
     signal.setitimer(signal.ITIMER_REAL, AGAIN_AFTER)
 
 
+class _Printed(io.FileIO):
+    """The standard output. The first write that nobody reads ends the program; the rest is
+    dropped."""
+
+    def write(self, data):
+        try:
+            return super().write(data)
+        except BrokenPipeError:
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, self.fileno())
+            os.close(nowhere)
+            raise SystemExit(UNREAD) from None
+
+
+def _end_with_the_reader():
+    """Of what is printed from now on."""
+    before = sys.stdout
+    if not isinstance(before, io.TextIOWrapper) or before is not sys.__stdout__:
+        return
+    raw = _Printed(before.fileno(), "wb", closefd=False)
+    sys.stdout = io.TextIOWrapper(
+        raw if before.write_through else io.BufferedWriter(raw),
+        before.encoding,
+        before.errors,
+        line_buffering=before.line_buffering,
+        write_through=before.write_through,
+    )
+
+
 def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
+    _end_with_the_reader()
     for number in (signal.SIGINT,) + OTHERS:
         if signal.getsignal(number) in (signal.SIG_DFL, _end_now):
             signal.signal(number, _raise)
@@ -148,6 +183,12 @@ def _end_at_once_from_here_on():
     """The last of what Python calls before it takes itself apart. What an interruption that was
     dropped is to raise again ends the process."""
     signal.setitimer(signal.ITIMER_REAL, 0.0)
+    try:
+        with contextlib.suppress(OSError, ValueError):  # a full disk: Python says it
+            if sys.stdout is not None:
+                sys.stdout.flush()
+    except SystemExit:
+        os._exit(UNREAD)
     ours = [number for number in ENDINGS if signal.getsignal(number) == _raise]
     for number in ours:
         signal.signal(

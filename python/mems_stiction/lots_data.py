@@ -10,7 +10,6 @@ import os
 import pathlib
 import sys
 from typing import (
-    IO,
     Any,
     Dict,
     Iterable,
@@ -19,6 +18,7 @@ from typing import (
     Mapping,
     NamedTuple,
     Optional,
+    Sequence,
     Set,
     Tuple,
 )
@@ -26,6 +26,7 @@ from typing import (
 import numpy as np
 
 from mems_stiction._settings import FileError, OptionsError
+from mems_stiction.csv_text import UnfitCells, csv_rows, plain_text
 from mems_stiction.input_file import UnfitFile, require_file
 from mems_stiction.json_text import json_records
 from mems_stiction.row_table import PARQUET
@@ -76,8 +77,13 @@ NUMBERS = (
 )
 
 
+NOT_NEGATIVE = ("margin",) + FORCES + (RMS_HEIGHT,)  # peel numbers of beams that buckle are
+Where = Tuple[str, int]  # "rows.csv, line ", and its number; 0: the number of the row
+
+
 class Place(NamedTuple):
-    """One row. Texts are empty and numbers NaN where the row does not say."""
+    """One row, or the rows of one site. Texts are empty and numbers NaN where a row does not
+    say."""
 
     lot: str
     wafer: str
@@ -133,17 +139,20 @@ class _Table:
         }
         self.columns = {*self._texts, *self._numbers}
 
-    def add(self, row: Mapping[str, Any]) -> None:
+    def add(self, row: Mapping[str, Any], where: Where = ("row ", 0)) -> None:
+        """where: the file and line of the row; else it is called by its number."""
         self.count += 1
         self.has_against = self.has_against or self._against in row
         for name, texts in self._texts.items():
             texts.append(sys.intern(_text(row.get(name, ""))))
         for name, numbers in self._numbers.items():
-            numbers.append(
-                _site(row.get(name), name, self.count)
-                if name in SITES
-                else _number(row.get(name, math.nan))
-            )
+            number = _number(row.get(name))
+            if number is None or number < 0.0 and name in NOT_NEGATIVE:
+                raise OptionsError(
+                    "%s: %r in %s%d is not allowed, must be %s, or empty"
+                    % (name, row[name], where[0], where[1] or self.count, _allowed(name))
+                )
+            numbers.append(number)
 
     def texts(self, name: str) -> List[str]:
         return self._texts[name]
@@ -156,19 +165,26 @@ class _Table:
         return bool((self.numbers(figure) > 0.0).any())
 
 
-def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
+def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Tuple[Mapping[str, Any], Where]]:
     """Dictionaries from a path, several, a table of pandas, records of NumPy, or dictionaries; of
-    files and tables with these columns alone. Raises
-    OptionsError, FileError."""
+    files and tables with these columns alone. Each with where it stands. Raises OptionsError,
+    FileError."""
+    nowhere: Where = ("row ", 0)
     if isinstance(rows, (str, os.PathLike)):
         yield from _read(pathlib.Path(os.fspath(rows)), columns)
     elif callable(getattr(rows, "to_dict", None)) and hasattr(rows, "columns"):
         names = [name for name in rows.columns if name in columns]
         yield from (
-            dict(zip(names, cells)) for cells in zip(*(rows[name].tolist() for name in names))
+            (dict(zip(names, cells)), nowhere)
+            for cells in zip(
+                *(
+                    rows[name].astype(object).where(rows[name].notna(), None).tolist()
+                    for name in names
+                )
+            )
         )
     elif isinstance(rows, np.ndarray) and rows.dtype.names:
-        yield from (dict(zip(rows.dtype.names, row)) for row in rows.tolist())
+        yield from ((dict(zip(rows.dtype.names, row)), nowhere) for row in rows.tolist())
     elif isinstance(rows, Mapping) or not isinstance(rows, Iterable):
         raise OptionsError(
             "rows: %s is not allowed, must be the path of rows of stiction_batch, a list of "
@@ -177,7 +193,7 @@ def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
     else:
         for row in rows:
             if isinstance(row, Mapping):
-                yield row
+                yield row, nowhere
             elif isinstance(row, (str, os.PathLike)):
                 yield from _read(pathlib.Path(os.fspath(row)), columns)
             else:
@@ -186,31 +202,34 @@ def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
                 )
 
 
-def _read(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
+def _read(path: pathlib.Path, columns: Set[str]) -> Iterator[Tuple[Mapping[str, Any], Where]]:
     if path.suffix not in ENDINGS:
         raise OptionsError(
             "rows: '%s' is not allowed, must end in %s or %s"
             % (path, ", ".join(ENDINGS[:-1]), ENDINGS[-1])
         )
+    of_row, of_line = ("%s, %s " % (path, word) for word in ("row", "line"))
     try:
         require_file(path, "rows of stiction_batch", MOST_BYTES)
         if path.suffix == PARQUET:
-            yield from _parquet_rows(path, columns)
+            for number, row in enumerate(_parquet_rows(path, columns), 1):
+                yield row, (of_row, number)
             return
         with open(str(path), encoding="utf-8-sig", newline="") as stream:
-            yield from _csv_rows(stream, columns) if path.suffix == ".csv" else json_records(stream)
+            if path.suffix == ".csv":
+                for number, cells in csv_rows(
+                    stream, lambda name: name not in TEXTS, columns.__contains__
+                ):
+                    yield cells, (of_line, number)
+            else:
+                for number, row in enumerate(json_records(stream), 1):
+                    yield row, (of_row, number)
     except (UnfitFile, OSError) as error:
         raise FileError("%s: %s" % (path, getattr(error, "strerror", None) or error)) from None
+    except UnfitCells as error:
+        raise FileError("%s, %s" % (path, error)) from None
     except (ValueError, csv.Error) as error:
         raise FileError("%s: holds no rows: %s" % (path, error)) from None
-
-
-def _csv_rows(stream: IO[str], columns: Set[str]) -> Iterator[Mapping[str, Any]]:
-    reader = csv.reader(stream)
-    chosen = [(place, name) for place, name in enumerate(next(reader, [])) if name in columns]
-    for cells in reader:
-        if cells:
-            yield {name: cells[place] for place, name in chosen if place < len(cells)}
 
 
 def _parquet_rows(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
@@ -235,8 +254,8 @@ def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = No
             "figure: %r is not allowed, must be one of: %s" % (figure, ", ".join(FIGURES))
         )
     table = _Table(against)
-    for row in _rows_of(rows, table.columns):
-        table.add(row)
+    for row, where in _rows_of(rows, table.columns):
+        table.add(row, where)
     is_peeled = "peeling" in table.texts("governed_by") and "force" not in table.texts(
         "governed_by"
     )
@@ -288,22 +307,21 @@ def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
 
 
-def _site(value: Any, name: str, row: int) -> float:
-    """[m]; NaN where the row does not say."""
-    number = _number(value)
-    if math.isnan(number) and isinstance(value, str) and value.strip().lower() not in ("", "nan"):
-        raise OptionsError(
-            "%s: %r in row %d is not allowed, must be a number in metres, or empty"
-            % (name, value, row)
-        )
-    return number
+def _allowed(name: str) -> str:
+    return "a number%s%s" % (
+        " in metres" if name in SITES else "",
+        " >= 0" if name in NOT_NEGATIVE else "",
+    )
 
 
-def _number(value: Any) -> float:
+def _number(value: Any) -> Optional[float]:
+    """NaN where the row does not say; None for what is no number."""
+    if value is None or isinstance(value, str) and not value.strip():
+        return math.nan
     try:
         return float(value)
     except (TypeError, ValueError):
-        return math.nan
+        return None
 
 
 def _text(value: Any) -> str:
@@ -314,10 +332,7 @@ def _text(value: Any) -> str:
         return ""
     if isinstance(value, float) and value.is_integer():
         return "%d" % value
-    text = str(value).strip()
-    return (
-        text[1:] if text.startswith("'") and text[1:2] in ("=", "+", "-", "@", "\t") else text
-    )  # as csv_text writes it
+    return plain_text(str(value).strip())
 
 
 def _places(table: _Table, figure: str, force: str, against: str) -> Tuple[Place, ...]:
@@ -356,6 +371,40 @@ def _places(table: _Table, figure: str, force: str, against: str) -> Tuple[Place
             names,
         )
     )
+
+
+def at_sites(places: Iterable[Place]) -> List[Place]:
+    """One place for each site of a part, whose figures are the geometric means of its scans: scans
+    of one site are no independent places. Of what nothing holds on one scan, the others tell; a row
+    without a site is a place by itself."""
+    groups: Dict[Any, List[Place]] = {}
+    for number, place in enumerate(places):
+        key = (place.x, place.y) if place.has_site() else number
+        groups.setdefault((place.lot, place.wafer, place.part, place.at, key), []).append(place)
+    return [_mean_of(scans) if len(scans) > 1 else scans[0] for scans in groups.values()]
+
+
+def _mean_of(scans: List[Place]) -> Place:
+    value = _mean([scan.value for scan in scans])
+    lower, upper = (
+        value * _mean([getattr(scan, end) / scan.value for scan in scans])
+        for end in ("lower", "upper")
+    )
+    return scans[0]._replace(
+        value=value,
+        lower=value if math.isinf(value) else lower,
+        upper=value if math.isinf(value) else upper,
+        force=_mean([scan.force for scan in scans]),
+        rms_height=_mean([scan.rms_height for scan in scans]),
+        name=", ".join(dict.fromkeys(scan.name for scan in scans if scan.name)),
+    )
+
+
+def _mean(values: Sequence[float]) -> float:
+    """Geometric, of those that are finite and > 0; infinite where all that are known are."""
+    known = [value for value in values if value > 0.0]
+    finite = [math.log(value) for value in known if value < math.inf]
+    return math.exp(sum(finite) / len(finite)) if finite else math.inf if known else math.nan
 
 
 def word_of(place: Place) -> str:

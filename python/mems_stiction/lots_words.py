@@ -48,8 +48,8 @@ def _some(texts: Sequence[str]) -> str:
     )
 
 
-def of_rows(lots: Lots) -> List[str]:
-    """What was left out, and what rows do not say."""
+def of_rows(lots: Lots, sites: int) -> List[str]:
+    """What was left out, and what rows do not say. sites: places that the chosen rows are of."""
     said = []
     lost = sum(not place.is_known() for place in lots.places)
     if lost:
@@ -61,6 +61,11 @@ def of_rows(lots: Lots) -> List[str]:
         said.append(
             "lots, wafers and places are compared at %s, where most rows are"
             % condition_text(lots.at, lots.against)
+        )
+    if sites < len(lots.chosen):
+        said.append(
+            "scans of one site are averaged, since they are no independent places: %d rows are %s"
+            % (len(lots.chosen), counted(sites, "place"))
         )
     free = sum(math.isinf(place.value) for place in lots.chosen)
     if free:

@@ -508,6 +508,30 @@ def part_row(part):
     }
 
 
+def parts_caption(parts):
+    """What the figures in the table of the parts are."""
+    own = sum(not math.isnan(number(part["device_pull_off_force"])) for part in parts)
+    of_device = (
+        "by the device's own force, found from all scans of one part and serial number together, "
+        "with its 95 % interval."
+    )
+    pooled = (
+        "The scans of one part and serial number, pooled: the geometric mean and its 95 % "
+        "interval. What is common to all scans (constants, model, pitch) does not shrink with "
+        "their number."
+    )
+    if not own:
+        return pooled
+    if own == len(parts):
+        return "Judged " + of_device
+    return "%d of %d parts: %s The others: %s" % (
+        own,
+        len(parts),
+        of_device,
+        pooled[:1].lower() + pooled[1:],
+    )
+
+
 def page(
     title, rows, sections, settings_text, configuration_path, parts=(), date=None, settings_name=""
 ):
@@ -543,6 +567,7 @@ def page(
         parts=[part_row(part) for part in parts]
         if any("sticks" in row for row in predicted)
         else [],
+        parts_caption=parts_caption(parts),
         bounded=any(row["is_lower_bound"] for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "",
         scans=sections,

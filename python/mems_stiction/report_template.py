@@ -58,7 +58,7 @@ PAGE = """<!DOCTYPE html>
 {% for part in parts %}<tr><td class="path">{{ part.part }}</td><td class="path">{{ part.serial }}</td><td class="{{ part.sticks }}">{{ part.releases }}</td><td class="n">{{ part.ratio }}</td><td class="n">{{ part.spread }}</td><td class="n">{{ part.worst }}</td><td class="n">{{ part.scans }}</td><td>{{ part.reason }}</td><td class="limits">{{ part.limits }}</td></tr>
 {% endfor %}</tbody>
 </table></div>
-<p class="quiet">The scans of one part and serial number, pooled: the geometric mean and its 95 % interval. What is common to all scans (constants, model, pitch) does not shrink with their number.</p>{% endif %}
+<p class="quiet">{{ parts_caption }}</p>{% endif %}
 {% if lots %}<div id="lots"><h2>Lots and wafers</h2>
 <ul>{% for statement in lots.statements %}<li>{{ statement }}</li>{% endfor %}</ul>
 <div class="picture"><img alt="How far lots, wafers and parts differ, and which share is expected to stick" src="{{ lots.picture }}"></div>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "station/remaining_contact.hpp"
 #include "verdict/electrode_hold.hpp"
 #include "verdict/finding.hpp"
@@ -29,7 +30,8 @@ std::vector<double> fewOf(const std::vector<double>& values, std::size_t most) {
 /// The first violation of its kind, and how many more there are: a list may have a million of them.
 void addFirst(const std::string& first, std::size_t count, std::vector<std::string>& violations) {
   if (count == 0) return;
-  violations.push_back(first + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : ""));
+  violations.push_back(first +
+                       (count > 1 ? " (and " + countText(count - 1, "more such value") + ")" : ""));
 }
 
 void addListViolations(const std::string& name, const std::vector<double>& values,

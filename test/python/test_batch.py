@@ -1562,6 +1562,14 @@ class BatchTest(unittest.TestCase):
                 table,
             )
             self.assertIn("%d of %d" % (part["counted_scans"], part["scan_count"]), table)
+            self.assertIsNone(part["device_pull_off_force"])
+        self.assertIn("pooled: the geometric mean", page.read_text(encoding="utf-8"))
+        own = [dict(part, device_pull_off_force=1e-7) for part in parts]
+        self.assertRegex(report.parts_caption(own), "^Judged by the device's own force, [^:]*$")
+        self.assertRegex(
+            report.parts_caption(own[:1] + parts[1:]),
+            "^1 of 2 parts: by the device's own force, .* The others: the scans of one part",
+        )
         run(
             [
                 program("stiction_report"),

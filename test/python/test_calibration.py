@@ -442,6 +442,23 @@ class MadeDataTest(unittest.TestCase):
             "[0-9.]+ [un]N: is it in SI units, and of these surfaces and this area",
         )
 
+    def test_a_probe_in_micrometres_and_a_work_that_no_solids_have_are_asked_for_their_units(self):
+        def said(force, radius):
+            datum = {"kind": "pull_off_force", "value": force, "uncertainty": 0.1 * force}
+            return calibrated([dict(datum, radius=radius, name="tip 1")]).statements
+
+        probe = "tip 1: a radius of 1.00 m is stated, which no probe has: is it in SI units?"
+        work = "hardly any solids have a work of adhesion of "
+        for force, radius, is_far, is_high in (
+            (300.0, 1.0, True, True),  # nN and um
+            (2.0, 1.0, True, False),
+            (3e-5, 1e-6, False, True),
+            (1e-7, 1e-6, False, False),
+        ):
+            statements = said(force, radius)
+            self.assertEqual(probe in statements, is_far, statements)
+            self.assertEqual(any(text.startswith(work) for text in statements), is_high, statements)
+
     def test_uncertainties_that_leave_all_open_are_told_from_surfaces_that_do(self):
         found = calibrated([measured(2e-8, SURFACES[0], 20.0)])
         self.assertTrue(math.isnan(found.work_of_adhesion))

@@ -45,6 +45,7 @@ PART = {
     "device_force": {"realisations": 3, "max_cells": 1e4},
 }
 STIFFNESS, TRAVEL, WORK = "device/spring_stiffness", "device/travel", "interface/work_of_adhesion"
+CONTACTS = "device/contacts"
 DESIGN_SWEEP = str(REPOSITORY / "scripts" / "design_sweep")
 MOST_WAITED = 120.0  # for a program under way [s]
 
@@ -288,6 +289,7 @@ class CoverageTest(unittest.TestCase):
 
 
 class SentenceTest(unittest.TestCase):
+    UNITS = {STIFFNESS: "N/m", WORK: "J/m^2", CONTACTS: ""}
     PIXEL, FEW = "one pixel: scan finer ones", "the answer rests on 1 contact: scan more places"
 
     @staticmethod
@@ -309,7 +311,7 @@ class SentenceTest(unittest.TestCase):
             for value, low, doubt in zip(values, lowest, doubts or [""] * len(values))
         ]
         (sentence,) = statements_of(
-            [Axis(name, "N/m" if name == STIFFNESS else "J/m^2", tuple(values))], rows
+            [Axis(name, self.UNITS[name], tuple(values), name == CONTACTS)], rows
         )
         return sentence
 
@@ -341,9 +343,24 @@ class SentenceTest(unittest.TestCase):
     def test_several_stretches(self):
         self.assertEqual(
             self.sentence([0.01, 0.02, 0.04, 0.08], [2.0, 0.5, 2.0, 0.5], WORK),
-            "work of adhesion releases surely from 10 mJ/m^2 to 14.1 mJ/m^2 and from 28.3 mJ/m^2 "
-            "to 56.5 mJ/m^2",
+            "largest work of adhesion that releases surely: 14.1 mJ/m^2 (interpolated between 10 "
+            "mJ/m^2 and 20 mJ/m^2); values from 28.3 mJ/m^2 to 56.5 mJ/m^2 are sure, too, but not "
+            "those between: the scatter of the generated surfaces may decide there, and a larger "
+            "device_force/realisations makes it surer",
         )
+        self.assertTrue(
+            self.sentence([0.01, 0.02, 0.04, 0.08], [0.5, 2.0, 0.5, 2.0], WORK).startswith(
+                "smallest work of adhesion that releases surely: 56.6 mJ/m^2 ("
+            )
+        )
+
+    def test_limits_of_whole_numbers_are_whole(self):
+        self.assertEqual(
+            self.sentence([1.0, 8.0, 40.0], [0.3, 0.6, 1.8], CONTACTS),
+            "smallest number of contacts that releases surely: 17 (the margin is 1 between 4 and "
+            "5; interpolated between 8 and 40)",
+        )
+        self.assertIn("surely: 18 (", self.sentence([8.0, 40.0], [1.8, 0.6], CONTACTS))
 
     def test_warnings_of_many_points_are_told_once(self):
         self.assertEqual(
@@ -455,6 +472,9 @@ class PictureTest(unittest.TestCase):
         self.assertNotIn("verdict unknown", labels)
         labels = self.labels(self.sweep(lambda point: "", {WORK: [0.01, 0.1]}))
         self.assertIn("releases surely below 25 mJ/m²", labels)
+        with as_if(lambda point: 1e-8 if point[WORK] in (0.01, 0.04) else 1e-6):
+            labels = self.labels(swept({WORK: [0.01, 0.02, 0.04, 0.08], STIFFNESS: [0.1]}))
+        self.assertEqual(sum("releases surely below" in label for label in labels), 1, labels)
         self.assertEqual(self.marked, 0)
 
 
@@ -607,7 +627,23 @@ class AxesTest(unittest.TestCase):
             np.testing.assert_allclose(axis.values, values)
             self.assertEqual(axis.unit, "N/m")
         (axis,) = axes_of({"device/contacts": (1, 8, 4)}, settings)
-        self.assertEqual(axis.values, (1.0, 3.0, 6.0, 8.0))
+        self.assertEqual((axis.values, axis.is_whole), ((1.0, 3.0, 6.0, 8.0), True))
+
+    def test_what_has_an_effect_at_a_point_is_not_said_to_have_none(self):
+        humidity, temperature = "interface/relative_humidity", "interface/temperature"
+        no_effect = "interface/temperature 250 has no effect: interface/relative_humidity is 0"
+        for axes, others, is_said in (
+            ({temperature: [250.0, 300.0], humidity: [0.4, 0.8]}, {}, False),
+            ({temperature: [250.0, 300.0], humidity: [0.0, 0.8]}, {}, False),
+            ({humidity: [0.4, 0.8]}, {temperature: 250.0}, False),
+            ({temperature: [250.0, 300.0], WORK: [0.1, 0.2]}, {}, True),
+            ({humidity: [0.0]}, {temperature: 250.0}, True),
+        ):
+            with as_if(lambda _: 1e-7), warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                mems_stiction.design_sweep(SCAN, PITCH, PART, axes=axes, workers=1, **others)
+            said = [text for text in (str(one.message) for one in told) if no_effect in text]
+            self.assertEqual(bool(said), is_said, axes)
 
     def test_each_wrong_axis_is_named(self):
         for axes, words in (
@@ -645,6 +681,22 @@ class AxesTest(unittest.TestCase):
             "device/travel: is not stated; must be > 0, or one of the axes",
         ):
             swept({STIFFNESS: [1.0]}, device={"travel": 0.0})
+        beam = {
+            "beam_type": "cantilever",
+            "beam_length": 3e-4,
+            "beam_thickness": 2e-6,
+            "beam_modulus": 1.6e11,
+        }
+        for spring, advice in (
+            (0.1, ", or state none, and its spring is judged alone$"),
+            (0.0, "$"),
+        ):
+            with self.assertRaisesRegex(
+                mems_stiction.OptionsError,
+                r"^device/beam_type: 'cantilever' is not allowed: a sweep judges springs, not "
+                r"beams; call predict_device\(\) for each design of a beam" + advice,
+            ):
+                swept({WORK: [0.1]}, device=dict(beam, beam_gap=2e-6, spring_stiffness=spring))
         with self.assertRaisesRegex(
             mems_stiction.OptionsError,
             "roughness/scale is not allowed with preprocessing/tip/radius",

@@ -63,6 +63,15 @@ import time
 print("loading", flush=True)
 time.sleep(60)
 """
+PRINTS_IT = """
+from mems_stiction import interrupted
+import sys
+interrupted.raise_from_here_on()
+try:
+    print("a\\n" * int(sys.argv[1]))
+except OSError as error:
+    print("caught", error, file=sys.stderr)
+"""
 # An interruption of each moment in which a folder is made or removed
 LEAVES_NO_FOLDER = """
 from mems_stiction import interrupted
@@ -107,6 +116,20 @@ class InterruptedTest(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+
+    def test_where_nobody_reads_any_more_a_program_ends_without_a_word(self):
+        for command in (
+            [sys.executable, "-c", PRINTS_IT, "1"],  # at the end of the program
+            [sys.executable, "-c", PRINTS_IT, "1000000"],  # before
+            [sys.executable, "-u", "-c", PRINTS_IT, "1"],
+            [program("compare_lots"), "--help"],
+            [program("watch_drift"), "--help"],
+        ):
+            unread, written = os.pipe()
+            os.close(unread)
+            with os.fdopen(written, "wb") as stream:
+                run = subprocess.run(command, stdout=stream, stderr=subprocess.PIPE, timeout=120)
+            self.assertEqual((run.returncode, run.stderr), (128 + signal.SIGPIPE, b""), command)
 
     def lines_of(self, name):
         """Of a file that may not be there yet."""

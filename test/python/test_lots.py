@@ -448,7 +448,11 @@ class WaferTest(unittest.TestCase):
             [tuple(map(one.get, names)) for one in self.rows],
             dtype=[(name, object) for name in names],
         )
-        for form in (self.table, str(self.table), [self.table], lines, records):
+        from mems_stiction.row_table import write_rows
+
+        excel = self.path / "excel.csv"  # semicolons, decimal commas
+        write_rows(excel, names, self.rows, {}, is_for_excel=True)
+        for form in (self.table, str(self.table), [self.table], lines, records, excel):
             self.assertEqual(mems_stiction.compare_lots(form).json(), expected)
 
     @unittest.skipUnless(importlib.util.find_spec("pyarrow"), "pyarrow is not installed")
@@ -588,10 +592,31 @@ class WaferTest(unittest.TestCase):
     def test_what_is_wrong_is_one_line(self):
         deep = self.path / "deep.jsonl"
         deep.write_text('{"margin":' + "[" * 200000 + "\n")
+        for name, line in (
+            ("commas", "L,1,1,5"),
+            ("short", "L,1"),
+            ("text", "L,1,abc"),
+            ("negative", "L,1,-2"),
+        ):
+            (self.path / (name + ".csv")).write_text("lot_id,wafer_id,margin\nL,1,1.5\n" + line)
         for arguments, words in (
             ((self.path / "none.csv",), r"^compare_lots: .*none\.csv: No such file[^\n]*\n$"),
             ((self.path / "part.yaml",), r"must end in \.csv"),
             ((deep,), r"^compare_lots: .*deep\.jsonl: holds no rows: too many levels[^\n]*\n$"),
+            (
+                (self.path / "commas.csv",),
+                r"/commas\.csv, line 3: has 4 cells, and the header 3; a table with decimal commas "
+                r"needs semicolons between its cells\n$",
+            ),
+            ((self.path / "short.csv",), r"/short\.csv, line 3: has 2 cells, and the header 3\n$"),
+            (
+                (self.path / "text.csv",),
+                r"^compare_lots: margin: 'abc' in [^\n]*/text\.csv, line 3 is not allowed, must be",
+            ),
+            (
+                (self.path / "negative.csv",),
+                r"^compare_lots: margin: '-2' in [^\n]*, line 3 is not",
+            ),
             (
                 ("--against", "time", self.table),
                 r"^compare_lots: against: the rows have no column 'time'",
@@ -684,6 +709,47 @@ class SentencesTest(unittest.TestCase):
         self.assertIn(
             "by chance alone some 2 of 40 wafers show a trend, and as many a bad place",
             found.statements,
+        )
+
+    def test_scans_of_one_site_are_one_place(self):
+        random = np.random.RandomState(1)
+        rows = [
+            row(
+                wafer=str(wafer),
+                site=site,
+                part_id="p%d" % place,
+                margin=3.0 * math.exp(of_part + 0.1 * random.standard_normal()),
+            )
+            for wafer in range(40)
+            for place, site in enumerate(SITES[::5])
+            for of_part in [0.2 * random.standard_normal()]
+            for _ in range(3)
+        ]
+        rows += [dict(rows[0], margin="")]
+        found = mems_stiction.compare_lots(rows)
+        self.assertIn(
+            "scans of one site are averaged, since they are no independent places: 1201 rows are "
+            "400 places",
+            found.statements,
+        )
+        self.assertLessEqual(sum(found.trends.chance < 0.05), 6)  # 2 of 40, and their spread
+        self.assertEqual(found.trends.places.max(), 10)
+        self.assertEqual((found.shares.places[0], found.shares.lost[0]), (400, 1))
+        wafers = found.units[found.units.level == "wafers"]
+        self.assertEqual(set(wafers.places), {10})
+        self.assertAlmostEqual(
+            math.log(wafers.value[0]), np.mean(np.log([one["margin"] for one in rows[:30]]))
+        )
+        levels = dict(zip(found.components.level, found.components.deviation))
+        self.assertAlmostEqual(levels["parts and their places"], 0.2, delta=0.02)
+        self.assertAlmostEqual(levels["scans"], 0.1, delta=0.01)
+        _, _, figure = next(found.maps())
+        self.assertIn("10 places", figure._suptitle.get_text())
+        bad = dict(rows[0], margin=0.3)
+        found = mems_stiction.compare_lots([bad, bad, bad] + rows[3:])
+        self.assertEqual(
+            [(one.site_x, one.site_y) for one in found.bad_places if one.wafer_id == "0"],
+            [SITES[0]],
         )
 
     def test_rows_alone(self):
@@ -830,7 +896,13 @@ class SentencesTest(unittest.TestCase):
             (3, "int is not allowed"),
             ([3], "an item is 3"),
             ([], "there is none"),
-            ([{"margin": "x"}], "none of 1 has a margin"),
+            ([{"margin": ""}, {"margin": 0.0}], "none of 2 has a margin"),
+            (
+                [row(), {"margin": "x"}],
+                "margin: 'x' in row 2 is not allowed, must be a number >= 0, or empty",
+            ),
+            ([{"pull_off_force": -2.0}], "pull_off_force: -2.0 in row 1 is not allowed"),
+            ([{"peel_number": -2.0}], "none of 1 has a margin"),  # of a beam that buckles
         ):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 mems_stiction.compare_lots(rows)

@@ -444,7 +444,8 @@ TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
   EXPECT_NE(violations({0.0, 5.0, 5.0}, {0.0}, insulated()).find("must ascend"), std::string::npos);
   EXPECT_NE(violations({-1.0}, {0.0}, insulated()).find("voltages: -1 V"), std::string::npos);
   const std::string of_many = violations(std::vector<double>(1000000, 5.0), {0.0}, insulated());
-  EXPECT_EQ(of_many, "voltages: 5 V after 5 V is not allowed, must ascend (and 999998 more)");
+  EXPECT_EQ(of_many,
+            "voltages: 5 V after 5 V is not allowed, must ascend (and 999998 more such values)");
   EXPECT_LT(violations(std::vector<double>(1000000, -5.0), {0.0}, insulated()).size(), 200U);
   EXPECT_NE(violations({0.0}, {std::nan("")}, insulated()).find("mechanical_loads: nan"),
             std::string::npos);
