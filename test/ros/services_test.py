@@ -7,6 +7,7 @@ import unittest
 
 import numpy as np
 import rospy
+import rosservice
 import rostest
 import yaml
 from mems_stiction.msg import ScanInfo, StictionPrediction
@@ -87,18 +88,18 @@ class ServicesTest(unittest.TestCase):
         )
 
     def test_1b_who_asks_for_loggers_again_and_again_does_not_end_the_node(self):
-        get_loggers = rospy.ServiceProxy("stiction_node/get_loggers", GetLoggers)
+        process = "stiction_node"
+        if "/stiction_node_manager/get_loggers" in rosservice.get_service_list():
+            process = "stiction_node_manager"  # of the nodelet
+        get_loggers = rospy.ServiceProxy(process + "/get_loggers", GetLoggers)
+        set_level = rospy.ServiceProxy(process + "/set_logger_level", SetLoggerLevel)
         for _ in range(5):
             loggers = {logger.name: logger.level for logger in get_loggers().loggers}
             self.assertEqual(loggers["ros.mems_stiction"], "info")
-        rospy.ServiceProxy("stiction_node/set_logger_level", SetLoggerLevel)(
-            "ros.mems_stiction", "warn"
-        )
+        set_level("ros.mems_stiction", "warn")
         levels = {logger.name: logger.level for logger in get_loggers().loggers}
         self.assertEqual((levels["ros.mems_stiction"], levels["ros"]), ("warn", "info"))
-        rospy.ServiceProxy("stiction_node/set_logger_level", SetLoggerLevel)(
-            "ros.mems_stiction", "info"
-        )
+        set_level("ros.mems_stiction", "info")
 
     def test_2_set_load_predicts_the_last_scan_and_the_force_goes_with_the_square_of_the_voltage(
         self,
