@@ -182,11 +182,11 @@ class Loop {
     }
     if (std::isnan(verdict_.margin)) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
-    row.holding_margin = verdict_.restoring_force /
+    row.holding_margin = device_.spring_stiffness * device_.travel /
                          (verdict_.device_pull_off_force + pressing +
                           holdingField(device_, options_.interface, state, contact, load));
     // a beam beside the spring is held by what it holds without a load, at least
-    if (row.is_peeled) row.holding_margin = std::min(row.holding_margin, row.ratio());
+    if (device_.hasBeam()) row.holding_margin = std::min(row.holding_margin, row.ratio());
   }
 
   const Options& options_;

@@ -1,5 +1,6 @@
 #include "mems_stiction/verdict/beam_adhesion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,15 +18,24 @@ double bendingTerm(const Beam& beam) {
   return 1.5 * beam.modulus * std::pow(beam.thickness, 3) * beam.gap * beam.gap;
 }
 
-/// The s with sShapeWork(s) = given work, > 0: the work falls with s.
+/// Half of the length of a beam that buckles under its residual stress [m]; infinite under tension.
+double bucklingLength(const Beam& beam) {
+  if (!(beam.residual_stress < 0.0)) return std::numeric_limits<double>::infinity();
+  return kPi * beam.thickness * std::sqrt(beam.modulus / (-12.0 * beam.residual_stress));
+}
+
+/// The s with sShapeWork(s) = given work, > 0: the work falls with s up to where a beam buckles,
+/// where the search ends.
 double armLength(const Beam& beam, double work) {
   const double plain = std::sqrt(std::sqrt(bendingTerm(beam) / work));
   if (beam.type != BeamType::kDoublyClamped) return plain;
   constexpr double kFactor = 1.5;
-  double low = plain;
-  double high = plain;
+  const double longest = bucklingLength(beam);
+  double low = std::min(plain, longest);
+  double high = low;
   while (sShapeWork(beam, low) < work) low /= kFactor;
-  while (sShapeWork(beam, high) > work) high *= kFactor;
+  while (high < longest && sShapeWork(beam, high) > work) high = std::min(longest, kFactor * high);
+  if (sShapeWork(beam, high) > work) return longest;
   return signChange(low, high, 0.0, [&](double length) { return sShapeWork(beam, length) - work; });
 }
 

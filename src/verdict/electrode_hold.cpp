@@ -37,6 +37,7 @@ double lastPositive(double length, double most, const Function& is_free) {
       stuck = free;
       free /= kFactor;
     }
+    if (!(is_free(free) > 0.0)) return 0.0;  // held at any length
   }
   return signChange(free, stuck, kTolerance, is_free);
 }

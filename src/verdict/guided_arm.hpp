@@ -19,7 +19,7 @@
 ///     integral of w'^2 dx = d(F h)/dN = (h^2/s) (1 + r'(z)),  by the theorem of the envelope
 ///     z = 3 sigma s^2/(E t^2) + (3/2) (h/t)^2 (1 + r'(z))
 ///
-/// F h is the least of a sum that is linear in N, thus concave: r' falls from 3/2 at z = -pi^2 over
+/// F h is the least of a sum that is linear in N, thus concave: r' falls from 1/2 at z = -pi^2 over
 /// 1/5 at 0 to 0, and the last equation has one root. r is finite above z = -20.19, where F has a
 /// pole. The energy per width, and what it loses when the arm grows while h and the material that
 /// lies down stay:

@@ -319,6 +319,12 @@ Verdict worseOf(Verdict of_spring, Verdict of_beam) {
   const double pull_in = of_spring.pull_in_voltage;
   if (worse > 0 || (worse == 0 && deciding < of_spring.margin)) {
     of_beam.pull_in_voltage = pull_in;
+    if (of_beam.governed_by == kGovernedByPeeling) {  // the force is that of the spring
+      of_beam.restoring_force = of_spring.restoring_force;
+      of_beam.margin = of_spring.margin;
+      of_beam.margin_lower = of_spring.margin_lower;
+      of_beam.margin_upper = of_spring.margin_upper;
+    }
     of_beam.reason += "; that is of the beam, the worse of both";
     if (!std::isnan(of_spring.margin)) {
       of_beam.reason += " (the spring alone: margin " + shortNumber(of_spring.margin, 2) + ")";
@@ -331,7 +337,7 @@ Verdict worseOf(Verdict of_spring, Verdict of_beam) {
   of_spring.peel_number_upper = of_beam.peel_number_upper;
   of_spring.detachment_length = of_beam.detachment_length;
   of_spring.unstuck_length = of_beam.unstuck_length;
-  if (of_beam.governed_by == kGovernedByForce) of_spring.governed_by = kGovernedByForce;
+  of_spring.governed_by = kGovernedByForce;
   return of_spring;
 }
 

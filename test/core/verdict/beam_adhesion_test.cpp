@@ -151,7 +151,7 @@ TEST(BeamAdhesion, ofLargeGapsIsAMembrane) {
 }
 
 TEST(BeamAdhesion, lengthsAreTheInverses) {
-  const double work = 3e-4;
+  const double work = 1e-2;
   for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
     for (const double stress : {0.0, 80e6, -10e6}) {
       Beam beam = beamOf(type, 1.0, stress);
@@ -161,6 +161,16 @@ TEST(BeamAdhesion, lengthsAreTheInverses) {
       beam.length *= 1.01;
       EXPECT_LT(peelNumber(beam, work), 1.0);  // a longer beam sticks
     }
+  }
+}
+
+TEST(BeamAdhesion, lengthsOfCompressedBeamsEndWhereTheyBuckle) {
+  Beam beam = beamOf(BeamType::kDoublyClamped, 1.0, -10e6);
+  for (const double work : {1e-3, 1e-5, 1e-8}) {
+    beam.length = detachmentLength(beam, work);
+    EXPECT_NEAR(bucklingStress(beam) / beam.residual_stress, 1.0, 1e-12) << work;
+    EXPECT_GT(peelNumber(beam, work), 1.0);  // it comes off as long as it is straight
+    EXPECT_NEAR(unstuckLength(beam, work) / beam.length, 0.5, 1e-12);
   }
 }
 
