@@ -1,5 +1,6 @@
 /// Sweeps of beams: where they land, what holds them, where they open again.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -124,6 +125,26 @@ TEST(BeamSweep, withoutAPadIsJudgedAndHeldByPeeling) {
       const LoadSweepRow& last = result.rows.back();
       EXPECT_EQ(last.lands, peel_number > 1.0 ? Lands::kNo : Lands::kYes) << "down to 0 V";
     }
+  }
+}
+
+TEST(BeamSweep, aStiffSpringBesideABeamHoldsItNoLonger) {
+  const HeightMap scan = rough();
+  DeviceOptions beam = beamFor(scan, BeamType::kCantilever, 1e-5);
+  beam.electrode_length = 0.0;
+  DeviceOptions both = beam;
+  both.travel = 1e-6;
+  for (const double stiffness : {1.0, 1e4}) {  // the spring is the worse, then the beam
+    both.spring_stiffness = stiffness;
+    const auto holdingOf = [&](const DeviceOptions& device) {
+      return sweepLoads(insulated(), scan, upTo(0.0, 1, 0.0), device, {}, {})
+          .rows.back()
+          .holding_margin;
+    };
+    DeviceOptions spring = both;
+    spring.beam_type = BeamType::kNone;
+    EXPECT_NEAR(holdingOf(both) / std::min(holdingOf(beam), holdingOf(spring)), 1.0, 1e-9)
+        << stiffness;
   }
 }
 
