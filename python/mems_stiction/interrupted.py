@@ -112,6 +112,7 @@ def _end_with_the_reader():
     before = sys.stdout
     if not isinstance(before, io.TextIOWrapper) or before is not sys.__stdout__:
         return
+    before.flush()
     raw = _Printed(before.fileno(), "wb", closefd=False)
     sys.stdout = io.TextIOWrapper(
         raw if before.write_through else io.BufferedWriter(raw),

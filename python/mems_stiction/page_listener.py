@@ -84,7 +84,12 @@ class PageListener:
     def _hears_scans(self):
         """Subscribes to scan_info once the node's predictions are heard: a source starts when its
         audience has done so, and its first prediction would come too early."""
-        if self._infos_of is None and self._subscribers[0].get_num_connections():
+        is_heard = self._subscribers[0].get_num_connections() > 0
+        if self._infos_of is not None and not is_heard:  # the node has ended
+            self._subscribers.remove(self._infos_of)
+            self._infos_of.unregister()
+            self._infos_of = None
+        if self._infos_of is None and is_heard:
             self._infos_of = rospy.Subscriber("scan_info", ScanInfo, self._on_info, queue_size=100)
             self._subscribers.append(self._infos_of)
         return self._infos_of is not None
