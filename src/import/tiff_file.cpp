@@ -186,7 +186,7 @@ void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& lay
 
 /// Where a strip or tile stands in the file.
 struct Extent {
-  std::uint64_t begin = 0, end = 0;
+  std::uint64_t begin = 0, end = 0, size = 0;
   std::uint32_t number = 0;
 };
 
@@ -238,7 +238,7 @@ void checkExtents(TIFF* tiff, const Layout& layout, std::uint32_t high, std::uin
     stated += size;
     needed += full;
     // Padding is not read. Writers state too many compressed bytes, which stand for themselves.
-    extents.push_back({begin, begin + (is_plain ? full : 1), number});
+    extents.push_back({begin, begin + (is_plain ? full : 1), size, number});
   }
   if (is_plain && !is_tiled && stated > needed + line_bytes * count) {
     throw FileError("a page states " + std::to_string(stated) +
@@ -248,6 +248,8 @@ void checkExtents(TIFF* tiff, const Layout& layout, std::uint32_t high, std::uin
             [](const Extent& a, const Extent& b) { return a.begin < b.begin; });
   for (std::size_t i = 1; i < extents.size(); ++i) {
     if (extents[i].begin >= extents[i - 1].end) continue;
+    // some writers keep compressed tiles that are alike once
+    if (!is_plain && extents[i].size == extents[i - 1].size) continue;
     refuseExtent(is_tiled, std::max(extents[i].number, extents[i - 1].number), count,
                  "overlaps number " +
                      std::to_string(std::min(extents[i].number, extents[i - 1].number) + 1) +
