@@ -237,8 +237,8 @@ def compare_lots(
     sites = at_sites(lots.chosen)
     finite = [place for place in lots.chosen if place.is_known() and math.isfinite(place.value)]
     bad = _bad_places(lots, sites)
-    outlying = {_site_of(found.place) for found in bad if found.figure == lots.figure}
-    sound = [place for place in finite if _site_of(place) not in outlying]
+    outlying = {found.place.site() for found in bad if found.figure == lots.figure}
+    sound = [place for place in finite if place.site() not in outlying]
     statements = of_rows(lots, len(sites))
     hierarchy = hierarchy_of(sound)
     components = (
@@ -270,12 +270,6 @@ def compare_lots(
             "statements": tuple(statements),
         },
     )
-
-
-def _site_of(place: Place) -> Any:
-    """The same for all scans of a site."""
-    names = (place.lot, place.wafer, place.part)
-    return names + ((place.x, place.y) if place.has_site() else (id(place),))
 
 
 def _trends_of_heights(sites: Sequence[Place], bad: Sequence[BadPlace]) -> List[Trend]:

@@ -20,6 +20,7 @@ from mems_stiction.quantities import ratio, with_unit
 DEPENDING = 2.0
 FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
 HIGH_WORK = 0.5 * RANGE[WORK][1]  # [J/m^2]
+LENSES = 1e-3, 0.1  # radii of a surface force apparatus [m]
 TIP_RADIUS = "preprocessing/tip/radius"  # whose usual values are those of a probe
 MOST_ASKED = 3  # values that are asked for their unit
 
@@ -109,11 +110,11 @@ def of_units(data: List[Measurement], found: Found) -> List[str]:
 
 
 def of_radii(data: List[Measurement]) -> List[str]:
-    """Of probes that no microscope has: mostly in another unit."""
+    """Of what is neither a probe nor a lens: mostly in another unit."""
     said = []
     for datum in data:
         radius = datum.place.radius
-        if radius is None:
+        if radius is None or LENSES[0] <= radius < LENSES[1]:
             continue
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")

@@ -105,6 +105,11 @@ class Place(NamedTuple):
     def has_site(self) -> bool:
         return math.isfinite(self.x) and math.isfinite(self.y)
 
+    def site(self) -> Any:
+        """The same for all scans of a site of a part; a row without a site is one by itself."""
+        where = (self.x, self.y) if self.has_site() else id(self)
+        return self.lot, self.wafer, self.part, self.at, where
+
 
 class Lots(NamedTuple):
     """All rows, and what of them is compared."""
@@ -378,9 +383,8 @@ def at_sites(places: Iterable[Place]) -> List[Place]:
     of one site are no independent places. Of what nothing holds on one scan, the others tell; a row
     without a site is a place by itself."""
     groups: Dict[Any, List[Place]] = {}
-    for number, place in enumerate(places):
-        key = (place.x, place.y) if place.has_site() else number
-        groups.setdefault((place.lot, place.wafer, place.part, place.at, key), []).append(place)
+    for place in places:
+        groups.setdefault(place.site(), []).append(place)
     return [_mean_of(scans) if len(scans) > 1 else scans[0] for scans in groups.values()]
 
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "approach/area_cells.hpp"
@@ -249,8 +248,11 @@ std::vector<Realisation> DeviceAreaSolver::followCells(
   const AreaCellLimits all_cells;
   AreaCellLimits limits;
   std::int64_t& cell_limit = solvers.front()->cell_limit_;
-  std::map<DeviceAreaSolver*, Realisation> found;
-  for (bool is_first = true; found.size() < solvers.size(); is_first = false) {
+  std::vector<std::optional<Realisation>> found(solvers.size());
+  const auto areAllFound = [&] {
+    return std::all_of(found.begin(), found.end(), [](const auto& one) { return one.has_value(); });
+  };
+  for (bool is_first = true; !areAllFound(); is_first = false) {
     if (!is_first) cell_limit = std::min(kMoreCells * cell_limit, all_cells.most_cells);
     limits.most_cells = cell_limit;
     Gatherer gatherer(solvers.front()->pieces_, limits);
@@ -261,26 +263,19 @@ std::vector<Realisation> DeviceAreaSolver::followCells(
                        });
     gatherer.finish();
     const bool are_all = gatherer.keepsAll() || cell_limit == all_cells.most_cells;
-    for (DeviceAreaSolver* solver : solvers) {
-      if (found.count(solver) > 0) continue;
-      const auto ofSurface = [&] { return frame(*solver); };
-      if (are_all) {
-        found[solver] = solver->follow(gatherer.cells(), gatherer.quarters(), ofSurface);
-        continue;
-      }
-      const std::optional<Followed> by_few =
-          solver->tilts() ? solver->followFrame(ofSurface())
-                          : solver->followCells(gatherer.cells(), gatherer.quarters(), false);
-      if (by_few) found[solver] = solver->taken(solver->withFlow(*by_few, ofSurface));
+    for (std::size_t i = 0; i < solvers.size(); ++i) {
+      if (found[i]) continue;
+      found[i] = solvers[i]->follow(gatherer.cells(), gatherer.quarters(), are_all,
+                                    [&] { return frame(*solvers[i]); });
     }
   }
-  std::vector<Realisation> in_order;
-  for (DeviceAreaSolver* solver : solvers) in_order.push_back(found[solver]);
-  return in_order;
+  std::vector<Realisation> all;
+  for (const std::optional<Realisation>& one : found) all.push_back(*one);
+  return all;
 }
 
 Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {
-  return follow(cells, {}, [&] { return frameFrom(surface); });
+  return *follow(cells, {}, true, [&] { return frameFrom(surface); });
 }
 
 std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
@@ -327,17 +322,22 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
   std::vector<Realisation> found;
   found.reserve(solvers.size());
   for (DeviceAreaSolver* solver : solvers) {
-    found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(),
-                                   [&] { return solver->may_flow_ ? flowing : relief; }));
+    found.push_back(*solver->follow(gatherer.cells(), gatherer.quarters(), true,
+                                    [&] { return solver->may_flow_ ? flowing : relief; }));
   }
   return found;
 }
 
-Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
-                                     const std::function<cv::Mat()>& frame) {
-  std::optional<Followed> found;
-  if (!tilts()) found = followCells(cells, quarters, true);
-  return taken(found ? withFlow(*found, frame) : followFrame(frame()));
+std::optional<Realisation> DeviceAreaSolver::follow(const AreaCells& cells,
+                                                    const std::vector<AreaCells>& quarters,
+                                                    bool are_all,
+                                                    const std::function<cv::Mat()>& frame) {
+  if (!tilts()) {
+    if (const auto found = followCells(cells, quarters, are_all))
+      return taken(withFlow(*found, frame));
+    if (!are_all) return std::nullopt;
+  }
+  return taken(followFrame(frame()));
 }
 
 Realisation DeviceAreaSolver::taken(const Followed& followed) {

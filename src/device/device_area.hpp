@@ -109,8 +109,10 @@ class DeviceAreaSolver {
       const std::vector<DeviceAreaSolver*>& solvers, DeviceSurface& surface,
       const std::function<cv::Mat(const DeviceAreaSolver&)>& frame,
       const DeviceSurface::Visit& visit_once);
-  Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
-                     const std::function<cv::Mat()>& frame);
+  /// By cells where they suffice, else by a frame; nothing where more cells may suffice.
+  /// - @p are_all as followCells() has it
+  std::optional<Realisation> follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
+                                    bool are_all, const std::function<cv::Mat()>& frame);
   Realisation taken(const Followed& followed);
   /// - @p are_all whether they are all cells of the surface: of fewer, those that are deep enough
   /// to say so count alone

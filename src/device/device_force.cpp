@@ -706,7 +706,7 @@ std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const Devi
     DeviceForce& force = forces[i];
     force.missing_scan = missingShortWaves(usable.surfaces, models[i]);
     if (force.missing_scan.empty())
-      force.missing_scan = missingPixels(area, madePitch(surfaces, options));
+      force.missing_scan = missingPixels(area, madePitch(usable.surfaces, options));
     if (!force.missing_scan.empty())
       force.warnings.insert(force.warnings.begin(), force.missing_scan);
     force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());

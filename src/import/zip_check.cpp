@@ -18,7 +18,6 @@ namespace {
 constexpr const char* kZip = "the zip archive";
 constexpr std::uint32_t kZipEntry = 0x02014B50;     // in the central directory
 constexpr std::uint32_t kZipLocal = 0x04034B50;     // before the data
-constexpr std::uint32_t kWideEnd = 0x06064B50;      // of a directory of the 64-bit kind
 constexpr std::uint64_t kNarrowLimit = 0xFFFFFFFF;  // larger sizes stand in a field of their own
 constexpr std::uint16_t kWideField = 1;             // of an entry: sizes of 64 bits
 constexpr std::uint64_t kMostEntries = 100'000;

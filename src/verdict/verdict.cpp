@@ -353,9 +353,10 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   if (device.hasSpring() && device.withoutSpring().hasBeamContact()) {
     DeviceOptions spring = device;
     spring.beam_type = BeamType::kNone;
+    std::optional<AdhesionSpread> spread;  // of the prediction, for both
     const auto alone = [&](const DeviceOptions& one) {
       return verdictBy(prediction, one, options, flags, cell_area, evidence, potential_deviation,
-                       spread_of);
+                       [&] { return spread ? *spread : spread.emplace(spread_of()); });
     };
     return worseOf(alone(spring), alone(device.withoutSpring()));
   }

@@ -454,6 +454,7 @@ class MadeDataTest(unittest.TestCase):
             (2.0, 1.0, True, False),
             (3e-5, 1e-6, False, True),
             (1e-7, 1e-6, False, False),
+            (1e-3, 0.02, False, False),  # a surface force apparatus
         ):
             statements = said(force, radius)
             self.assertEqual(probe in statements, is_far, statements)

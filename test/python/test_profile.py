@@ -160,6 +160,8 @@ class ProfileTest(unittest.TestCase):
                 (["3,%02d" % place for place in count], [3 + n / 100 for n in count]),
                 (["%d,%d" % (n, n % 7 - 3) for n in count], [n % 7 - 3 for n in count]),
                 (["%d, %d" % (n, n % 7) for n in count], [n % 7 for n in count]),
+                (["%de0,%de-3" % (n, n % 7) for n in count], [1e-3 * (n % 7) for n in count]),
+                (["%d,%d," % (n, n % 7) for n in count], [n % 7 for n in count]),
                 (["%d,0 %d,2" % (n, n % 7) for n in count], [n % 7 + 0.2 for n in count]),
                 (["%d,5" % (n % 7) for n in count] + ["3"], [n % 7 + 0.5 for n in count] + [3]),
                 (["%d,5\n" % (n % 7) for n in count] + ["3"], [n % 7 + 0.5 for n in count] + [3]),

@@ -366,11 +366,39 @@ std::size_t listAt(const std::string& bytes, int tag, std::size_t index, std::si
   return list + index * size;
 }
 
+std::uint32_t numberOf(const std::string& bytes, int tag, std::size_t index) {
+  std::size_t size = 0;
+  const std::size_t at = listAt(bytes, tag, index, size);
+  std::uint32_t value = 0;
+  for (std::size_t i = size; i-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
 std::string withNumber(std::string bytes, int tag, std::size_t index, std::uint32_t value) {
   std::size_t size = 0;
   const std::size_t at = listAt(bytes, tag, index, size);
   for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(value >> 8 * i & 0xFF);
   return bytes;
+}
+
+TEST_F(TiffFile, CompressedStripsThatAreAlikeMayShareTheirBytes) {
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE}) {
+    Page page = floatPage();
+    page.tags = [=](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_COMPRESSION, compression); };
+    std::string bytes = write({page});
+    const auto sameAsFirst = [&](int tag) {
+      return withNumber(bytes, tag, 1, numberOf(bytes, tag, 0));
+    };
+    bytes = sameAsFirst(TIFFTAG_STRIPOFFSETS);
+    EXPECT_THROW(parseTiff(bytes), FileError);  // as many bytes as the second strip had
+    bytes = sameAsFirst(TIFFTAG_STRIPBYTECOUNTS);
+    if (compression == COMPRESSION_NONE) {
+      EXPECT_THROW(parseTiff(bytes), FileError);
+    } else {
+      EXPECT_EQ(parseTiff(bytes).size(), 1u);
+    }
+  }
 }
 
 TEST_F(TiffFile, AStripThatWasNotWrittenIsRefused) {
