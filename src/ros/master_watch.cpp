@@ -149,23 +149,25 @@ void MasterWatch::registerAgain() {
                      [this](const auto& member) { return member.second.put_back(calls_); }))
       return;
   }
-  if (!registrations_.repeat(calls_)) return;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++registered_again_;
-  }
-  logSoon(ros::console::levels::Warn,
-          "registered again, with the settings, loads and counts of before");
-  enter(Registrations::State::kKnown);
+  if (registrations_.repeat(calls_)) enter(Registrations::State::kKnown);
 }
 
 void MasterWatch::enter(Registrations::State state) {
+  const bool is_known = state == Registrations::State::kKnown;
+  bool is_back = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (state == Registrations::State::kKnown) last_known_ = ros::SteadyTime::now();
-    if (std::exchange(state_, state) == state || state == Registrations::State::kKnown) return;
+    if (is_known) last_known_ = ros::SteadyTime::now();
+    if (std::exchange(state_, state) == state) return;
+    if (state == Registrations::State::kForgotten) is_forgotten_ = true;
+    is_back = is_known && std::exchange(is_forgotten_, false);
+    if (is_back) ++registered_again_;
   }
-  logSoon(ros::console::levels::Warn, ros::master::getURI() + ": " + meaningOf(state));
+  if (is_back)
+    logSoon(ros::console::levels::Warn,
+            "registered again, with the settings, loads and counts of before");
+  else if (!is_known)
+    logSoon(ros::console::levels::Warn, ros::master::getURI() + ": " + meaningOf(state));
 }
 
 void MasterWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {

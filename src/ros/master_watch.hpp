@@ -84,6 +84,8 @@ class MasterWatch {
   unsigned looks_made_ = 0;   ///< of those
   Registrations::State state_ = Registrations::State::kKnown;
   ros::SteadyTime last_known_ = ros::SteadyTime::now();
+  bool is_forgotten_ = false;  ///< since the master knew the process last. Also a call whose answer
+                               ///< was lost may have registered it.
   unsigned registered_again_ = 0;
   std::thread thread_;
 };

@@ -84,13 +84,19 @@ class MasterTest(unittest.TestCase):
         cls.launch.wait(timeout=TIMEOUT)
         cls.roscore.kill()
 
-    def master_reports(self, word):
+    def master_reports(self, word=""):
         return [
             status
             for message in self.diagnostics.messages
             for status in message.status
             if status.name == "stiction_node: master" and word in status.message
         ]
+
+    def last_report(self):
+        return "one registration, after %d reports, the last: %s" % (
+            len(self.master_reports()),
+            self.master_reports()[-1],
+        )
 
     def test_a_node_outlives_its_master_and_is_found_at_the_next(self):
         rospy.wait_for_service("/stiction_node/set_load", timeout=TIMEOUT)
@@ -138,7 +144,7 @@ class MasterTest(unittest.TestCase):
         self.assertEqual(len(predictions.wait(SCANS)), SCANS)
         wait_until(
             lambda: self.master_reports("knows this node")[-1].values[0].value == "1",
-            "a report of the registration",
+            self.last_report,
         )
         self.assertTrue([line for line in log.messages if "does not answer" in line.msg])
 

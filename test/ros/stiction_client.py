@@ -68,11 +68,13 @@ needs_module = unittest.skipUnless(
 
 
 def wait_until(condition, what, timeout=TIMEOUT):
-    """Polls in wall time; raises AssertionError when the time is over."""
+    """Polls in wall time; raises AssertionError when the time is over, with what, a text or a
+    function that returns one."""
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:
-            raise AssertionError("waited %g s in vain for %s" % (timeout, what))
+            text = what() if callable(what) else what
+            raise AssertionError("waited %g s in vain for %s" % (timeout, text))
         time.sleep(0.005)
 
 
