@@ -108,9 +108,6 @@ class FrameSums {
   double limitApproach();
   /// Share of the cells that are in order.
   double orderedFraction() const { return ordered_fraction_; }
-  /// Whether the sums at an approach, without a hold, take no more cells in order than there are.
-  /// Which there are shows in the last digits of all sums.
-  bool hasInOrder(double approach) const { return isOrderedUpTo(approach + law().range()); }
 
  private:
   struct Attraction {

@@ -277,20 +277,14 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
     return -excess(state) > kError * state.carried;
   };
   if (loading.status != Status::kEquilibrium || isPushedBack(loading.beyond_rest)) return 0.0;
-  FrameSums farther;  // for more cells than the frame has in order
-  FrameSums* sums = &frame;
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
   double before = loading.beyond_rest.approach;
   for (int step = static_cast<int>(loading.states.size()) - stepsApart();
        step < settings.approach.max_steps; ++step) {
-    if (sums == &frame && !frame.hasInOrder(approachAfter(step, frame.law().range()))) {
-      farther.start(frame.field(), settings);
-      sums = &farther;
-    }
-    const double approach = loadingAfter(*sums, step);
+    const double approach = loadingAfter(frame, step);
     if (!(approach > before)) break;
-    const SeparationState state = stateAt(*sums, approach, loading.way);
+    const SeparationState state = stateAt(frame, approach, loading.way);
     is_past = is_past || excess(state) > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     if (isPushedBack(state)) break;
