@@ -260,7 +260,7 @@ def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
             "%s: %s is not allowed, must be an array, a topography, a Scan or the path of a scan"
             % (what, type(heights).__name__)
         )
-    if array.dtype == np.float16:
+    if array.dtype.kind == "f" and array.dtype.itemsize == 2:  # of either byte order
         raise SurfaceError(
             "%s: an array of type float16 is not allowed, its steps are 60 nm where they are "
             "finest; must be float32 or float64" % what
@@ -333,6 +333,13 @@ class ReadOnly:
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError("%s.%s: a result cannot be changed" % (type(self).__name__, name))
+
+    def __setstate__(self, state: Any) -> None:
+        """From another process, where the copies could be written to."""
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self.__dict__.update(state)
 
 
 def explained(kind: Kind) -> Kind:

@@ -21,10 +21,11 @@ _Given = Tuple[List[Surface], List[Surface], Settings, int, Optional[float]]
 class MadeSurface:
     """One of the surfaces that predict_device() makes, of the device's whole size.
 
-        surface = mems_stiction.MadeSurface(["afm_1.gwy", "wide.gwy"], area=1e-8,
-        config="part.yaml") surface.heights(0, 0, 1000, 1000)                                   #
-        [m] parts = [surface.cells(first, rows) for first, rows in surface.strips(8)]
-        surface.adhesion(parts).pull_off_force                              # [N]
+        scans = ["afm_1.gwy", "wide.gwy"]
+        surface = mems_stiction.MadeSurface(scans, area=1e-8, config="part.yaml")
+        surface.heights(0, 0, 1000, 1000)  # [m]
+        parts = [surface.cells(first, rows) for first, rows in surface.strips(8)]
+        surface.adhesion(parts).pull_off_force  # [N]
 
     scans, pitch, config, area, contacts, upper, settings: as of predict_device().
     seed: goes before device_force/seed. realisation: which of the surfaces of this seed, from 0.

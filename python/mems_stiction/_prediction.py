@@ -179,7 +179,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
     @property
     def curve(self) -> np.recarray:
         """Force over displacement: displacement [m] past first touch, force [N] (attraction
-        positive), is_separation (of the way out). Empty if the formulation does not follow the
+        positive), is_separation (of the way out, where that differs from the way in). Empty if the formulation does not follow the
         force."""
         return self._cached("curve", lambda: records_of(self._core.curve))  # type: ignore[union-attr]
 
@@ -515,6 +515,8 @@ def _predictions(
     waiting: Any = deque()
     try:
         for frame in frames:
+            if isinstance(frame, np.ndarray) and frame.flags.writeable:
+                frame = frame.copy()  # who yields one buffer again and again fills it meanwhile
             waiting.append(pool.submit(predict_one, frame))
             if len(waiting) >= 4 * count:
                 yield waiting.popleft().result()

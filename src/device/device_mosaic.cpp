@@ -6,6 +6,7 @@
 
 #include "device/device_area.hpp"
 #include "device/device_surface.hpp"
+#include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
 #include "mechanics/wave_stiffness.hpp"
 #include "numeric/constants.hpp"
@@ -47,7 +48,7 @@ double mosaicLength(const DeviceSurfaces& surfaces, const DeviceArea& area, cons
   const DeviceLaws laws = lawsOf(surfaces, options, TailForm::kExponential);
   const double pitch = madePitch(surfaces, options);
   const HeightMap& scan = surfaces.scans.front().surface;
-  const double scanned_area = scan.rows() * scan.cols() * scan.cellArea();
+  const double scanned_area = areaOf(scan);
   // how much softer the wave of this length is than the contact, as a logarithm: from the mean of
   // some surfaces.
   const auto softness = [&](double length) {

@@ -35,11 +35,11 @@ HeightMap withHoles(const HeightMap& made, const cv::Mat& missing) {
   return {heights, made.pitchX(), made.pitchY()};
 }
 
+}  // namespace
+
 double logOf(double figure) {
   return std::log(std::max(figure, std::numeric_limits<double>::min()));
 }
-
-}  // namespace
 
 SurfacePair underCounterSurface(const HeightMap& scan,
                                 const std::vector<HeightMap>& counter_surface) {

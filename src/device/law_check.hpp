@@ -26,6 +26,9 @@ namespace mems_stiction {
 SurfacePair underCounterSurface(const HeightMap& scan,
                                 const std::vector<HeightMap>& counter_surface);
 
+/// Of a figure; of nothing that of the smallest number.
+double logOf(double figure);
+
 /// Of the logarithm of a figure: scans against scans of the law.
 struct LawMisfit {
   double difference = 0.0;  ///< mean of the logarithms [-]

@@ -59,10 +59,6 @@ HeightMap blockOf(const HeightMap& scan, const cv::Rect& place) {
   return {scan.heights()(place).clone(), scan.pitchX(), scan.pitchY()};
 }
 
-double logarithm(double figure) {
-  return std::log(std::max(figure, std::numeric_limits<double>::min()));
-}
-
 void overMedian(double PlaceTexture::*figure, std::vector<PlaceTexture>& textures) {
   std::vector<double> values;
   for (const PlaceTexture& texture : textures) values.push_back(texture.*figure);
@@ -84,8 +80,8 @@ std::vector<PlaceTexture> placeTextures(const HeightMap& scan) {
       const HeightMap block = blockOf(scan, texture.place);
       if (1.0 - invalidFraction(block) < kLeastMeasuredOfBlock) continue;
       const double deviation = heightStatistics(levelled(block)).rms_height;
-      texture.gradient = logarithm(gradientVariance(block));
-      texture.height = logarithm(deviation * deviation);
+      texture.gradient = logOf(gradientVariance(block));
+      texture.height = logOf(deviation * deviation);
       textures.push_back(texture);
     }
   }
@@ -179,9 +175,9 @@ PlaceCheck::Strongest PlaceCheck::strongestOf(const HeightMap& scan,
     if (!block.upperIsPlane()) block.upper = levelled(block.upper);
     adhesion_.setOptions(loadedOn(model_, loaded_area_, areaOf(block.lower)));
     const Prediction found = adhesion_.predict(block);
-    const double force = logarithm(found.pull_off_force);
+    const double force = logOf(found.pull_off_force);
     if (!(force > strongest.force)) continue;
-    strongest = {force, logarithm(found.apparent_work_of_adhesion), found.is_conforming, texture};
+    strongest = {force, logOf(found.apparent_work_of_adhesion), found.is_conforming, texture};
   }
   return strongest;
 }

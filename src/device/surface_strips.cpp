@@ -149,6 +149,8 @@ void SurfaceStrips::add(std::string_view strip) {
   std::int64_t rows = 0;
   if (!takeBytes(bytes, first) || !takeBytes(bytes, rows))
     throw SurfaceError("the bytes of this strip are not whole");
+  if (first < 0 || first >= rows_ || rows < 1 || rows > rows_ - first)
+    throw SurfaceError("this strip has rows that the surface has not");
   std::int64_t end = first + rows;
   auto after = ends_.upper_bound(first);
   const bool begins_before = after != ends_.begin() && std::prev(after)->second > first;

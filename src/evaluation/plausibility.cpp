@@ -19,6 +19,9 @@ constexpr double kSlenderness = 5.0;  // length over thickness of a beam
 // gap over length of an arm: there the force of small slopes is 4 % below that of the elastica
 constexpr double kLargestSlant = 0.2;
 
+/// Below, Kelvin's radius is less than 0.23 nm.
+constexpr double kLeastHumidity = 0.1;
+
 /// What settings say of each other.
 void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
   const auto checkBody = [&lines](const std::string& body, const Material& material) {
@@ -42,6 +45,13 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
                     "bends onto the contacts; how it "
                     "bends the whole part between its anchors is left out");
   };
+  const double humidity = configuration.model.capillary.relative_humidity;
+  if (humidity > 0.0 && humidity < kLeastHumidity) {
+    lines.push_back("interface/relative_humidity " + fourDigits(humidity) + ": below " +
+                    fourDigits(kLeastHumidity) +
+                    " the meniscus is narrower than a molecule of water, and the force is far too "
+                    "large: 0 is dry");
+  }
   checkPlate("lower", configuration.model.lower);
   checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;

@@ -22,7 +22,7 @@
 /// system is solved; Steinbach and Wendland, Adv. Comput. Math. 9 (1998) 191 for K^-1 of the whole
 /// plane as preconditioner of a part of it.
 ///
-///     ConjugateGradients gradients(grid, stiffness, threads, cancel, give_way);
+///     ConjugateGradients gradients(grid, stiffness, coarse, threads, cancel, give_way);
 ///     gradients.allocate();
 ///     ... residual and slope ...
 ///     const ConjugateGradients::Direction direction = gradients.find(system);

@@ -19,6 +19,8 @@ namespace {
 
 /// Columns that are gathered together: their complex numbers fill one or two cache lines.
 constexpr std::size_t kBlock = 8;
+/// Scalars of a line of the cache.
+constexpr std::size_t kAligned = 16;
 /// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not
 /// resist.
 constexpr double kNoShift = 1e-6;
@@ -154,9 +156,10 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid,
   stiffness_.assign(static_cast<std::size_t>(blocks_) * block_size, Scalar(1));
   const std::size_t bytes = 2 * sizeof(Scalar) * static_cast<std::size_t>(blocks_) * block_size;
   if (memory.bytes.size() < bytes) memory.bytes.resize(bytes);
-  // two joined rows and their spectrum, or a block of columns and the spectrum of one; each on a
-  // cache line of its own
-  pad_size_ = 2 * std::max(2 * (cols + kBlock), (kBlock + 1) * (rows + kBlock));
+  // two joined rows and their spectrum, or a block of columns and the spectrum of one; both halves
+  // begin as aligned as the whole, so that plans of one fit the other
+  const std::size_t half = std::max(2 * (cols + kBlock), (kBlock + 1) * (rows + kBlock));
+  pad_size_ = 2 * ((half + kAligned - 1) / kAligned * kAligned);
   pads_.resize(static_cast<std::size_t>(threads_));
   for (auto& pad : pads_) pad.resize(pad_size_);
   transforms_ = std::make_unique<Transforms>(grid_, pads_.front().data(),

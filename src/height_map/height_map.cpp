@@ -58,6 +58,8 @@ HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, Pix
     throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " +
                        std::to_string(heights_.type()));
   }
+  if (heights_.dims != 2)
+    throw SurfaceError("a height map must have 2 dimensions, got " + std::to_string(heights_.dims));
   if (heights_.empty()) throw SurfaceError("a height map must have at least one pixel");
   if (!isPitch(pitch_x) || !isPitch(pitch_y)) throw SurfaceError(pitchComplaint(pitch_x, pitch_y));
   const bool only_points_to_pixels = heights_.u == nullptr;

@@ -7,11 +7,12 @@ void InterfaceOptions::describe(OptionVisitor& visitor) {
                  "thermodynamic work of adhesion of the flat interface");
   visitor.number("interface/hamaker_constant", hamaker_constant, "J", Range::nonNegative(),
                  "Hamaker constant of the pair across the medium in the gap, of native films where "
-                 "bodies have them");
+                 "bodies have them; 0 = z0 is interface/equilibrium_distance");
   visitor.number("interface/retardation_length", retardation_length, "m", Range::nonNegative(),
                  "gap at which retardation has halved the attraction; 0 = not retarded");
-  visitor.number("interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
-                 "equilibrium distance of Tabor's parameter");
+  visitor.number(
+      "interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
+      "z0 of Tabor's parameter, and of the attraction where interface/hamaker_constant is 0");
   visitor.number(
       "interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),
       "thickness of the insulator between the electrodes; must be > 0 when voltage or contact "

@@ -55,6 +55,10 @@ class AdhesionModel::Implementation {
   const Options& options() const { return options_; }
   void setOptions(const Options& new_options);
   void see(const SurfacePair& surfaces);
+  /// Whether the last ones had this grid.
+  bool hasSeen(const SurfacePair& surfaces) const {
+    return gap_.rows() == surfaces.lower.rows() && gap_.cols() == surfaces.lower.cols();
+  }
   void solve(const SurfacePair& surfaces, Prediction& prediction);
 
  private:
@@ -138,6 +142,7 @@ void AdhesionModel::predict(const SurfacePair& surfaces, Prediction& prediction)
 }
 
 Prediction AdhesionModel::predictAgain(const SurfacePair& surfaces) {
+  if (!implementation_->hasSeen(surfaces)) return predict(surfaces);
   const auto start = std::chrono::steady_clock::now();
   Prediction prediction;
   implementation_->solve(surfaces, prediction);

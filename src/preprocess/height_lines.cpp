@@ -76,8 +76,8 @@ MEMS_STICTION_VECTORIZED void widenLine(const double* source, std::size_t size, 
   widen(source, size, line);
 }
 
-MEMS_STICTION_VECTORIZED PlaceSums sumsOf(const double* line, const double* places,
-                                          std::size_t size, double origin) {
+MEMS_STICTION_VECTORIZED LineSums sumsOf(const double* line, const double* places, std::size_t size,
+                                         double origin) {
   Packet count, p, pp, h, ph;
   forElements(line, places, size,
               [&](std::size_t, std::size_t, const Packet& heights, const Packet& all_places) {

@@ -15,7 +15,7 @@ void widenLine(const float* source, std::size_t size, double* line);
 void widenLine(const double* source, std::size_t size, double* line);
 
 /// Sums over valid pixels: their number, places p, heights h above an origin.
-struct PlaceSums {
+struct LineSums {
   double count = 0.0;
   double p = 0.0;
   double pp = 0.0;
@@ -25,7 +25,7 @@ struct PlaceSums {
 
 /// - @p places one of each pixel, in the unit of the caller
 /// - @p origin subtracted from each height [m]
-PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin);
+LineSums sumsOf(const double* line, const double* places, std::size_t size, double origin);
 
 /// What comes off a line: origin first, so that small differences keep their digits, then a + b p +
 /// c p^2 [m].

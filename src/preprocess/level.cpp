@@ -22,7 +22,7 @@ Plane leastSquaresPlane(WorkingSurface& surface) {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (int row = 0; row < heights.rows; ++row) {
-    const PlaceSums sums =
+    const LineSums sums =
         sumsOf(heights.ptr<double>(row), places.data(), places.size(), means.height);
     const double y = (row - means.row) * surface.pitch_y / unit;
     normal(0, 0) += sums.pp;

@@ -97,7 +97,7 @@ HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& opt
   double left = 0.0;
   for (int row = 0; row < heights.rows; ++row) {
     const LineCurve& curve = curves[static_cast<std::size_t>(row)];
-    const PlaceSums sums =
+    const LineSums sums =
         sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), curve.origin);
     count += sums.count;
     left += sums.h - (curve.a * sums.count + curve.b * sums.p + curve.c * sums.pp);

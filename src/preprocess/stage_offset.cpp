@@ -11,9 +11,9 @@ HeightChange subtractStageOffset(WorkingSurface& surface) {
   const double mean = meansOf(heights, surface.memory).height;
   const std::vector<double>& columns = columnNumbers(heights.cols, surface.memory);
   // The sum of many large heights rounds off; that of the small ones which are left does not.
-  PlaceSums left;
+  LineSums left;
   for (int row = 0; row < heights.rows; ++row) {
-    const PlaceSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), mean);
+    const LineSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), mean);
     left.count += sums.count;
     left.h += sums.h;
   }

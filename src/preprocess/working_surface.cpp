@@ -60,7 +60,7 @@ SurfaceMeans meansOf(const cv::Mat& heights, CleaningMemory& memory, const char*
   const std::vector<double>& columns = columnNumbers(heights.cols, memory);
   SurfaceMeans means;
   for (int row = 0; row < heights.rows; ++row) {
-    const PlaceSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), origin);
+    const LineSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), origin);
     means.count += sums.count;
     means.row += sums.count * row;
     means.col += sums.p;

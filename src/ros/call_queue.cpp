@@ -83,6 +83,7 @@ void CallQueue::addThread() {
     threads_.emplace(id, std::move(thread));
     ++idle_;
   } catch (const std::system_error&) {
+    if (threads_.empty()) throw;
     // No more threads are to be had: who waits is called once one of them is done.
   }
 }

@@ -15,6 +15,7 @@
 
 #include "errors/plain_format.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "numeric/rounding.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -54,13 +55,6 @@ Colour greyOf(double above_mean, double rms_height) {
 /// nothing.
 constexpr double kReliefShare = 0.015;
 constexpr double kTextHeight = 0.35;  // [m on the screen]
-
-/// The largest of 1, 2, 5, 10, 20, ... that is not above the value.
-double roundedDown(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  const double digit = value / decade;
-  return decade * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
-}
 
 /// "600 nm", "1.95 um": what a line of text can show.
 std::string lengthText(double length) {

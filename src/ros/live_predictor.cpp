@@ -55,10 +55,8 @@ PreparedScan LivePredictor::prepare(const ReceivedScan& scan) {
 }
 
 const PreparedScan& LivePredictor::lastPrepared() {
-  if (last_->has_newer_counter) {
-    setPoseOf(last_->received);
-    predictor_.preparer().mount(last_->as_made);
-  }
+  setPoseOf(last_->received);  // a scan of a call may have come with another
+  if (last_->has_newer_counter) predictor_.preparer().mount(last_->as_made);
   if (last_->has_newer_counter || last_->is_reset) {
     last_->prepared = predictor_.preparer().worn(last_->as_made, last_->wear_before);
   }

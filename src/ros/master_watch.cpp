@@ -7,6 +7,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/console.h>
 #include <ros/master.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include "ros/own_log.hpp"
 
@@ -114,11 +115,16 @@ void MasterWatch::loop() {
 }
 
 bool MasterWatch::look() {
-  const Registrations::State state = registrations_.look(calls_);
-  if (ros::isShuttingDown()) return true;
-  if (calls_.give_up > 0) return false;
-  enter(state);
-  if (state == Registrations::State::kForgotten) registerAgain();
+  auto state = Registrations::State::kNoMaster;
+  try {
+    state = registrations_.look(calls_);
+    if (ros::isShuttingDown()) return true;
+    if (calls_.give_up > 0) return false;
+    enter(state);
+    if (state == Registrations::State::kForgotten) registerAgain();
+  } catch (const XmlRpc::XmlRpcException&) {  // answers of another form are none
+    enter(Registrations::State::kNoMaster);
+  }
   return true;
 }
 
@@ -163,11 +169,12 @@ void MasterWatch::enter(Registrations::State state) {
     is_back = is_known && std::exchange(is_forgotten_, false);
     if (is_back) ++registered_again_;
   }
-  if (is_back)
+  if (is_back) {
     logSoon(ros::console::levels::Warn,
             "registered again, with the settings, loads and counts of before");
-  else if (!is_known)
+  } else if (!is_known) {
     logSoon(ros::console::levels::Warn, ros::master::getURI() + ": " + meaningOf(state));
+  }
 }
 
 void MasterWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {

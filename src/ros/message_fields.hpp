@@ -53,10 +53,11 @@ class MessageFields {
   void next(Field& field) {
     const Entry* value = valueOf(*name_++);
     if (value == nullptr) return;
+    const bool is_text = value->text != nullptr;
     if constexpr (std::is_arithmetic_v<Field>) {
-      field = static_cast<Field>(value->number);
+      if (!is_text) field = static_cast<Field>(value->number);
     } else if constexpr (std::is_same_v<Field, std::string>) {
-      field = *value->text;
+      if (is_text) field = *value->text;
     }
   }
 

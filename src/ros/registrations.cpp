@@ -30,6 +30,10 @@ XmlRpcValue listOf(std::initializer_list<std::string> texts) {
 
 std::string ownAddress() { return ros::XMLRPCManager::instance()->getServerURI(); }
 
+/// Each process of roscpp offers this from its start to its end. (~get_loggers, too, but for a
+/// moment: serveLoggers().)
+std::string alwaysOffered() { return ros::this_node::getName() + "/set_logger_level"; }
+
 /// What an array has.
 std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
   std::vector<XmlRpcValue> elements;
@@ -77,8 +81,7 @@ Registrations::State Registrations::look(const MasterCalls& calls) {
   for (XmlRpcValue& service : elementsOf(state[2])) {
     if (contains(service[1], name)) services.insert(static_cast<std::string>(service[0]));
   }
-  // Each process of roscpp offers ~get_loggers from its start to its end.
-  if (services.count(name + "/get_loggers") == 0) {
+  if (services.count(alwaysOffered()) == 0) {
     // Between both answers another process may have taken the name, and with it all that the master
     // had of this one: to register again would end that process.
     if (!calls.hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
@@ -133,8 +136,7 @@ bool Registrations::repeatServices(const MasterCalls& calls) const {
   const std::string& name = ros::this_node::getName();
   const std::string address = "rosrpc://" + ros::network::getHost() + ":" +
                               std::to_string(ros::ConnectionManager::instance()->getTCPPort());
-  // ~get_loggers last: by it the process counts as known.
-  const std::string last = name + "/get_loggers";
+  const std::string last = alwaysOffered();  // by it the process counts as known
   const auto isRegistered = [&](const std::string& service) {
     XmlRpcValue ignored;
     if (!ros::ServiceManager::instance()->lookupServicePublication(service))

@@ -136,8 +136,13 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   master_->add(this,
                {[this](const MasterCalls& calls) { return putParametersBack(calls); },
                 [this](const MasterCalls& calls) { return reconfigure_.writeMirror(calls); }});
-  service_queue_.start();
-  topic_spinner_.start();
+  try {
+    service_queue_.start();
+    topic_spinner_.start();
+  } catch (...) {
+    master_->remove(this);
+    throw;
+  }
 }
 
 StictionServer::~StictionServer() {

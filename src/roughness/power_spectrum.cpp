@@ -38,7 +38,7 @@ Weighted weightedHeights(const FilledSurface& filled, SpectrumWindow window) {
     const double* line = heights.ptr<double>(row);
     const double weight = window_y[static_cast<std::size_t>(row)];
     addToRange(line, window_x.size(), range);
-    const PlaceSums sums = sumsOf(line, window_x.data(), window_x.size(), mean);
+    const LineSums sums = sumsOf(line, window_x.data(), window_x.size(), mean);
     sum += weight * sums.p;
     products += weight * sums.ph;
     weighted.squared_weights += weight * weight * sums.pp;

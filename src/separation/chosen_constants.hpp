@@ -43,7 +43,8 @@ constexpr double kMayFlow = 1.0 / 50.0;
 /// Flattening ratio below which surfaces conform. Set on all frames: there both candidates err
 /// alike. Never (0): map -12.5, -10.4; others -12.4, -6.6; brittle -32.5, -23.3. Always below what
 /// energy allows (1): map 0, 0; others -0.5, -0.8; brittle -1.7, 0, and one of them is 9 times too
-/// strong.
+/// strong. README.md, prediction.hpp, StictionPrediction.msg, separation_curve.md and
+/// separation_evidence.md state it.
 constexpr double kConformingRatio = 0.75;
 
 /// Share of the area in contact or within z0 of it at rest, above which surfaces that conform by

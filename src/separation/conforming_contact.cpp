@@ -47,10 +47,12 @@ void ConformingContact::start(const GapField& gap, const ContactTraction& law,
   law_ = &law;
   contact_modulus_ = contact_modulus;
   flattening_energy_ = flattening_energy;
+  relief_.clear();
   branch_.clear();
 }
 
-std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) {
+const std::vector<ReliefClass>& ConformingContact::relief() {
+  if (!relief_.empty()) return relief_;
   ReliefClasses depths(0.0, gap_->largestGap());
   line_.resize(static_cast<std::size_t>(gap_->cols()));
   for (int row = 0; row < gap_->rows(); ++row) {
@@ -59,7 +61,11 @@ std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) 
       if (gap <= gap_->largestGap()) depths.add(gap);
     }
   }
-  return springBranch(depths.classes(), *law_, field_, water_,
+  return relief_ = depths.classes();
+}
+
+std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) {
+  return springBranch(relief(), *law_, field_, water_,
                       stiffnessOf(flattening_energy, gap_->rmsGap()));
 }
 
@@ -82,7 +88,8 @@ double ConformingContact::energyGained(const std::vector<SpringState>& springs) 
 Unloading ConformingContact::unloading(const Unloading& by_contacts, double pressure) {
   const auto rest = restOf(branch(), pressure);
   Unloading unloading;
-  unloading.contact_area = rest->contact_fraction * area();
+  unloading.contact_area =
+      repellingShare(rest, branch_, pressure, relief(), law_->range()) * area();
   unloading.force = area() * strengthFrom(rest, branch_);
   const double strongest = law_->strongestGap();
   unloading.force_exponents =

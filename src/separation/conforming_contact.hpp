@@ -47,6 +47,7 @@ class ConformingContact {
   Unloading unloading(const Unloading& by_contacts, double pressure);
 
  private:
+  const std::vector<ReliefClass>& relief();
   /// Of springs that store this energy when all is flat [J/m^2].
   std::vector<SpringState> springsOf(double flattening_energy);
   const std::vector<SpringState>& branch();
@@ -65,7 +66,8 @@ class ConformingContact {
   WaterLaw water_;
   double contact_modulus_ = 0.0;
   double flattening_energy_ = 0.0;
-  std::vector<SpringState> branch_;  ///< empty until it is asked for
+  std::vector<ReliefClass> relief_;  ///< empty until it is asked for, as the branch
+  std::vector<SpringState> branch_;
   FlatteningWaves waves_;
   std::vector<double> line_;
 };

@@ -242,7 +242,9 @@ double ContactCurve::stiffness() const {
   const double least = 0.5 * chosen::kStep * (frame_.law().range() + rest.approach);
   for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
     const double length = rest.approach - before->approach;
-    if (length >= least) return (before->force() - rest.force()) / length;
+    if (length < least) continue;
+    const double stiffness = (before->force() - rest.force()) / length;
+    return stiffness > 0.0 ? stiffness : ContactSolution::kUnknown;  // not across a jump
   }
   return ContactSolution::kUnknown;
 }

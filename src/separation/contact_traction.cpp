@@ -8,10 +8,7 @@ ContactTraction::ContactTraction(const InterfaceOptions& interface, const Materi
                                  const Material& upper)
     : work_of_adhesion_(interface.work_of_adhesion), law_(adhesionLaw(interface, lower, upper)) {}
 
-double ContactTraction::strongestGap() const {
-  if (law_.hasTail()) return law_.strongestGap() - range();
-  return (std::pow(3.0, 1.0 / 6.0) - 1.0) * range();
-}
+double ContactTraction::strongestGap() const { return law_.strongestGap() - range(); }
 
 double ContactTraction::closingUnder(double pressure) const {
   if (!attracts()) return 0.0;

@@ -268,6 +268,12 @@ bool FlowingPlaces::takeFlowed(const GapField& field, double displacement) {
   return true;
 }
 
+bool FlowingPlaces::flatten(const GapField& field) {
+  pressures_.assign(gaps_.size(), hardness_);
+  rises_ = gaps_;
+  return takeFlowed(field, field.largestGap());
+}
+
 void FlowingPlaces::readRow(int row, double* flowed, double* pressures) const {
   const auto cols = static_cast<std::size_t>(changed_.cols());
   std::fill_n(flowed, cols, 0.0);
@@ -282,8 +288,13 @@ bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, con
   hardness_ = press.hardness;
   total_ = press.load / field.cellArea();
   displacement_ = 0.0;
+  is_overloaded_ = false;
+  if (!(total_ > 0.0)) return false;
   takeCells(field, press.approach);
-  if (!(total_ > 0.0) || !(total_ < hardness_ * static_cast<double>(gaps_.size()))) return false;
+  const auto carriesAll = [&] { return total_ < hardness_ * static_cast<double>(gaps_.size()); };
+  if (!carriesAll()) takeCells(field, GapField::kInvalidGap);
+  is_overloaded_ = !carriesAll();
+  if (is_overloaded_) return flatten(field);
   contact_modulus_ = press.contact_modulus;
   takeLayer(law);
   const int longest = std::max(field.rows(), field.cols());

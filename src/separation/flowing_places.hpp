@@ -18,7 +18,7 @@
 ///
 /// Assumptions: those of a largest pressure, neither hardening nor pile-up; attraction presses
 /// where surfaces touch, and nowhere bends them apart from that. Where P is more than all cells
-/// carry at Ha, nothing is answered.
+/// carry at Ha, all flow until the surfaces are flat.
 ///
 /// Found by projected gradients whose steps follow Barzilai and Borwein (IMA J. Numer. Anal. 8
 /// (1988) 141, recalled), with C on blocks of cells, and by cells once before the last step:
@@ -50,6 +50,8 @@ class FlowingPlaces {
   /// - @p field the gap of the surfaces as they were
   /// @return whether anything flows
   bool press(const GapField& field, const ContactTraction& law, const Press& press);
+  /// Of the last press(): whether it is more than all cells of the frame carry at Ha.
+  bool isOverloaded() const { return is_overloaded_; }
 
   /// Calls take(column, w [m], p [Pa]) for the cells of a row that may touch: by which the gap has
   /// grown, and what presses; others have neither. Of the last press() under which something has
@@ -81,6 +83,8 @@ class FlowingPlaces {
   /// @return the stiffness of the next step [Pa/m]
   double follow(PeriodicCompliance& bodies, int steps, double stiffness);
   bool takeFlowed(const GapField& field, double displacement);
+  /// All cells at Ha, which have lost what they stood out by.
+  bool flatten(const GapField& field);
 
   double hardness_ = 0.0;
   double total_ = 0.0;            ///< P/dA [Pa]
@@ -104,6 +108,7 @@ class FlowingPlaces {
   std::vector<double> flowed_;  ///< w [m]
   GapField changed_;
   double lowering_ = 0.0;
+  bool is_overloaded_ = false;
 };
 
 template <typename Taker>

@@ -39,10 +39,6 @@ class OverlapSweep {
   const std::vector<std::int32_t>& livePatches() const { return live_; }
   /// The patches of livePatches(), in their order.
   const std::vector<OverlapPatch>& patches() const { return patches_; }
-  /// - @p id of a live patch
-  const OverlapPatch& patch(std::int32_t id) const {
-    return patches_[static_cast<std::size_t>(livePlace(id))];
-  }
   /// Place of a live patch in livePatches().
   std::int32_t livePlace(std::int32_t id) const {
     return live_place_[static_cast<std::size_t>(id)];

@@ -4,9 +4,7 @@
 /// All that the separation curve takes from a frame: sums over places at one displacement of the
 /// upper surface.
 ///
-/// Sums of two surfaces, or of two tiles of one at the same height, are added by `+=`; what follows
-/// from them is that of both together. FrameSums (frame_sums.hpp) makes them of one frame;
-/// separation_curve.cpp makes forces of them.
+/// FrameSums (frame_sums.hpp) makes them of one frame; separation_curve.cpp makes forces of them.
 
 namespace mems_stiction {
 
@@ -23,29 +21,12 @@ struct PlaceSums {
   // over the patches in reach of the attraction, (S7)
   double weight = 0.0;      ///< V = R w(gap at the summit) [N]: how much attraction hangs on one
   double soft = 0.0;        ///< V mu
-  double loss = 0.0;        ///< V (1 - c(mu)/2)/sqrt(n)
+  double loss = 0.0;        ///< V (1 - c(mu)/2)/n
   double loss_alone = 0.0;  ///< V times that [N^2]
   // over the same, (S8c)
   double edge_loss = 0.0;   ///< V times what edges take
   double edge_slope = 0.0;  ///< V times what they leave, and its exponent of the modulus
   double width = 0.0;       ///< V a/a0
-
-  PlaceSums& operator+=(const PlaceSums& other) {
-    contact_count += other.contact_count;
-    adhesion += other.adhesion;
-    electrostatic += other.electrostatic;
-    capillary += other.capillary;
-    carried += other.carried;
-    opened += other.opened;
-    weight += other.weight;
-    soft += other.soft;
-    loss += other.loss;
-    loss_alone += other.loss_alone;
-    edge_loss += other.edge_loss;
-    edge_slope += other.edge_slope;
-    width += other.width;
-    return *this;
-  }
 
   /// mu of the summits in reach, their mean by weight [-]; 0 where nothing is.
   double taborParameter() const { return weight > 0.0 ? soft / weight : 0.0; }

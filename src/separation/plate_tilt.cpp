@@ -134,6 +134,8 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
   Balance balance = balanceAt(level, slopes_, settings);
   double trust = balance.reach;
   bool is_here = true;  // the plate stands as it is known to be best
+  is_tipped_ = false;
+  const double highest = heightOf(slopes_, level) + level.largestGap();
   for (int trial = 0; trial < kMostTiltTrials && balance.share() > chosen::kAccuracy; ++trial) {
     const double width = level.cols() * level.pitchX();
     const double height = level.rows() * level.pitchY();
@@ -146,6 +148,10 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
     const double length = heightOf(step, level);
     const double shorter = std::min(1.0, trust / length);
     const PlaneSlopes next{slopes_.x + shorter * step.x, slopes_.y + shorter * step.y};
+    if (heightOf(next, level) > highest) {
+      is_tipped_ = true;
+      break;
+    }
     const Balance there = balanceAt(level, next, settings);
     // energy falls along the step as long as the moments go with it: a plate on two contacts tips
     // until a third one carries

@@ -31,6 +31,8 @@ class PlateTilt {
   const GapField& settle(const GapField& level, const ContactSettings& settings);
   /// Of the plate over the relief as it was given.
   const PlaneSlopes& slopes() const { return slopes_; }
+  /// Whether the loads would tip the plate further than the relief is high.
+  bool isTipped() const { return is_tipped_; }
 
  private:
   /// On the plate at one tilt: push minus pull [N m], what turns it about y and about x, and how it
@@ -54,6 +56,7 @@ class PlateTilt {
   void addAttraction(const ContactSettings& settings, Balance& balance);
 
   PlaneSlopes slopes_;
+  bool is_tipped_ = false;
   cv::Mat1d plane_;
   GapField tilted_;
   ContactCurve curve_;

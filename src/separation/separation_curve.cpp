@@ -22,7 +22,7 @@ double holdOf(double tabor_parameter, double range) {
   return range * kHoldPerTabor * (tabor_parameter - chosen::kStiffTabor);
 }
 
-/// s, (S7) [-].
+/// B, (S7) [-].
 double bendingFactor(const PlaceSums& sums) {
   if (!(sums.weight > 0.0)) return 1.0;
   const double loss = chosen::kLossInCompany * sums.loss +

@@ -86,8 +86,8 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way,
                         double expected_end = 0.0);
 
 /// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the
-/// largest approach at which F + F_m >= 0. Bonded, when they have not until the contact fraction
-/// reaches its limit; without equilibrium, when approach/max_steps end first.
+/// first approach at which F + F_m falls to 0. Bonded, when they have not until the contact
+/// fraction reaches its limit; without equilibrium, when approach/max_steps end first.
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
 
 /// The rest of surfaces none of whose contacts flow, not even as a patch.

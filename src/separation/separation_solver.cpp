@@ -56,6 +56,8 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listPullOffContacts(standing, solution);
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
+  if (solution.model.doubt == nullptr && settings.guidance != Guidance::kGuided && tilt_.isTipped())
+    solution.model.doubt = "the loads tip the plate further than the relief is high";
   solution.model = CurveStatement::of(
       solution, settings.interface.work_of_adhesion + settings.capillary.law().energy(0.0),
       areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
@@ -99,10 +101,10 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
 
 bool SeparationSolver::flow(const ContactProblem& problem) {
   const LoadOptions& load = problem.settings.load;
-  const PatchForces& forces = curve_.frame().patchForces();
-  const ContactTraction law = forces.law();
+  const ContactTraction law = curve_.frame().law();
   const bool is_reached = curve_.loading().status == Status::kEquilibrium;
-  FlowingPlaces::Press press = {forces.contactModulus(), forces.hardness(),
+  FlowingPlaces::Press press = {curve_.frame().patchForces().contactModulus(),
+                                curve_.frame().patchForces().hardness(),
                                 carriedAtRest(curve_.rest(), load),
                                 is_reached ? curve_.rest().approach : GapField::kInvalidGap};
   bool has_flowed = false;
@@ -124,8 +126,7 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
   attracts_more_ = has_flowed && carried > chosen::kDoubtedTimes * pressed_by &&
                    carried > chosen::kDoubtedTimes *
                                  carriedAtRest(restIfElastic(problem.gap, problem.settings), load);
-  // more than all cells bear at the hardness has no answer
-  is_overloaded_ = load.mechanical_load >= forces.hardness() * curve_.frame().area() ||
+  is_overloaded_ = places_that_flow_.isOverloaded() ||
                    (has_flowed && curve_.loading().status == Status::kBonded &&
                     load.mechanical_load > chosen::kDoubtedTimes * curve_.rest().carried);
   return has_flowed;

@@ -43,7 +43,6 @@ class SeparationSolver : public ContactSolver {
   /// All that a solution says of the surfaces at rest.
   /// @return the gap at rest, as flow leaves it
   const GapField& comeToRest(const ContactProblem& problem, ContactSolution& solution);
-  /// Whether loads press contacts so hard that places of them may flow.
   /// Whether places flow under the loads at rest; if so the curve is that of the changed surfaces
   /// from then on.
   bool flow(const ContactProblem& problem);

@@ -8,9 +8,13 @@
 namespace mems_stiction {
 namespace {
 
-/// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for
+/// Cells up to this start count as in contact, of z0: those without relief lie at z0 but for
 /// round-off.
 constexpr double kTouching = 1.0 + 1e-9;
+/// By which steps grow where water alone pulls, and so many z0 beyond the reach of the law.
+constexpr double kStepGrowth = 1.02;
+constexpr double kPastLaw = 8.0;
+
 /// What one spring does: traction and energy over the distance x = Z + r that it starts from, on
 /// the branch that comes from contact, and on the one that comes from apart.
 class Spring {
@@ -79,8 +83,7 @@ class Spring {
   double end_ = 0.0;
 };
 
-SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring,
-                   double range) {
+SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring) {
   SpringState mean;
   mean.height = height;
   std::size_t place = 0;
@@ -88,7 +91,6 @@ SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const 
     const Spring::Point point = spring.at(height + one.depth, place);
     mean.traction += one.share * point.traction;
     mean.energy += one.share * point.energy;
-    if (point.gap <= kTouching * range) mean.contact_fraction += one.share;
   }
   return mean;
 }
@@ -127,12 +129,44 @@ std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
   const double span = relief.back().depth - relief.front().depth;
   const Spring spring(law, field, water, stiffness, range - span, span);
   const double highest = spring.end() - relief.front().depth;
+  // water reaches many times further than the law
+  const double pull = (law.strength() + field.pressure(0.0) + water.pressure(0.0)) / stiffness;
+  const double by_law = deepest + span + pull + kPastLaw * range;
+  const bool is_far = water.energy(0.0) > 0.0 && by_law < highest;
+  const double even = is_far ? by_law : highest;
   std::vector<SpringState> branch;
-  for (int i = 0; i <= chosen::kParts; ++i) {
-    branch.push_back(
-        meanAt(deepest + (highest - deepest) * i / chosen::kParts, relief, spring, range));
+  for (int i = 0; i <= chosen::kParts; ++i)
+    branch.push_back(meanAt(deepest + (even - deepest) * i / chosen::kParts, relief, spring));
+  double step = (even - deepest) / chosen::kParts;
+  while (branch.back().height < highest) {
+    step *= kStepGrowth;
+    branch.push_back(meanAt(std::min(branch.back().height + step, highest), relief, spring));
   }
   return branch;
+}
+
+double repellingShare(std::vector<SpringState>::const_iterator rest,
+                      const std::vector<SpringState>& branch, double pressure,
+                      const std::vector<ReliefClass>& relief, double range) {
+  // the mean traction bears the pressure
+  const auto zeroBetween = [&](const SpringState& from, const SpringState& to) {
+    const double before = from.traction + pressure;
+    const double behind = to.traction + pressure;
+    return before < 0.0 && behind > 0.0
+               ? from.height + (to.height - from.height) * before / (before - behind)
+               : rest->height;
+  };
+  double height = rest->height;
+  if (rest->traction + pressure > 0.0 && rest != branch.begin()) {
+    height = zeroBetween(*(rest - 1), *rest);
+  } else if (rest + 1 != branch.end()) {
+    height = zeroBetween(*rest, *(rest + 1));
+  }
+  double share = 0.0;
+  for (const ReliefClass& one : relief) {
+    if (height + one.depth <= kTouching * range) share += one.share;
+  }
+  return share;
 }
 
 std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch,

@@ -42,10 +42,9 @@ class ReliefClasses {
 
 /// One height of the plane, per area.
 struct SpringState {
-  double height = 0.0;            ///< Z; z0 where the highest cell lies in the plane of contact [m]
-  double traction = 0.0;          ///< mean [Pa], attraction positive
-  double energy = 0.0;            ///< of springs and law [J/m^2], 0 apart
-  double contact_fraction = 0.0;  ///< cells that repel [-]
+  double height = 0.0;    ///< Z; z0 where the highest cell lies in the plane of contact [m]
+  double traction = 0.0;  ///< mean [Pa], attraction positive
+  double energy = 0.0;    ///< of springs and law [J/m^2], 0 apart
 };
 
 /// The branch from the deepest approach, mean of the relief in the plane of contact, to where the
@@ -60,6 +59,10 @@ std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
 /// The state of least energy + pressure Z, from which surfaces are drawn apart.
 std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch,
                                                 double pressure);
+/// Share of the cells that repel at rest, between the states of a branch: Z + r <= z0 [-].
+double repellingShare(std::vector<SpringState>::const_iterator rest,
+                      const std::vector<SpringState>& branch, double pressure,
+                      const std::vector<ReliefClass>& relief, double range);
 /// Largest traction from a state on [Pa].
 double strengthFrom(std::vector<SpringState>::const_iterator rest,
                     const std::vector<SpringState>& branch);

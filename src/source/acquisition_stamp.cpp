@@ -45,6 +45,7 @@ std::optional<std::int64_t> timeOf(const std::string& text) {
   } else {
     seconds = mktime(&parts);
   }
+  if (seconds < 0 || seconds > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
   return seconds * kSecond + (match[7].matched ? decimalsOf(match[7]) : 0);
 }
 

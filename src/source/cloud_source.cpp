@@ -39,8 +39,7 @@ CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
       publisher_(publisher),
       accounting_(accounting),
       transforms_(options.points.frame.empty() ? nullptr
-                                               : std::make_unique<TransformListener>(handle)),
-      thread_([this] { loop(); }) {
+                                               : std::make_unique<TransformListener>(handle)) {
   const bool has_frame = transforms_ != nullptr;
   const std::string layer = options_.points.layer;
   points_ = options_.source == SourceKind::kGridMap
@@ -49,6 +48,7 @@ CloudSource::CloudSource(const SourceOptions& options, ros::NodeHandle& handle,
                                               return gridMapPoints(map, layer, has_frame);
                                             })
                 : subscribe<sensor_msgs::PointCloud2>(handle, kPointsTopic, "cloud", cloudPoints);
+  thread_ = std::thread([this] { loop(); });
 }
 
 template <typename Message>

@@ -123,7 +123,11 @@ FolderWatch::FolderWatch(std::string folder, bool is_recursive, double settle_ti
       is_scan_(std::move(is_scan)),
       events_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)),
       stop_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-  if (stop_ < 0) throw Error(std::string("no event descriptor: ") + std::strerror(errno));
+  if (stop_ < 0) {
+    const int reason = errno;
+    if (events_ >= 0) close(events_);
+    throw Error(std::string("no event descriptor: ") + std::strerror(reason));
+  }
 }
 
 FolderWatch::~FolderWatch() {
@@ -140,7 +144,11 @@ bool FolderWatch::list(const std::string& folder, const std::string& prefix,
   const std::unique_ptr<DIR, int (*)(DIR*)> opened(opendir(folder.c_str()), closedir);
   if (!opened) return false;
   std::vector<std::string> folders;
-  while (const dirent* entry = readdir(opened.get())) {
+  for (;;) {
+    errno = 0;
+    const dirent* entry = readdir(opened.get());
+    if (entry == nullptr && errno != 0) return false;
+    if (entry == nullptr) break;
     const std::string own = entry->d_name;
     FoundFile file{folder + "/" + own, prefix + own, {}, {}};
     if (readStamp(file.path, file.stamp)) {
@@ -152,8 +160,9 @@ bool FolderWatch::list(const std::string& folder, const std::string& prefix,
   for (const std::string& own : folders) {
     std::error_code unknown;
     const fs::path below = folder + "/" + own;
-    if (fs::is_directory(fs::symlink_status(below, unknown)))
-      list(below.string(), prefix + own + "/", files);
+    if (!fs::is_directory(fs::symlink_status(below, unknown))) continue;
+    if (!list(below.string(), prefix + own + "/", files) && errno != ENOENT)
+      unread_.push_back(prefix + own + "/");
   }
   return true;
 }
@@ -161,6 +170,7 @@ bool FolderWatch::list(const std::string& folder, const std::string& prefix,
 std::string FolderWatch::look() {
   const Clock::time_point begin = Clock::now();
   std::vector<FoundFile> files;
+  unread_.clear();
   errno = 0;
   if (!list(folder_, "", files))
     return oneLine(folder_) + ": cannot be read: " + std::strerror(errno);
@@ -177,8 +187,16 @@ std::string FolderWatch::look() {
     scan.beside = neighbours.beside(file);
     update(scan, neighbours.related(file));
   }
-  gone_ += static_cast<std::size_t>(std::count_if(
-      before.begin(), before.end(), [](const auto& entry) { return !entry.second.is_settled; }));
+  for (auto& [name, entry] : before) {
+    const bool is_unread =
+        std::any_of(unread_.begin(), unread_.end(),
+                    [&](const std::string& folder) { return name.rfind(folder, 0) == 0; });
+    if (is_unread && entry.is_settled) {
+      entries_.emplace(name, std::move(entry));
+    } else if (!is_unread && !entry.is_settled) {
+      ++gone_;
+    }
+  }
   looked_ = Clock::now();
   last_look_ = std::chrono::duration<double>(looked_ - begin).count();
   return "";

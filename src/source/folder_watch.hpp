@@ -91,6 +91,7 @@ class FolderWatch {
   int stop_ = -1;
   std::map<int, std::string> watched_;    ///< folders by inotify's numbers, relative, "" or "a/b/"
   std::map<std::string, Entry> entries_;  ///< by relative name
+  std::vector<std::string> unread_;       ///< sub-folders at the last look: what was there stays
   std::set<std::string> open_;  ///< files that were written to and not closed since, relative
   std::size_t gone_ = 0;
   Clock::time_point looked_;

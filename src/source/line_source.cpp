@@ -43,11 +43,17 @@ ScanLine shifted(const cv::Mat& points, const cv::Vec3d& shift) {
   return line;
 }
 
+/// Any two stamps: those of ros::Time throw where they are 68 years apart [s].
+double secondsBetween(const ros::Time& from, const ros::Time& to) {
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
+                                    static_cast<std::int64_t>(from.toNSec()));
+}
+
 }  // namespace
 
 void JointTrack::add(const ros::Time& stamp, double position) {
   if (!positions_.empty() && stamp <= positions_.back().first) {
-    if ((positions_.back().first - stamp).toSec() < 1.0) return;
+    if (secondsBetween(stamp, positions_.back().first) < 1.0) return;
     positions_.clear();
   }
   positions_.emplace_back(stamp, position);
@@ -64,7 +70,8 @@ double JointTrack::at(const ros::Time& stamp) const {
   if (next == positions_.begin())
     throw NoTransform("no position of the joint before the stamp of the line");
   const auto before = std::prev(next);
-  const double share = (stamp - before->first).toSec() / (next->first - before->first).toSec();
+  const double share =
+      secondsBetween(before->first, stamp) / secondsBetween(before->first, next->first);
   return before->second + share * (next->second - before->second);
 }
 
@@ -187,7 +194,7 @@ LineSource::Placed LineSource::placed(const sensor_msgs::PointCloud2& line) {
     place = lines.joint_scale * joint_.at(line.header.stamp);
   } else if (!scan_->lines.empty()) {
     place = lines.motion == Motion::kSpeed
-                ? lines.speed * (line.header.stamp - scan_->first.stamp).toSec()
+                ? lines.speed * secondsBetween(scan_->first.stamp, line.header.stamp)
                 : lines.line_pitch * numberOf(line.header);
   }
   const double progress = place;

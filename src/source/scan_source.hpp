@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
 #include "ros/diagnostics.hpp"
+#include "ros/guarded_queue.hpp"
 #include "ros/master_watch.hpp"
 #include "source/cloud_source.hpp"
 #include "source/folder_source.hpp"
@@ -37,7 +37,7 @@ class ScanSource {
 
  private:
   const SourceOptions options_;
-  ros::CallbackQueue queue_;
+  GuardedQueue queue_;
   ros::NodeHandle handle_, private_handle_;
   ros::Publisher refused_;
   ros::ServiceServer loggers_;

@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include "errors/one_line.hpp"
 #include "files/content_hash.hpp"
@@ -46,10 +48,12 @@ std::vector<std::string> wordsOf(const std::string& line, std::size_t most) {
 template <typename Number>
 bool readInteger(const std::string& word, Number& number) {
   const char* end = word.data() + word.size();
-  return std::from_chars(word.data(), end, number).ptr == end && !word.empty();
+  const auto [rest, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && rest == end && !word.empty();
 }
 
-std::string wholeContent(int descriptor, const std::string& path) {
+/// - @p begins what the content begins with, or is the beginning of
+std::string wholeContent(int descriptor, const std::string& path, const std::string& begins) {
   std::string content;
   char piece[1 << 16];
   for (;;) {
@@ -58,6 +62,9 @@ std::string wholeContent(int descriptor, const std::string& path) {
     if (count < 0) failOnState(path, std::string("cannot be read: ") + std::strerror(errno));
     if (count == 0) return content;
     content.append(piece, static_cast<std::size_t>(count));
+    const std::size_t compared = std::min(content.size(), begins.size());
+    if (content.compare(0, compared, begins, 0, compared) != 0)
+      failOnState(path, "is not a file of scan_source");
   }
 }
 
@@ -75,7 +82,7 @@ SeenContents::SeenContents(const std::string& path) : path_(path) {
       failOnState(path, "another scan_source uses it; give each a file or folder of its own");
     }
     readAll();
-  } catch (const FileError&) {
+  } catch (...) {
     close(descriptor_);
     throw;
   }
@@ -91,14 +98,12 @@ void SeenContents::readAll() {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
     failOnState(path_, "must be a file");
-  const std::string content = wholeContent(descriptor_, path_);
   const std::string heading = kHeading;
-  if (content.size() < heading.size() && heading.compare(0, content.size(), content) == 0) {
+  const std::string content = wholeContent(descriptor_, path_, heading);
+  if (content.size() < heading.size()) {
     waiting_ = heading;  // a new file, or one whose first line a kill has cut off
     return;
   }
-  if (content.compare(0, heading.size(), heading) != 0)
-    failOnState(path_, "is not a file of scan_source");
   for (std::size_t begin = heading.size(); begin < content.size();) {
     const std::size_t end = content.find('\n', begin);
     if (end == std::string::npos) break;

@@ -7,6 +7,7 @@
 #include "loads/force_range.hpp"
 #include "mechanics/traction_law.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/rounding.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -20,15 +21,6 @@ constexpr double kFewPixels = 100.0;
 constexpr double kManyPixels = 500.0;
 /// By as much as this the shortest wave exceeds two pixels where a tip has drawn it.
 constexpr double kByTip = 1.01;
-
-/// To 1, 2 or 5 times a power of ten.
-double roundedDown(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double digit : {5.0, 2.0}) {
-    if (value >= digit * power) return digit * power;
-  }
-  return power;
-}
 
 std::string inUnits(double length) {
   return length < 0.9995e-6 ? shortNumber(length * 1e9, 3) + " nm"

@@ -51,7 +51,8 @@ class AdhesionModel {
 
   /// The surfaces of the last predict() once more, under the options of now: what follows from the
   /// surfaces alone, their gap and their rms heights, is not computed again.
-  /// - @p surfaces those of the last call; nobody has changed their pixels
+  /// - @p surfaces those of the last call; nobody has changed their pixels. Of another grid:
+  /// predict()
   Prediction predictAgain(const SurfacePair& surfaces);
 
  private:

@@ -25,6 +25,10 @@ struct Labelled {
   double first_gap = std::numeric_limits<double>::infinity();
 };
 
+const OverlapPatch& patchOf(const OverlapSweep& sweep, std::int32_t id) {
+  return sweep.patches()[static_cast<std::size_t>(sweep.livePlace(id))];
+}
+
 class SampleFrames : public testing::TestWithParam<samples::Frame> {};
 INSTANTIATE_TEST_SUITE_P(Frames, SampleFrames, testing::ValuesIn(samples::allFrames()));
 
@@ -66,7 +70,7 @@ TEST_P(SampleFrames, patchesAreThoseOfALabelling) {
         patch.first_gap = std::min(patch.first_gap, field.gap(cell));
       }
       for (const auto& [label, id] : patch_of_label) {
-        const OverlapPatch& patch = sweep.patch(id);
+        const OverlapPatch& patch = patchOf(sweep, id);
         const Labelled& expected = labelled[static_cast<std::size_t>(label - 1)];
         EXPECT_EQ(patch.cells, expected.cells);
         EXPECT_EQ(patch.first_gap, expected.first_gap);
@@ -101,7 +105,7 @@ TEST(OverlapSweep, loadsAreKeptWherePatchesMeet) {
   const double ridge = 4.0 * kNm;
   const auto load = [&] {
     double sum = 0.0;
-    for (const std::int32_t id : sweep.livePatches()) sum += sweep.patch(id).loadTerm(ridge);
+    for (const std::int32_t id : sweep.livePatches()) sum += patchOf(sweep, id).loadTerm(ridge);
     return sum;
   };
   sweep.advanceTo(ridge, order);
@@ -109,7 +113,7 @@ TEST(OverlapSweep, loadsAreKeptWherePatchesMeet) {
   const double before = load();
   sweep.advanceTo(ridge * (1.0 + 1e-9), order);
   ASSERT_EQ(sweep.livePatches().size(), 1U);
-  const OverlapPatch& both = sweep.patch(sweep.livePatches().front());
+  const OverlapPatch& both = patchOf(sweep, sweep.livePatches().front());
   EXPECT_EQ(both.summits, 2);
   EXPECT_EQ(both.cells, 5);
   EXPECT_EQ(both.first_cell, 1);
@@ -155,7 +159,7 @@ TEST(OverlapSweep, radiusAndLoadOfAParaboloidAreHertzs) {
   const double depth = 8.0 * kNm;
   sweep.advanceTo(depth, order);
   ASSERT_EQ(sweep.livePatches().size(), 1U);
-  const OverlapPatch& patch = sweep.patch(sweep.livePatches().front());
+  const OverlapPatch& patch = patchOf(sweep, sweep.livePatches().front());
   const double cell = pitch * pitch;
   // a circle of 126 pixels: its area on the grid is off by 1e-3
   EXPECT_NEAR(patch.cells * cell / (2.0 * kPi * radius * depth), 1.0, 2e-3);
@@ -190,8 +194,8 @@ TEST_P(SampleFrames, patchesDoNotDependOnTheStepsNorOnASweepAhead) {
   at_once.advanceTo(60 * range / 100.0, other_order);
   ASSERT_EQ(behind.livePatches().size(), at_once.livePatches().size());
   for (const std::int32_t id : at_once.livePatches()) {
-    const OverlapPatch& expected = at_once.patch(id);
-    const OverlapPatch& patch = behind.patch(behind.patchOf(field.cellAt(expected.first_cell)));
+    const OverlapPatch& expected = patchOf(at_once, id);
+    const OverlapPatch& patch = patchOf(behind, behind.patchOf(field.cellAt(expected.first_cell)));
     ASSERT_EQ(patch.cells, expected.cells);
     ASSERT_EQ(patch.summits, expected.summits);
     ASSERT_EQ(patch.first_cell, expected.first_cell);
@@ -219,7 +223,7 @@ TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
     for (int cell = 0; cell < field.cellCount(); ++cell)
       ASSERT_EQ(used.patchOf(field.cellAt(cell)), fresh.patchOf(field.cellAt(cell)));
     for (const std::int32_t id : used.livePatches())
-      EXPECT_EQ(used.patch(id).merged_term, fresh.patch(id).merged_term);
+      EXPECT_EQ(patchOf(used, id).merged_term, patchOf(fresh, id).merged_term);
   }
 }
 

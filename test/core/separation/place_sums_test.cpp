@@ -44,12 +44,15 @@ Options pressed() {
   return options;
 }
 
+constexpr double PlaceSums::*kSums[] = {
+    &PlaceSums::adhesion,  &PlaceSums::electrostatic, &PlaceSums::carried,  &PlaceSums::opened,
+    &PlaceSums::weight,    &PlaceSums::soft,          &PlaceSums::loss,     &PlaceSums::loss_alone,
+    &PlaceSums::edge_loss, &PlaceSums::edge_slope,    &PlaceSums::capillary};
+
 void expectEqual(const PlaceSums& a, const PlaceSums& b, double relative) {
   EXPECT_EQ(a.contact_count, b.contact_count);
-  for (double PlaceSums::*sum :
-       {&PlaceSums::adhesion, &PlaceSums::electrostatic, &PlaceSums::carried, &PlaceSums::opened,
-        &PlaceSums::weight, &PlaceSums::soft, &PlaceSums::loss, &PlaceSums::loss_alone,
-        &PlaceSums::edge_loss, &PlaceSums::edge_slope}) {
+  for (const auto sum : kSums) {
+    if (sum == &PlaceSums::capillary) continue;
     EXPECT_NEAR(a.*sum, b.*sum, relative * std::abs(b.*sum));
   }
   // far from contact, cells that water fills are counted by the bucket
@@ -68,7 +71,9 @@ TEST(PlaceSums, ofTilesAddUpToThoseOfTheWhole) {
   for (const double approach : {-0.2e-9, 0.5e-9, 1.5e-9}) {
     SCOPED_TRACE(approach);
     PlaceSums sums = upper.at(approach, 0.1e-9);
-    sums += lower.at(approach, 0.1e-9);
+    const PlaceSums below = lower.at(approach, 0.1e-9);
+    sums.contact_count += below.contact_count;
+    for (const auto sum : kSums) sums.*sum += below.*sum;
     const PlaceSums expected = whole.at(approach, 0.1e-9);
     // buckets of the tiles lie elsewhere than those of the whole
     expectEqual(sums, expected, 1e-4);

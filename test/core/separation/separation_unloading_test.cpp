@@ -201,7 +201,7 @@ TEST(Decision, aTallSummitKeepsSurfacesApartThatWouldHoldIfTheyMet) {
   const Options options = elastic(5e9);
   const HeightMap surface(heights, 2e-9, 2e-9);
   const Prediction prediction = AdhesionModel(options).predict(surface);
-  EXPECT_LT(prediction.flattening_ratio, 0.75);
+  EXPECT_LT(prediction.flattening_ratio, chosen::kConformingRatio);
   EXPECT_FALSE(prediction.is_conforming);
   const Ratios ratios = againstHalfSpace(surface, options);
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.15);
@@ -217,10 +217,11 @@ TEST(Decision, candidatesMeetWhereItFalls) {
   };
   const double amplitude = 0.5e-9;
   const double ratio = AdhesionModel(options).predict(waveOf(amplitude)).flattening_ratio;
-  for (const double wanted : {0.74, 0.76}) {
+  for (const double wanted : {chosen::kConformingRatio - 0.01, chosen::kConformingRatio + 0.01}) {
     SCOPED_TRACE(wanted);
     const HeightMap wave = waveOf(amplitude * std::sqrt(wanted / ratio));
-    EXPECT_EQ(AdhesionModel(options).predict(wave).is_conforming, wanted < 0.75);
+    EXPECT_EQ(AdhesionModel(options).predict(wave).is_conforming,
+              wanted < chosen::kConformingRatio);
     const Ratios ratios = againstHalfSpace(wave, options);
     EXPECT_NEAR(ratios.pull_off, 1.0, 0.07);
     EXPECT_NEAR(ratios.work, 1.0, 0.2);

@@ -27,8 +27,7 @@ TEST(SpringContact, aPlaneHasTheStrengthAndTheEnergyOfTheLaw) {
   const auto rest = restOf(branch, 0.0);
   EXPECT_NEAR(rest->energy, -0.05, 1e-4 * 0.05);
   EXPECT_NEAR(strengthFrom(rest, branch) / traction.strength(), 1.0, 1e-3);
-  EXPECT_EQ(rest->contact_fraction, 1.0);
-  EXPECT_EQ(branch.back().contact_fraction, 0.0);
+  EXPECT_EQ(repellingShare(rest, branch, 0.0, {{0.0, 1.0}}, traction.range()), 1.0);
 }
 
 TEST(SpringContact, waterAddsItsPressureAndItsEnergy) {
@@ -38,7 +37,6 @@ TEST(SpringContact, waterAddsItsPressureAndItsEnergy) {
   const auto rest = restOf(branch, 0.0);
   EXPECT_NEAR(rest->energy, -(0.05 + water.energy(0.0)), 1e-3 * water.energy(0.0));
   EXPECT_NEAR(strengthFrom(rest, branch) / (traction.strength() + water.pressure()), 1.0, 1e-3);
-  EXPECT_EQ(branch.back().contact_fraction, 0.0);
   // drawn out on springs it holds to the same width, and no less before
   const double stiffness = 2.0 * water.pressure() / water.gapLimit();
   const auto soft = springBranch({{0.0, 1.0}}, traction, kNoField, water, stiffness);
@@ -46,6 +44,33 @@ TEST(SpringContact, waterAddsItsPressureAndItsEnergy) {
   EXPECT_NEAR(soft.back().height, width + water.pressure() / stiffness, 0.02 * width);
   EXPECT_NEAR(strengthFrom(restOf(soft, 0.0), soft) / (traction.strength() + water.pressure()), 1.0,
               0.01);
+}
+
+TEST(SpringContact, waterThatReachesFarHidesNoneOfTheLaw) {
+  const ContactTraction traction = law();
+  const std::vector<ReliefClass> relief = {{0.0, 0.5}, {0.3e-9, 0.5}};
+  const double stiffness = 1e19;
+  const WaterLaw damp(0.3, 0.072, 0.0, 298.15, 18.07e-6, 0.0);
+  const auto dry = springBranch(relief, traction, kNoField, WaterLaw(), stiffness);
+  const double of_law = strengthFrom(restOf(dry, 0.0), dry);
+  for (const double humidity : {0.9, 0.999, 0.99999}) {
+    SCOPED_TRACE(humidity);
+    const WaterLaw water(humidity, 0.072, 0.0, 298.15, 18.07e-6, 0.0);
+    ASSERT_GT(water.gapLimit(), damp.gapLimit());
+    const auto branch = springBranch(relief, traction, kNoField, water, stiffness);
+    const double strength = strengthFrom(restOf(branch, 0.0), branch);
+    EXPECT_NEAR(strength / (of_law + water.pressure()), 1.0, 0.01);
+  }
+}
+
+TEST(SpringContact, halfOfSoftSurfacesIsPressedWhateverTheStiffness) {
+  const ContactTraction traction = law();
+  const std::vector<ReliefClass> relief = {{0.0, 0.25}, {2e-9, 0.25}, {3e-9, 0.25}, {5e-9, 0.25}};
+  for (const double stiffness : {1e14, 1e15, 3e15}) {
+    SCOPED_TRACE(stiffness);
+    const auto branch = springBranch(relief, traction, kNoField, WaterLaw(), stiffness);
+    EXPECT_EQ(repellingShare(restOf(branch, 0.0), branch, 0.0, relief, traction.range()), 0.5);
+  }
 }
 
 TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
