@@ -130,7 +130,8 @@ std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief,
   const Spring spring(law, field, water, stiffness, range - span, span);
   const double highest = spring.end() - relief.front().depth;
   // water reaches many times further than the law
-  const double pull = (law.strength() + field.pressure(0.0) + water.pressure(0.0)) / stiffness;
+  const double by_field = field.isOn() ? field.pressure(0.0) : 0.0;
+  const double pull = (law.strength() + by_field + water.pressure(0.0)) / stiffness;
   const double by_law = deepest + span + pull + kPastLaw * range;
   const bool is_far = water.energy(0.0) > 0.0 && by_law < highest;
   const double even = is_far ? by_law : highest;

@@ -81,6 +81,8 @@ TEST(RandomOptions, TotalEnergyIsANumberAndNothingIsInfinite) {
         // infinite without adhesion, or without a range of it, as documented
         const std::string figure = declared.name;
         if (figure == "adhesion_parameter" || figure == "median_tabor_parameter") return;
+        // of surfaces that have flowed until they are flat
+        if (figure == "median_composite_radius" && prediction.contact_fraction == 1.0) return;
         EXPECT_FALSE(std::isinf(value)) << figure << ", seed " << seed << ": " << draw.text();
       }
     });

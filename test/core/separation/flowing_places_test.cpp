@@ -156,13 +156,32 @@ TEST(FlowingPlaces, areThoseOfTheHalfSpaceWithoutAttraction) {
   }
 }
 
-TEST(FlowingPlaces, answerNothingWhereAllCellsAtTheHardnessBearLess) {
+TEST(FlowingPlaces, areFlatWhereAllCellsAtTheHardnessBearLess) {
   const GapField gap = gapOf(gaussianFrame(1e-9, 40));
   FlowingPlaces places;
   const double area = 64 * 64 * 16e-18;
-  EXPECT_FALSE(
-      places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1.01e9 * area, GapField::kInvalidGap}));
-  EXPECT_FALSE(places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1e9 * area, 0.0}));
+  for (const double approach : {GapField::kInvalidGap, 0.0}) {
+    EXPECT_TRUE(places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 1.01e9 * area, approach}));
+    EXPECT_TRUE(places.isOverloaded());
+    EXPECT_NEAR(places.changed().largestGap(), 0.0, 1e-20);
+  }
+  EXPECT_TRUE(places.press(gap, rigidLaw(), {kFlowModulus, 1e9, 0.99e9 * area, 0.0}));
+  EXPECT_FALSE(places.isOverloaded());
+}
+
+TEST(SeparationFlow, forceDoesNotFallWhereTheHardnessIsReached) {
+  const HeightMap surface = gaussianFrame(1e-9, 3);
+  Options options = separation_cases::elastic(50e9);
+  options.lower.hardness = options.upper.hardness = 2e9;
+  double before = 0.0;
+  for (const double share : {0.9, 0.99, 0.996, 0.998, 0.9995, 1.0, 1.2}) {
+    SCOPED_TRACE(share);
+    options.load.mechanical_load = share * 2e9 * 64 * 64 * 16e-18;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    EXPECT_GT(prediction.pull_off_force, 0.9 * before);
+    EXPECT_NE(prediction.model.doubt, nullptr);
+    before = prediction.pull_off_force;
+  }
 }
 
 TEST(SeparationFlow, contactsThatHaveGrownTogetherPartAsTheyHaveFlowed) {

@@ -71,9 +71,12 @@ TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
   ContactCurve curve;
   curve.comeToRest(field, options);
   curve.part();
-  EXPECT_EQ(prediction.pull_off_force, curve.byContacts().force);
-  EXPECT_EQ(prediction.apparent_work_of_adhesion, curve.byContacts().work);
-  EXPECT_EQ(prediction.work_exponents.hamaker, curve.byContacts().work_exponents.hamaker);
+  // which cells are in order shows in the last digits
+  constexpr double kLastDigits = 1e-5;
+  const Unloading& alone = curve.byContacts();
+  EXPECT_NEAR(prediction.pull_off_force / alone.force, 1.0, kLastDigits);
+  EXPECT_NEAR(prediction.apparent_work_of_adhesion / alone.work, 1.0, kLastDigits);
+  EXPECT_NEAR(prediction.work_exponents.hamaker, alone.work_exponents.hamaker, kLastDigits);
 }
 
 TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {

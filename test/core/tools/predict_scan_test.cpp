@@ -293,8 +293,9 @@ TEST_F(PredictScan, WhatAScanDoesNotShowStandsOnceWhereTheVerdictGivesItAsItsRea
 TEST_F(PredictScan, WithoutOptionsItSaysWhatPeopleAskFor) {
   const std::string device = folder_.write(
       "d.yaml",
-      kDevice + std::string("device_force: {enabled: false}\nhalf_space: {enabled: false}\n"));
-  const std::string call = "-c " + device + " --load 1 --pitch 20e-9 " + sphere();
+      kDevice + std::string("device_force: {enabled: false}\nhalf_space: {enabled: false}\n"
+                            "interface: {surface_tension: 0.05}\n"));
+  const std::string call = "-c " + device + " --load 0.03 --pitch 20e-9 " + sphere();
   const Outcome outcome = run(call);
   ASSERT_EQ(outcome.status, 0);
   const nlohmann::json record = nlohmann::json::parse(run("--json " + call).output);
