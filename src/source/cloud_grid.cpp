@@ -87,8 +87,8 @@ HeightMap mapOnOwnGrid(const cv::Mat& points, const Grid& grid) {
   return {heights, std::abs(grid.x.step), std::abs(grid.y.step)};
 }
 
-/// Distances of measured neighbours along one coordinate, in whichever direction of the order it
-/// changes most.
+/// Distances of measured neighbours along one coordinate, of both directions of the order: a cell
+/// of this size has a point of the lattice wherever it lies, however the lattice is turned.
 double coveringPitch(const cv::Mat& points, int coordinate) {
   std::vector<double> along_rows, along_cols;
   for (int row = 0; row < points.rows; ++row) {
@@ -103,15 +103,15 @@ double coveringPitch(const cv::Mat& points, int coordinate) {
       if (row + 1 < points.rows) add(points.at<cv::Vec3d>(row + 1, col), along_rows);
     }
   }
-  double largest = 0.0;
+  double both = 0.0;
   for (std::vector<double>* distances : {&along_rows, &along_cols}) {
     if (distances->empty()) continue;
     const auto place =
         distances->begin() + static_cast<std::ptrdiff_t>(kCoveredShare * (distances->size() - 1));
     std::nth_element(distances->begin(), place, distances->end());
-    largest = std::max(largest, *place);
+    both += *place;
   }
-  return largest;
+  return both;
 }
 
 /// The plane z = a + b x + c y nearest to the points, about their middle.
@@ -207,9 +207,9 @@ double neededPitch(const char* key, double stated, const cv::Mat& points, int co
   const bool has_order = points.rows > 1 && points.cols > 1;
   const double own = has_order ? coveringPitch(points, coordinate) : 0.0;
   if (own > 0.0) return own;
-  throw SurfaceError(
-      std::string("the cloud has no order of rows and columns from which a pitch follows: state ") +
-      key);
+  throw SurfaceError(std::string(has_order ? "the points that are measured lie in one line"
+                                           : "the cloud has no order of rows and columns") +
+                     ", from which no pitch follows: state " + key);
 }
 
 }  // namespace

@@ -115,7 +115,20 @@ void CloudSource::loop() {
   }
 }
 
+void CloudSource::lookUp(Waiting& one) const {
+  if (!transforms_ || one.transform || one.header.stamp.isZero()) return;
+  try {
+    one.transform = transforms_->at(options_.points.frame, one.header.frame_id, one.header.stamp);
+  } catch (const std::exception&) {  // it may still come, and is refused with its reason if not
+  }
+}
+
 bool CloudSource::work() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (Waiting& one : line_) lookUp(one);
+    if (at_hand_) lookUp(*at_hand_);
+  }
   const std::string waits_for = publisher_.waitsFor();
   accounting_.hindered(waits_for);
   if (!waits_for.empty()) return false;
@@ -150,8 +163,9 @@ bool CloudSource::work() {
 void CloudSource::publish(const Waiting& one) {
   const std_msgs::Header& header = one.header;
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  std::optional<geometry_msgs::Transform> transform;  // before work that is in vain without it
-  if (transforms_) transform = transforms_->at(options_.points.frame, header.frame_id, stamp);
+  std::optional<geometry_msgs::Transform> transform = one.transform;
+  if (transforms_ && !transform)  // before work that is in vain without it
+    transform = transforms_->at(options_.points.frame, header.frame_id, stamp);
   cv::Mat points = one.points();
   dropUnmeasured(points, options_.points.map);
   if (transform) transformPoints(*transform, points);

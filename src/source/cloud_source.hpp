@@ -44,6 +44,7 @@ class CloudSource {
     std::string name;                 ///< in the books
     std::function<cv::Mat()> points;  ///< throws SurfaceError
     ros::SteadyTime since;
+    std::optional<geometry_msgs::Transform> transform = {};  ///< tf forgets, while it waits
   };
 
   template <typename Message>
@@ -55,6 +56,8 @@ class CloudSource {
   void loop();
   /// @return whether there was something to do
   bool work();
+  /// Its transform, if it is wanted and there.
+  void lookUp(Waiting& one) const;
   /// @throw NoTransform while it is not there; SurfaceError with a reason to refuse the message
   void publish(const Waiting& one);
 

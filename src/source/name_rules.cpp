@@ -123,6 +123,7 @@ std::string NameRules::identify(const std::string& name, ScanIdentity& identity)
     if (match[group].matched && !isStated(identity.*member)) identity.*member = match[group].str();
   }
   if (isStated(identity.site_x) || isStated(identity.site_y)) return "";
+  ScanIdentity site;  // one place of two is none
   for (const auto& [group, member] : kSiteGroups) {
     if (!match[group].matched) continue;
     const std::string text = match[group].str();
@@ -130,8 +131,11 @@ std::string NameRules::identify(const std::string& name, ScanIdentity& identity)
     const double number = plainStrtod(text.c_str(), &end);
     if (text.empty() || *end != '\0')
       return std::string("has a ") + group + " that is no number: '" + text + "'";
-    identity.*member = number * site_scale_;
+    site.*member = number * site_scale_;
   }
+  if (isStated(site.site_x) != isStated(site.site_y)) return "has one of site_x and site_y alone";
+  identity.site_x = site.site_x;
+  identity.site_y = site.site_y;
   return "";
 }
 

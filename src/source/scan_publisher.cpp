@@ -20,6 +20,9 @@ namespace {
 /// roscpp drops the oldest message of a full queue and counts nothing; max_ahead bounds this one.
 constexpr std::uint32_t kUnlimitedQueue = 0;
 
+/// In which nodes find the topics of one that has come.
+const ros::WallDuration kJoins(2.0);
+
 std::vector<std::string> fullNames(const ros::NodeHandle& handle, const std::string& list) {
   std::vector<std::string> names = wordsOf(replaced(list, ",", " "));
   for (std::string& name : names) name = handle.resolveName(name);
@@ -34,6 +37,7 @@ ScanPublisher::ScanPublisher(ros::NodeHandle& handle, const SourceOptions& optio
       listener_(options.listener.empty() ? "" : handle.resolveName(options.listener)),
       audience_(fullNames(handle, options.audience)),
       audience_until_(ros::SteadyTime::now() + ros::WallDuration(options.audience_timeout)),
+      has_audience_(!audience_.empty()),
       height_(advertise<sensor_msgs::Image>(handle, kHeightTopic, height_listeners_)),
       info_(advertise<ScanInfo>(handle, kScanInfoTopic, info_listeners_)) {
   if (max_ahead_ == 0) return;
@@ -52,6 +56,7 @@ ros::Publisher ScanPublisher::advertise(ros::NodeHandle& handle, const char* top
       [this, &listeners](const ros::SingleSubscriberPublisher& one) {
         const std::lock_guard<std::mutex> lock(mutex_);
         listeners.insert(one.getSubscriberName());
+        last_come_ = ros::SteadyTime::now();
       };
   const ros::SubscriberStatusCallback go = [this,
                                             &listeners](const ros::SingleSubscriberPublisher& one) {
@@ -95,9 +100,11 @@ std::string ScanPublisher::waitsFor() {
   const std::string missing = missingListener();
   if (!missing.empty())
     return missing + " does not listen to " + info_.getTopic() + " yet: scans wait";
-  if (max_ahead_ == 0 || predictions_.getNumPublishers() == 0) return "";
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::SteadyTime now = ros::SteadyTime::now();
+  if (has_audience_ && now - last_come_ < kJoins)
+    return "a listener has just come: scans wait until others hear its answers";
+  if (max_ahead_ == 0 || predictions_.getNumPublishers() == 0) return "";
   for (auto one = unanswered_.begin(); one != unanswered_.end();) {
     one = (now - one->second).toSec() > answer_timeout_ ? unanswered_.erase(one) : std::next(one);
   }

@@ -53,6 +53,8 @@ class ScanPublisher {
   const std::string listener_;         ///< its full name; empty = anybody
   std::vector<std::string> audience_;  ///< their full names; empty once all have listened
   const ros::SteadyTime audience_until_;
+  const bool has_audience_;
+  ros::SteadyTime last_come_;  ///< a listener: the audience may still have to join its answers
   std::mutex mutex_;
   std::multiset<std::string> height_listeners_, info_listeners_;  ///< names of nodes
   ros::Publisher height_, info_;

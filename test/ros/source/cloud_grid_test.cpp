@@ -137,6 +137,26 @@ TEST(CloudGrid, UnevenPointsComeOnAGridThatTheyFill) {
   EXPECT_LT(map.surface.pitchX(), 2.0 * clouds::kPitchX);
 }
 
+TEST(CloudGrid, ALatticeThatIsTurnedLeavesNoCellWithin) {
+  constexpr int kSide = 60;
+  constexpr double kStep = 1e-5;
+  for (const double degrees : {10.0, 30.0, 45.0, 80.0}) {
+    SCOPED_TRACE(degrees);
+    const double c = std::cos(degrees * CV_PI / 180.0);
+    const double s = std::sin(degrees * CV_PI / 180.0);
+    cv::Mat points(kSide, kSide, CV_64FC3);
+    for (int row = 0; row < kSide; ++row) {
+      for (int col = 0; col < kSide; ++col)
+        points.at<cv::Vec3d>(row, col) = {kStep * (c * col - s * row), kStep * (s * col + c * row),
+                                          1e-9};
+    }
+    const HeightMap map = mapOfPoints(points, {}).surface;
+    EXPECT_LE(map.pitchX(), 1.4143 * kStep);
+    const cv::Rect middle(map.cols() / 2 - 8, map.rows() / 2 - 8, 16, 16);
+    EXPECT_TRUE(cv::checkRange(map.heights()(middle)));
+  }
+}
+
 TEST(CloudGrid, APitchThatIsStatedIsThatOfTheMap) {
   CloudOptions options;
   options.pitch_x = options.pitch_y = 70e-6;

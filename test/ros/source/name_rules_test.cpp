@@ -59,6 +59,18 @@ TEST(NameRules, SaysWhyANameStatesNothing) {
   EXPECT_NE(rules.identify("part1_1.2.3_4.di", identity).find("1.2.3"), std::string::npos);
 }
 
+TEST(NameRules, OneOfTwoPlacesStatesNone) {
+  const NameRules rules(
+      "", R"((?<part_id>[A-Z]+)(?:_x(?<site_x>[\d.]+))?(?:_y(?<site_y>[-\d.]+))?\.di)", 1e-3);
+  for (const char* name : {"B_x1.di", "B_y1.di", "B_x1_y-3...di"}) {
+    SCOPED_TRACE(name);
+    ScanIdentity identity;
+    EXPECT_NE(rules.identify(name, identity).find("site"), std::string::npos);
+    EXPECT_EQ(identity.part_id, "B");
+    EXPECT_TRUE(std::isnan(identity.site_x) && std::isnan(identity.site_y));
+  }
+}
+
 TEST(NameRules, RefusesExpressionsThatNameNothingKnown) {
   for (const char* pattern : {"[0-9]+", "(?<part>x)", "(?<part_id>[", "(?<=a)b"}) {
     EXPECT_THROW(NameRules("", pattern, 1e-3), OptionsError) << pattern;
