@@ -69,6 +69,15 @@ std::vector<std::string> complaintsOf(const SourceOptions& options) {
   return lines;
 }
 
+/// What is stated of files in vain: points are in metres, on the grid of pitch_x and pitch_y.
+void complainOfFiles(const std::vector<std::string>& own, std::vector<std::string>& complaints) {
+  for (const char* key : {"scan/pitch_x", "scan/pitch_y", "scan/height_scale"}) {
+    if (std::find(own.begin(), own.end(), key) == own.end()) continue;
+    complaints.push_back(key + std::string(": is of files, and points are in metres: leave it out "
+                                           "(pitch_x and pitch_y state the grid of a map)"));
+  }
+}
+
 }  // namespace
 
 void FolderOptions::describe(OptionVisitor& visitor) {
@@ -177,6 +186,7 @@ void SourceOptions::describe(OptionVisitor& visitor) {
 }
 
 SourceOptions statedSourceOptions(YAML::Node tree) {
+  const std::vector<std::string> own = keysOf(tree);
   takeScanOfConfiguration(tree);
   joinList(tree, "patterns");
   joinList(tree, "audience");
@@ -187,6 +197,7 @@ SourceOptions statedSourceOptions(YAML::Node tree) {
     options.identity.describe(visitor);
   });
   if (violations.empty()) violations = complaintsOf(options);
+  if (options.source != SourceKind::kFolder) complainOfFiles(own, violations);
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return options;
 }

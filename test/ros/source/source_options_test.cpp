@@ -36,6 +36,16 @@ TEST(SourceOptions, ScansOfTheNodesConfigurationServeBehindItsOwn) {
   }
 }
 
+TEST(SourceOptions, PointsAreInMetresAndTakeNothingThatIsOfFiles) {
+  const std::string config = "scan: {pitch_x: 2e-8, pitch_y: 3e-8, height_scale: 1e-9}";
+  EXPECT_NO_THROW(statedSourceOptions(withConfiguration("source: cloud", config)));
+  for (const char* stated : {"scan: {height_scale: 1e-3}", "scan/pitch_x: 1e-6"}) {
+    EXPECT_THROW(statedSourceOptions(YAML::Load(std::string("source: cloud\n") + stated)),
+                 OptionsError)
+        << stated;
+  }
+}
+
 TEST(SourceOptions, AConfigurationThatCannotBeReadIsNamed) {
   try {
     statedSourceOptions(withConfiguration("folder: /data", "scan: {pitch_x"));
