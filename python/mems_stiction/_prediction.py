@@ -179,8 +179,8 @@ class Prediction(_core.PredictionFigures, ReadOnly):
     @property
     def curve(self) -> np.recarray:
         """Force over displacement: displacement [m] past first touch, force [N] (attraction
-        positive), is_separation (of the way out, where that differs from the way in). Empty if the formulation does not follow the
-        force."""
+        positive), is_separation (of the way out, where that differs from the way in). Empty if the
+        formulation does not follow the force."""
         return self._cached("curve", lambda: records_of(self._core.curve))  # type: ignore[union-attr]
 
     @property
