@@ -38,8 +38,7 @@ std::string alwaysOffered() { return ros::this_node::getName() + "/set_logger_le
 std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
   std::vector<XmlRpcValue> elements;
   elements.reserve(static_cast<std::size_t>(array.size()));
-  // NOLINTNEXTLINE(modernize-loop-convert): the begin() of a value is that of a struct, not of an
-  // array
+  // NOLINTNEXTLINE(modernize-loop-convert): begin() of a value is that of a struct
   for (int i = 0; i < array.size(); ++i) elements.push_back(array[i]);
   return elements;
 }

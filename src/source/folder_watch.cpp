@@ -187,13 +187,13 @@ std::string FolderWatch::look() {
     scan.beside = neighbours.beside(file);
     update(scan, neighbours.related(file));
   }
-  for (auto& [name, entry] : before) {
+  for (auto& one : before) {
     const bool is_unread =
         std::any_of(unread_.begin(), unread_.end(),
-                    [&](const std::string& folder) { return name.rfind(folder, 0) == 0; });
-    if (is_unread && entry.is_settled) {
-      entries_.emplace(name, std::move(entry));
-    } else if (!is_unread && !entry.is_settled) {
+                    [&](const std::string& folder) { return one.first.rfind(folder, 0) == 0; });
+    if (is_unread && one.second.is_settled) {
+      entries_.insert(std::move(one));
+    } else if (!is_unread && !one.second.is_settled) {
       ++gone_;
     }
   }
