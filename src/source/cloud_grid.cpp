@@ -226,13 +226,17 @@ void dropUnmeasured(cv::Mat& points, const CloudOptions& options) {
   }
 }
 
-CloudMap mapOfPoints(const cv::Mat& stated, const CloudOptions& options) {
-  cv::Mat points = stated.clone();
+cv::Vec3d axisSigns(const CloudOptions& options) {
   const bool turns_y =
       options.mirror == Mirror::kY || (options.mirror == Mirror::kAuto && options.is_up_negative);
-  const cv::Scalar signs(options.mirror == Mirror::kX ? -1.0 : 1.0, turns_y ? -1.0 : 1.0,
-                         options.is_up_negative ? -1.0 : 1.0);
-  if (signs != cv::Scalar(1.0, 1.0, 1.0)) cv::multiply(points, signs, points);
+  return {options.mirror == Mirror::kX ? -1.0 : 1.0, turns_y ? -1.0 : 1.0,
+          options.is_up_negative ? -1.0 : 1.0};
+}
+
+CloudMap mapOfPoints(const cv::Mat& stated, const CloudOptions& options) {
+  cv::Mat points = stated.clone();
+  const cv::Vec3d signs = axisSigns(options);
+  if (signs != cv::Vec3d::all(1.0)) cv::multiply(points, cv::Scalar(signs), points);
   if (measuredPoints(points).empty()) {
     throw SurfaceError("none of the " + std::to_string(points.total()) + " points is measured");
   }

@@ -43,6 +43,9 @@ struct CloudMap {
 /// z becomes NaN where it is not finite, or beyond the limits, or x or y are not finite.
 void dropUnmeasured(cv::Mat& points, const CloudOptions& options);
 
+/// Factors 1 or -1 of x, y and z, by `up` and `mirror`.
+cv::Vec3d axisSigns(const CloudOptions& options);
+
 /// - @p points rows x cols of CV_64FC3: x, y, z [m]; z = NaN is not measured. One row or column: no
 /// order is known.
 /// @throw SurfaceError if there is no measured point, no pitch, or no area.

@@ -188,7 +188,10 @@ double firstStated(std::initializer_list<double> pitches) {
                        [](double pitch) { return pitch > 0.0; });
 }
 
-std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines) {
+/// Their axes are turned round where the options say so.
+std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines,
+                                      const CloudOptions& options) {
+  const cv::Vec3d signs = axisSigns(options);
   std::vector<ScanLine> some;
   for (const ScanLine& line : lines) {
     ScanLine located;  // a point without a place lends none to its line
@@ -197,7 +200,9 @@ std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines) {
     });
     const bool is_measured = std::any_of(located.begin(), located.end(),
                                          [](const auto& point) { return !std::isnan(point[2]); });
-    if (is_measured) some.push_back(std::move(located));
+    if (!is_measured) continue;
+    for (cv::Vec3d& point : located) point = point.mul(signs);
+    some.push_back(std::move(located));
   }
   return some;
 }
@@ -205,7 +210,7 @@ std::vector<ScanLine> linesWithPoints(const std::vector<ScanLine>& lines) {
 }  // namespace
 
 LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& options) {
-  const std::vector<ScanLine> lines = linesWithPoints(stated);
+  const std::vector<ScanLine> lines = linesWithPoints(stated, options.map);
   if (lines.size() < 2) {
     throw SurfaceError("of " + std::to_string(stated.size()) + " lines " +
                        std::to_string(lines.size()) + " have a measured point, must be at least 2");
@@ -221,7 +226,10 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
   const double most = std::max(options.map.grid_tolerance * line_pitch, 1e-12);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!liesAcross(lines[i], along, stated_places[i], most)) {
-      return {mapOfPoints(asPoints(lines), options.map), 0, 0};
+      CloudOptions turned = options.map;
+      turned.is_up_negative = false;
+      turned.mirror = Mirror::kNone;
+      return {mapOfPoints(asPoints(lines), turned), 0, 0};
     }
   }
   LineMap result;
