@@ -18,6 +18,12 @@ constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 /// Lines nearer than this share of their pitch are at one place.
 constexpr double kOnePlace = 0.25;
 
+/// A step this short against the mean step is noise of a stage that stands.
+constexpr double kNoStep = 0.05;
+
+/// More lost lines for each that came tell of a wrong pitch.
+constexpr double kMostLost = 10.0;
+
 /// Neighbours further apart, over the pitch, have a gap between them that is not measured.
 constexpr double kWidestGap = 1.75;
 
@@ -30,15 +36,48 @@ struct Samples {
   std::vector<double> places, heights;
 };
 
-double medianStep(std::vector<double> places) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    if (places[i] > places[i - 1]) steps.push_back(places[i] - places[i - 1]);
-  }
+/// A line with its place along the motion.
+struct PlacedLine {
+  double place;
+  Samples samples;  ///< over the coordinate along the line
+};
+
+/// 0 of none.
+double medianOf(std::vector<double> steps) {
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
+}
+
+void addSteps(const std::vector<double>& places, std::vector<double>& steps) {
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i] > places[i - 1]) steps.push_back(places[i] - places[i - 1]);
+  }
+}
+
+/// Median distance of ascending places. Where a stage stands, places are nearly one, and the mean
+/// step grows as they are put together.
+double lineStep(std::vector<double> places) {
+  std::size_t before = 0;
+  while (places.size() > 1 && places.size() != before) {
+    before = places.size();
+    const double least =
+        kNoStep * (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+    places.erase(std::unique(places.begin(), places.end(),
+                             [&](double one, double other) { return other - one < least; }),
+                 places.end());
+  }
+  std::vector<double> steps;
+  addSteps(places, steps);
+  return medianOf(std::move(steps));
+}
+
+/// Median distance of the points along all lines: a line with few points has one vote for each.
+double pointStep(const std::vector<PlacedLine>& lines) {
+  std::vector<double> steps;
+  for (const PlacedLine& line : lines) addSteps(line.samples.places, steps);
+  return medianOf(std::move(steps));
 }
 
 /// Where a place lies between samples: the one below, and the share of the next; a negative share:
@@ -70,12 +109,6 @@ std::vector<double> evenPlaces(double first, double last, double pitch) {
     places[i] = first + static_cast<double>(i) * pitch;
   return places;
 }
-
-/// A line with its place along the motion.
-struct PlacedLine {
-  double place;
-  Samples samples;  ///< over the coordinate along the line
-};
 
 /// The coordinate along which the points of lines differ most; 0 or 1.
 int coordinateAlong(const std::vector<ScanLine>& lines) {
@@ -129,13 +162,21 @@ std::size_t dropDoubled(std::vector<PlacedLine>& lines, double pitch) {
   return before - lines.size();
 }
 
-std::size_t lostBetween(const std::vector<double>& places, double pitch) {
-  std::size_t lost = 0;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    lost += static_cast<std::size_t>(
-        std::max(1.0, std::round((places[i] - places[i - 1]) / pitch)) - 1.0);
-  }
+double lostBetween(const std::vector<double>& places, double pitch) {
+  double lost = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    lost += std::max(1.0, std::round((places[i] - places[i - 1]) / pitch)) - 1.0;
   return lost;
+}
+
+/// @throw SurfaceError if far more are lost than came
+void checkLost(double lost, std::size_t came, bool is_stated, double line_pitch) {
+  if (lost <= kMostLost * static_cast<double>(came)) return;
+  throw SurfaceError(std::string(is_stated ? "line_pitch" : "the median distance of the lines") +
+                     ": " + shortNumber(line_pitch) + " m leaves " + shortNumber(lost) +
+                     " places without a line, must be at most " + shortNumber(kMostLost) +
+                     " for each of " + std::to_string(came) +
+                     " lines: state line_pitch as the lines lie");
 }
 
 cv::Mat resampled(const std::vector<PlacedLine>& lines, const std::vector<double>& cols,
@@ -221,7 +262,7 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
   const std::vector<double> stated_places = placesOf(placed);
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& one, const auto& other) { return one.place < other.place; });
-  const double line_pitch = firstStated({options.line_pitch, medianStep(placesOf(placed))});
+  const double line_pitch = firstStated({options.line_pitch, lineStep(placesOf(placed))});
   if (!(line_pitch > 0.0)) throw SurfaceError("all lines lie at one place: nothing moved");
   const double most = std::max(options.map.grid_tolerance * line_pitch, 1e-12);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -235,13 +276,15 @@ LineMap mapOfLines(const std::vector<ScanLine>& stated, const LineMapOptions& op
   LineMap result;
   result.doubled = dropDoubled(placed, line_pitch);
   const std::vector<double> places = placesOf(placed);
-  result.lost = lostBetween(places, line_pitch);
-  double first = std::numeric_limits<double>::infinity(), last = -first, own = 0.0;
+  const double lost = lostBetween(places, line_pitch);
+  checkLost(lost, lines.size(), options.line_pitch > 0.0, line_pitch);
+  result.lost = static_cast<std::size_t>(lost);
+  double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const PlacedLine& line : placed) {
     first = std::min(first, line.samples.places.front());
     last = std::max(last, line.samples.places.back());
-    own = std::max(own, medianStep(line.samples.places));
   }
+  const double own = pointStep(placed);
   const double pitch_along =
       firstStated({along == 0 ? options.map.pitch_x : options.map.pitch_y, own});
   const double pitch_across =

@@ -35,7 +35,8 @@ struct LineMap {
   std::size_t doubled = 0;  ///< lines at the place of another one
 };
 
-/// @throw SurfaceError if fewer than two lines have a measured point, or as mapOfPoints()
+/// @throw SurfaceError if fewer than two lines have a measured point, if far more lines are lost
+/// than came, or as mapOfPoints()
 LineMap mapOfLines(const std::vector<ScanLine>& lines, const LineMapOptions& options);
 
 }  // namespace mems_stiction

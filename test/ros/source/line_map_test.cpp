@@ -28,6 +28,10 @@ std::vector<ScanLine> evenLines() {
   return lines;
 }
 
+bool isSame(double one, double other) {
+  return one == other || (std::isnan(one) && std::isnan(other));
+}
+
 void expectKnownSurface(const LineMap& result) {
   const HeightMap& map = result.map.surface;
   ASSERT_EQ(map.heights().size(), clouds::expectedMap().size());
@@ -116,6 +120,86 @@ TEST(LineMap, PointsThatAreNotMeasuredStaySo) {
       const int line = clouds::kRows - 1 - row;
       EXPECT_EQ(std::isnan(heights.at<double>(row, col)), line == 6 || (line == 2 && col == 5))
           << row << " " << col;
+    }
+  }
+}
+
+TEST(LineMap, OneLineWithTwoPointsSetsNoPitch) {
+  std::vector<ScanLine> lines = evenLines();
+  lines[5] = {lines[5].front(), lines[5].back()};
+  const cv::Mat heights = mapOfLines(lines, {}).map.surface.heights();
+  ASSERT_EQ(heights.size(), clouds::expectedMap().size());
+  EXPECT_EQ(std::count_if(heights.begin<double>(), heights.end<double>(),
+                          [](double height) { return std::isnan(height); }),
+            clouds::kCols - 2);
+}
+
+/// As lines of a stage that stands before and after its way, with an encoder's noise [m].
+std::vector<ScanLine> withStandingLines(int before, int behind, double noise) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> shift(0.0, noise);
+  const std::vector<ScanLine> moving = evenLines();
+  std::vector<ScanLine> lines = moving;
+  const auto still = [&](const ScanLine& at) {
+    ScanLine line = at;
+    const double by = shift(random);
+    for (cv::Vec3d& point : line) point[1] += by;
+    return line;
+  };
+  for (int i = 0; i < before; ++i) lines.insert(lines.begin(), still(moving.front()));
+  for (int i = 0; i < behind; ++i) lines.push_back(still(moving.back()));
+  return lines;
+}
+
+TEST(LineMap, NoiseOfAStageThatStandsIsNoStep) {
+  for (const double noise : {1e-9, 1e-8, 4e-7}) {
+    const LineMap result = mapOfLines(withStandingLines(20, 80, noise), {});
+    const HeightMap& map = result.map.surface;
+    EXPECT_NEAR(map.pitchY(), clouds::kPitchY, 0.1 * clouds::kPitchY) << noise;
+    EXPECT_NEAR(map.heights().rows, clouds::kRows, 1) << noise;
+    EXPECT_EQ(result.lost, 0u) << noise;
+  }
+}
+
+TEST(LineMap, RefusesFarMoreLostLinesThanCame) {
+  const std::vector<ScanLine> lines = evenLines();
+  LineMapOptions options;
+  options.line_pitch = clouds::kPitchY / 100.0;
+  try {
+    mapOfLines(lines, options);
+    FAIL() << "is a map";
+  } catch (const SurfaceError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("line_pitch: 3e-07 m"), std::string::npos) << text;
+    EXPECT_NE(text.find("at most 10 for each of 12 lines"), std::string::npos) << text;
+  }
+  options.line_pitch = clouds::kPitchY / 4.0;
+  EXPECT_EQ(mapOfLines(lines, options).lost, 33u);
+}
+
+TEST(LineMap, TurnsItsAxesAsACloudDoes) {
+  // Of an even grid, and of lines that lie askew and are put on one.
+  for (const double yaw : {0.0, 0.2}) {
+    std::vector<ScanLine> lines = evenLines();
+    cv::Mat cloud(clouds::kRows, clouds::kCols, CV_64FC3);
+    for (int row = 0; row < cloud.rows; ++row) {
+      for (int col = 0; col < cloud.cols; ++col) {
+        cv::Vec3d& point = lines[static_cast<std::size_t>(row)][static_cast<std::size_t>(col)];
+        point[1] += yaw * point[0];
+        cloud.at<cv::Vec3d>(row, col) = point;
+      }
+    }
+    LineMapOptions options;
+    for (const bool is_up_negative : {false, true}) {
+      for (const Mirror mirror : {Mirror::kAuto, Mirror::kX, Mirror::kY, Mirror::kNone}) {
+        options.map.is_up_negative = is_up_negative;
+        options.map.mirror = mirror;
+        const cv::Mat map = mapOfLines(lines, options).map.surface.heights();
+        const cv::Mat expected = mapOfPoints(cloud, options.map).surface.heights();
+        ASSERT_EQ(map.size(), expected.size());
+        EXPECT_TRUE(
+            std::equal(map.begin<double>(), map.end<double>(), expected.begin<double>(), isSame));
+      }
     }
   }
 }
