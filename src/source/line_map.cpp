@@ -9,6 +9,7 @@
 #include "errors/short_number.hpp"
 #include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/median.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -42,14 +43,6 @@ struct PlacedLine {
   Samples samples;  ///< over the coordinate along the line
 };
 
-/// 0 of none.
-double medianOf(std::vector<double> steps) {
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 void addSteps(const std::vector<double>& places, std::vector<double>& steps) {
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (places[i] > places[i - 1]) steps.push_back(places[i] - places[i - 1]);
@@ -70,14 +63,14 @@ double lineStep(std::vector<double> places) {
   }
   std::vector<double> steps;
   addSteps(places, steps);
-  return medianOf(std::move(steps));
+  return medianOf(steps);
 }
 
 /// Median distance of the points along all lines: a line with few points has one vote for each.
 double pointStep(const std::vector<PlacedLine>& lines) {
   std::vector<double> steps;
   for (const PlacedLine& line : lines) addSteps(line.samples.places, steps);
-  return medianOf(std::move(steps));
+  return medianOf(steps);
 }
 
 /// Where a place lies between samples: the one below, and the share of the next; a negative share:
