@@ -6,6 +6,7 @@
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
+#include "errors/short_number.hpp"
 #include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/checked_messages.hpp"
@@ -21,12 +22,6 @@ constexpr double kPollPeriod = 0.01;  // [s]
 /// Of a joint; at 1 kHz those of ten seconds.
 constexpr std::size_t kMostPositions = 10000;
 
-/// A stage that has moved less has not moved, where no line_pitch is stated [m].
-constexpr double kSmallestMove = 1e-7;
-
-/// A stage that has come back so many half lines has turned.
-constexpr double kTurn = 3.0;
-
 std::string linesName(const std_msgs::Header& first) {
   PlainStream text;
   text << "the scan of lines from stamp " << first.stamp;
@@ -34,13 +29,15 @@ std::string linesName(const std_msgs::Header& first) {
 }
 
 /// All points of a cloud, one after the other.
-ScanLine shifted(const cv::Mat& points, const cv::Vec3d& shift) {
+ScanLine pointsOf(const cv::Mat& points) {
   ScanLine line;
-  for (int row = 0; row < points.rows; ++row) {
-    for (int col = 0; col < points.cols; ++col)
-      line.push_back(points.at<cv::Vec3d>(row, col) + shift);
-  }
+  for (int row = 0; row < points.rows; ++row)
+    line.insert(line.end(), points.ptr<cv::Vec3d>(row), points.ptr<cv::Vec3d>(row) + points.cols);
   return line;
+}
+
+void shift(ScanLine& line, const cv::Vec3d& by) {
+  for (cv::Vec3d& point : line) point += by;
 }
 
 /// Any two stamps: those of ros::Time throw where they are 68 years apart [s].
@@ -118,6 +115,16 @@ LineSource::LineSource(const SourceOptions& options, ros::NodeHandle& handle,
                                     [this](const ros::SteadyTimerEvent&) { poll(); });
 }
 
+LineSource::~LineSource() {
+  if (scan_) finished_.push_back(std::move(*scan_));
+  for (const Scan& scan : finished_) {
+    if (scan.lines.empty()) continue;
+    logSoon(ros::console::levels::Warn,
+            linesName(scan.lines.front().header) + " is discarded with its " +
+                std::to_string(scan.lines.size()) + " lines: the source ends");
+  }
+}
+
 bool LineSource::isContinuous() const {
   return options_.lines.max_lines > 0 || options_.lines.end_at_turn || options_.lines.pause > 0.0;
 }
@@ -128,7 +135,7 @@ void LineSource::push(Event event, const sensor_msgs::PointCloud2ConstPtr& line)
 }
 
 void LineSource::onTrigger(bool is_on) {
-  if (is_on != is_triggered_) push(is_on ? Event::kBegin : Event::kEnd, nullptr);
+  if (is_triggered_ != is_on) push(is_on ? Event::kBegin : Event::kEnd, nullptr);
   is_triggered_ = is_on;
 }
 
@@ -139,7 +146,10 @@ bool LineSource::answer(Event event, std_srvs::Trigger::Response& response) {
                      : is_end          ? "the scan ends"
                      : scan_           ? "the scan before ends and a new one begins"
                                        : "a scan begins";
-  if (response.success) push(event, nullptr);
+  if (response.success) {
+    is_triggered_ = !is_end && is_triggered_.value_or(false);  // the next true begins a scan
+    push(event, nullptr);
+  }
   return true;
 }
 
@@ -149,13 +159,13 @@ void LineSource::poll() {
     if (first.event == Event::kLine && !takeLine(first)) break;
     if (first.event == Event::kBegin) begin();
     if (first.event == Event::kEnd) {
-      end();
-      is_open_ = isContinuous();
+      end(true);
+      is_open_ = false;
     }
     waiting_.pop_front();
   }
   const double pause = options_.lines.pause;
-  if (pause > 0.0 && scan_ && (ros::SteadyTime::now() - scan_->last_line).toSec() > pause) end();
+  if (pause > 0.0 && scan_ && (ros::SteadyTime::now() - scan_->went_on).toSec() > pause) end(false);
   publishFinished();
   showCounts();
 }
@@ -167,9 +177,9 @@ bool LineSource::takeLine(const Waiting& waiting) {
   }
   try {
     if (!scan_) begin();
-    Placed line = placed(*waiting.line);
-    countNumber(waiting.line->header);
-    add(waiting.line->header, std::move(line));
+    TakenLine line = placed(*waiting.line);
+    countNumber(line.header);
+    add(std::move(line));
   } catch (const NoTransform& error) {
     if ((ros::SteadyTime::now() - waiting.since).toSec() < options_.points.transform_timeout)
       return false;
@@ -184,42 +194,28 @@ bool LineSource::takeLine(const Waiting& waiting) {
   return true;
 }
 
-LineSource::Placed LineSource::placed(const sensor_msgs::PointCloud2& line) {
+LineSource::TakenLine LineSource::placed(const sensor_msgs::PointCloud2& line) {
   cv::Mat points = cloudPoints(line);
   dropUnmeasured(points, options_.points.map);
   const LineOptions& lines = options_.lines;
-  if (lines.motion == Motion::kTf) return placedByTransform(line.header, points);
+  if (lines.motion == Motion::kTf) {
+    const geometry_msgs::Transform transform =
+        transforms_->at(options_.points.frame, line.header.frame_id, line.header.stamp);
+    transformPoints(transform, points);
+    const auto& stage = transform.translation;
+    return {line.header, pointsOf(points), {stage.x, stage.y, stage.z}};
+  }
   double place = 0.0;
   if (lines.motion == Motion::kJoint) {
     place = lines.joint_scale * joint_.at(line.header.stamp);
   } else if (!scan_->lines.empty()) {
     place = lines.motion == Motion::kSpeed
-                ? lines.speed * secondsBetween(scan_->first.stamp, line.header.stamp)
-                : lines.line_pitch * numberOf(line.header);
+                ? lines.speed * secondsBetween(scan_->zero, line.header.stamp)
+                : lines.line_pitch * static_cast<double>(numberOf(line.header));
   }
-  const double progress = place;
-  if (!scan_->lines.empty() && lines.motion == Motion::kJoint && place < scan_->last)
-    place += lines.backlash;
-  return {shifted(points, {0.0, place, 0.0}), progress};
-}
-
-LineSource::Placed LineSource::placedByTransform(const std_msgs::Header& header, cv::Mat points) {
-  const geometry_msgs::Transform transform =
-      transforms_->at(options_.points.frame, header.frame_id, header.stamp);
-  transformPoints(transform, points);
-  const auto& shift = transform.translation;
-  const cv::Vec3d stage(shift.x, shift.y, shift.z);
-  if (!scan_->start) scan_->start = stage;
-  const cv::Vec3d way = stage - *scan_->start;
-  if (!scan_->direction &&
-      cv::norm(way) > std::max(kSmallestMove, 0.5 * options_.lines.line_pitch)) {
-    scan_->direction = way / cv::norm(way);
-  }
-  const double progress = scan_->direction ? way.dot(*scan_->direction) : 0.0;
-  const bool goes_back = scan_->direction && progress < scan_->last;
-  const cv::Vec3d slack =
-      goes_back ? options_.lines.backlash * *scan_->direction : cv::Vec3d(0.0, 0.0, 0.0);
-  return {shifted(points, slack), progress};
+  TakenLine taken{line.header, pointsOf(points), {0.0, place, 0.0}};
+  shift(taken.points, taken.stage);
+  return taken;
 }
 
 void LineSource::countNumber(const std_msgs::Header& header) {
@@ -230,79 +226,125 @@ void LineSource::countNumber(const std_msgs::Header& header) {
   last_header_ = header;
 }
 
-/// Of a line in its scan. A line that was lost has its number, too, where the driver numbers them.
-double LineSource::numberOf(const std_msgs::Header& header) {
-  const bool is_repeated =
-      !header.stamp.isZero() && last_header_ && header.stamp == last_header_->stamp;
-  if (is_repeated) ++scan_->repeated;
-  const bool is_numbered = last_header_ && header.seq > last_header_->seq;
-  const std::uint32_t number = is_numbered ? header.seq - scan_->first_number
-                                           : static_cast<std::uint32_t>(scan_->lines.size());
-  return static_cast<double>(number) - scan_->repeated;
+/// Of a line in its scan. A line that was lost has its number, too, where the driver numbers them;
+/// behind a driver that began anew the numbers go on.
+std::int64_t LineSource::numberOf(const std_msgs::Header& header) {
+  const std_msgs::Header& last = scan_->lines.back().header;
+  const bool is_repeated = !header.stamp.isZero() && header.stamp == last.stamp;
+  scan_->number += header.seq > last.seq ? std::int64_t{header.seq} - last.seq : 1;
+  if (is_repeated) --scan_->number;
+  return scan_->number;
 }
 
-void LineSource::add(const std_msgs::Header& header, Placed line) {
+void LineSource::add(TakenLine line) {
   const LineOptions& options = options_.lines;
-  const double move = std::max(kSmallestMove, 0.5 * options.line_pitch);
-  const bool has_turned =
-      !scan_->lines.empty() && scan_->has_moved &&
-      std::abs(line.progress - scan_->origin) < std::abs(scan_->furthest) - kTurn * move;
-  if (options.end_at_turn && has_turned) {
-    begin();
-    if (options.motion == Motion::kTf) line.progress = 0.0;
-  }
-  const bool is_first = scan_->lines.empty();
-  if (is_first) {
-    scan_->first = header;
-    scan_->first_number = header.seq;
-    scan_->last = scan_->origin = line.progress;
-  }
-  const bool has_moved = std::abs(line.progress - scan_->last) > 0.1 * move;
-  scan_->has_moved = scan_->has_moved || has_moved;
-  // A stage that stands still lets the pause run.
-  if (has_moved || is_first) scan_->last_line = ros::SteadyTime::now();
-  scan_->last = line.progress;
-  const double way = line.progress - scan_->origin;
-  if (std::abs(way) > std::abs(scan_->furthest)) scan_->furthest = way;
-  scan_->points += line.points.size();
-  scan_->lines.push_back(std::move(line.points));
+  if (scan_->lines.empty()) scan_->zero = line.header.stamp;
+  append(*scan_, std::move(line));
+  if (options.end_at_turn && !scan_->way.turns().empty()) divideAtTurn();
   if (scan_->points > kMaxPixels) {
-    accounting_.refused(linesName(scan_->first),
+    accounting_.refused(linesName(scan_->lines.front().header),
                         "more than " + std::to_string(kMaxPixels) +
                             " points without an end: set max_lines, end_at_turn or pause, "
                             "or call ~end_scan");
     scan_.reset();
     return;
   }
-  if (options.max_lines > 0 && static_cast<int>(scan_->lines.size()) >= options.max_lines) end();
+  if (options.max_lines > 0 && static_cast<int>(scan_->lines.size()) >= options.max_lines)
+    end(false);
+}
+
+void LineSource::append(Scan& scan, TakenLine line) {
+  scan.points += line.points.size();
+  scan.lines.push_back(std::move(line));
+  // A stage that stands still lets the pause run.
+  if (scan.way.add(cv::norm(scan.lines.back().stage - scan.lines.front().stage)))
+    scan.went_on = ros::SteadyTime::now();
+}
+
+void LineSource::divideAtTurn() {
+  Scan before = emptyScan(), behind = emptyScan();
+  behind.zero = scan_->zero;
+  behind.number = scan_->number;
+  for (std::size_t i = 0; i < scan_->lines.size(); ++i)
+    append(i < scan_->way.turns().front() ? before : behind, std::move(scan_->lines[i]));
+  scan_ = std::move(behind);
+  finish(std::move(before), false);
+}
+
+LineSource::Scan LineSource::emptyScan() const {
+  return {StageWay(options_.lines.line_pitch), ros::SteadyTime::now(), {}, 0, {}, 0};
+}
+
+bool LineSource::isStageMeasured() const {
+  return options_.lines.motion == Motion::kJoint || options_.lines.motion == Motion::kTf;
 }
 
 void LineSource::begin() {
-  end();
+  end(false);
   is_open_ = true;
-  scan_.emplace();
-  scan_->last_line = ros::SteadyTime::now();
+  scan_ = emptyScan();
 }
 
-void LineSource::end() {
-  if (scan_ && !scan_->lines.empty()) finished_.push_back(std::move(*scan_));
+void LineSource::end(bool is_told) {
+  if (scan_ && !scan_->lines.empty()) finish(std::move(*scan_), is_told);
   scan_.reset();
+}
+
+void LineSource::finish(Scan scan, bool is_told) {
+  if (!is_told && isStageMeasured() && !scan.way.hasMoved()) {
+    counts_.outside += scan.lines.size();
+    return;
+  }
+  finished_.push_back(std::move(scan));
   if (finished_.size() > static_cast<std::size_t>(options_.points.queue_size)) {
-    accounting_.givenUp(linesName(finished_.front().first), options_.points.queue_size);
+    accounting_.givenUp(linesName(finished_.front().lines.front().header),
+                        options_.points.queue_size);
     finished_.pop_front();
   }
+}
+
+std::vector<ScanLine> LineSource::withoutBacklash(Scan& scan) const {
+  const LineOptions& options = options_.lines;
+  std::vector<TakenLine>& lines = scan.lines;
+  const cv::Vec3d first = lines.front().stage;
+  if (isStageMeasured() && options.backlash != 0.0 && !options.end_at_turn) {
+    cv::Vec3d along(0.0, 1.0, 0.0);
+    if (options.motion == Motion::kTf) {
+      const auto furthest =
+          std::max_element(lines.begin(), lines.end(), [&](const auto& one, const auto& other) {
+            return cv::norm(one.stage - first) < cv::norm(other.stage - first);
+          });
+      along = cv::normalize(furthest->stage - first);
+    }
+    std::vector<double> places;
+    for (const TakenLine& line : lines) places.push_back((line.stage - first).dot(along));
+    const std::vector<double> more = slacks(places, options.backlash, options.line_pitch);
+    for (std::size_t i = 0; i < lines.size(); ++i) shift(lines[i].points, more[i] * along);
+  }
+  std::vector<ScanLine> points;
+  for (TakenLine& line : lines) points.push_back(std::move(line.points));
+  return points;
+}
+
+void LineSource::checkMoved(const Scan& scan) const {
+  if (!isStageMeasured() || scan.way.hasMoved()) return;
+  throw SurfaceError("over " + std::to_string(scan.lines.size()) + " lines the stage moved by " +
+                     shortNumber(scan.way.span()) + " m, must be more than " +
+                     shortNumber(scan.way.leastMove()) + " m, as of noise: nothing moved");
 }
 
 void LineSource::publishFinished() {
   const std::string waits_for = publisher_.waitsFor();
   accounting_.hindered(waits_for);
   while (waits_for.empty() && !finished_.empty()) {
-    const Scan scan = std::move(finished_.front());
+    Scan scan = std::move(finished_.front());
     finished_.pop_front();
-    const std::string name = linesName(scan.first);
+    const std_msgs::Header& first = scan.lines.front().header;
+    const std::string name = linesName(first);
     try {
+      checkMoved(scan);
       const LineMap result =
-          mapOfLines(scan.lines, {options_.points.map, options_.lines.line_pitch});
+          mapOfLines(withoutBacklash(scan), {options_.points.map, options_.lines.line_pitch});
       counts_.lost_by_position += result.lost;
       counts_.doubled += result.doubled;
       std::string note = std::to_string(scan.lines.size()) + " lines; " +
@@ -311,10 +353,9 @@ void LineSource::publishFinished() {
       for (const std::string& more : result.map.notes) note += "; " + more;
       logSoon(ros::console::levels::Info, name + ": " + note);
       accounting_.show("last_map", note);
-      const std::uint64_t stamp =
-          (scan.first.stamp.isZero() ? ros::Time::now() : scan.first.stamp).toNSec();
+      const std::uint64_t stamp = (first.stamp.isZero() ? ros::Time::now() : first.stamp).toNSec();
       publisher_.publish(result.map.surface, options_.identity,
-                         transforms_ ? options_.points.frame : scan.first.frame_id,
+                         transforms_ ? options_.points.frame : first.frame_id,
                          publisher_.freeStamp(stamp));
       accounting_.published(name);
     } catch (const std::exception& error) {  // whatever it is, the next scan may do

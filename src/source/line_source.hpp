@@ -26,6 +26,7 @@
 #include "source/scan_publisher.hpp"
 #include "source/source_accounting.hpp"
 #include "source/source_options.hpp"
+#include "source/stage_way.hpp"
 
 namespace mems_stiction {
 
@@ -49,6 +50,8 @@ class LineSource {
              ScanPublisher& publisher, SourceAccounting& accounting);
   LineSource(const LineSource&) = delete;
   LineSource& operator=(const LineSource&) = delete;
+  /// Says what it discards.
+  ~LineSource();
 
  private:
   enum class Event { kLine, kBegin, kEnd };
@@ -59,22 +62,20 @@ class LineSource {
     ros::SteadyTime since;
   };
 
-  /// A line at its place, and how far the stage has come.
-  struct Placed {
+  /// A line at its place, but for the backlash.
+  struct TakenLine {
+    std_msgs::Header header;
     ScanLine points;
-    double progress;
+    cv::Vec3d stage;  ///< where the stage was
   };
 
   struct Scan {
-    std_msgs::Header first;  ///< of its first line; seq counts the lines
-    std::vector<ScanLine> lines;
-    std::uint64_t points = 0;                      ///< of all lines
-    std::uint32_t first_number = 0, repeated = 0;  ///< of the sequence; lines of one stamp
-    std::optional<cv::Vec3d> start, direction;     ///< of the stage, by tf
-    double origin = 0.0, last = 0.0;               ///< progress of the first and the last line
-    double furthest = 0.0;                         ///< from the origin, either way
-    bool has_moved = false;
-    ros::SteadyTime last_line;
+    StageWay way;  ///< by the stage's distance from its first place
+    ros::SteadyTime went_on;
+    std::vector<TakenLine> lines;
+    std::uint64_t points = 0;  ///< of all lines
+    ros::Time zero;            ///< where a stage of known speed was at 0
+    std::int64_t number = 0;   ///< of the last line, for motion: count
   };
 
   struct LineCounts {
@@ -90,13 +91,23 @@ class LineSource {
   void poll();
   /// @return false: its place may still come
   bool takeLine(const Waiting& waiting);
-  Placed placed(const sensor_msgs::PointCloud2& line);
-  Placed placedByTransform(const std_msgs::Header& header, cv::Mat points);
-  double numberOf(const std_msgs::Header& header);
+  TakenLine placed(const sensor_msgs::PointCloud2& line);
+  std::int64_t numberOf(const std_msgs::Header& header);
   void countNumber(const std_msgs::Header& header);
-  void add(const std_msgs::Header& header, Placed line);
+  void add(TakenLine line);
+  static void append(Scan& scan, TakenLine line);
+  /// The lines behind the furthest one are those of a new scan.
+  void divideAtTurn();
+  Scan emptyScan() const;
+  /// Whether the stage's places are measured: it may stand, and its encoder has noise.
+  bool isStageMeasured() const;
   void begin();
-  void end();
+  /// - @p is_told else the scan ends by itself: if the stage did not move it was none
+  void end(bool is_told);
+  void finish(Scan scan, bool is_told);
+  /// @throw SurfaceError if the stage did not move
+  void checkMoved(const Scan& scan) const;
+  std::vector<ScanLine> withoutBacklash(Scan& scan) const;
   void publishFinished();
   void showCounts();
 
@@ -106,9 +117,9 @@ class LineSource {
   std::unique_ptr<TransformListener> transforms_;
   JointTrack joint_;
   std::deque<Waiting> waiting_;
-  bool is_open_ = false;  ///< lines belong to a scan
-  bool is_triggered_ = false;
-  std::optional<Scan> scan_;  ///< has a line, or was begun
+  bool is_open_ = false;              ///< lines belong to a scan
+  std::optional<bool> is_triggered_;  ///< nothing: no trigger came
+  std::optional<Scan> scan_;          ///< has a line, or was begun
   std::deque<Scan> finished_;
   std::optional<std_msgs::Header> last_header_;
   LineCounts counts_;

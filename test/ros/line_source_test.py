@@ -45,12 +45,15 @@ class Scanner:
             source="lines", diagnostic_period=0.1, transform_timeout=3.0, **parameters
         ).items():
             rospy.set_param("/%s/source/%s" % (name, key), value)
-        process = subprocess.Popen(
+        self.log = tempfile.TemporaryFile("w+")  # of warnings
+        test.addCleanup(self.log.close)
+        self.process = subprocess.Popen(
             [find_node("mems_stiction", "scan_source")[0], "__name:=source"],
             env=dict(os.environ, ROS_NAMESPACE="/" + name),
+            stderr=self.log,
         )
-        test.addCleanup(process.wait)
-        test.addCleanup(process.terminate)
+        test.addCleanup(self.process.wait)
+        test.addCleanup(self.process.terminate)
         self.heights, self.infos = (
             Collector("/%s/height" % name, Image),
             Collector("/%s/scan_info" % name, ScanInfo),
@@ -104,6 +107,13 @@ class LinesTest(unittest.TestCase):
         self.assertTrue(scanner.end().success)
         self.check(scanner, expected)
         scanner.counts.wait(found=1, published=1, waiting=0, lines=LINES)
+        scanner.begin()
+        scanner.send(expected[-25:])
+        scanner.sensor.impl.seq = 0  # the driver begins anew
+        scanner.send(expected[:-25], first=1001.0)
+        scanner.counts.wait(lines_of_this_scan=LINES)
+        scanner.end()
+        self.check(scanner, expected, number=2)
 
     @evidence
     def test_1_a_scan_that_never_ends_is_refused_before_the_memory_does(self):
@@ -126,6 +136,12 @@ class LinesTest(unittest.TestCase):
         scanner.send(lines_of(2), first=2000.0, size=32, missing=np.inf)
         self.check(scanner, lines_of(2), number=2, tolerance=1e-11)
         scanner.counts.wait(found=2, published=2, waiting=0)
+        # Once the trigger has said when, lines behind its end are outside.
+        scanner.trigger.publish(True)
+        scanner.trigger.publish(False)
+        scanner.counts.wait(scan_is_open="false")
+        scanner.send(lines_of(3), first=3000.0)
+        scanner.counts.wait(found=2, waiting=0, lines_outside=LINES)
 
     def test_3_a_joint_that_turns_back_and_lines_that_are_lost_or_doubled(self):
         scanner = Scanner(
@@ -136,7 +152,8 @@ class LinesTest(unittest.TestCase):
             joint_scale=1e-3,
             line_pitch=LINE_PITCH,
             end_at_turn=True,
-            pause=2.0,
+            backlash=0.3 * LINE_PITCH,  # counts in one scan of both ways alone
+            pause=1.0,
         )
         expected = lines_of(3)
         order = list(range(LINES))
@@ -154,26 +171,26 @@ class LinesTest(unittest.TestCase):
                 )
             )
 
-        for number, row in enumerate(order):
+        way = order + list(range(LINES - 2, -1, -1))
+        noise = np.random.RandomState(1).normal(scale=1e-9, size=300)
+        for number, row in enumerate(way):
             stamp = rospy.Time.from_sec(1000.0 + 0.01 * number)
             scanner.sensor.publish(line(lowest[row], stamp))
             joint(stamp, 0.02 + row * LINE_PITCH)
-        back = list(range(LINES - 2, -1, -1))
-        for number, row in enumerate(back):
-            stamp = rospy.Time.from_sec(1001.0 + 0.01 * number)
-            scanner.sensor.publish(line(lowest[row], stamp))
-            joint(stamp, 0.02 + row * LINE_PITCH)
+        # The stage stands, and lines go on.
+        for number, more in enumerate(noise, len(way)):
+            stamp = rospy.Time.from_sec(1000.0 + 0.01 * number)
+            scanner.sensor.publish(line(lowest[0], stamp))
+            joint(stamp, 0.02 + more)
+            rospy.sleep(0.01)
         first, second = scanner.heights.wait(2)
         whole = expected.astype(float)
         whole[LINES - 1 - lost] = np.nan
         np.testing.assert_allclose(heights_of(first), whole, rtol=0, atol=1e-10)
         self.assertEqual(np.isnan(heights_of(second)).sum(), 0)
-        # The line at which the turn shows is the first of the next scan; the one before it lay over
-        # another.
-        np.testing.assert_allclose(heights_of(second), expected[-(LINES - 2) :], rtol=0, atol=1e-10)
-        scanner.counts.wait(
-            lines_lost_by_position=1, lines_doubled=2, found=2, published=2, waiting=0
-        )
+        np.testing.assert_allclose(heights_of(second), expected[-(LINES - 1) :], rtol=0, atol=1e-9)
+        wait_until(lambda: scanner.counts.total("lines_outside") > 0, "a stand that is no scan")
+        scanner.counts.wait(lines_lost_by_position=1, found=2, published=2, refused=0, waiting=0)
 
     def test_4_tf_places_the_lines_and_the_trigger_says_when(self):
         scanner = Scanner(self, "moved", motion="tf", frame="stage", line_pitch=LINE_PITCH)
@@ -195,6 +212,11 @@ class LinesTest(unittest.TestCase):
         scanner.trigger.publish(False)
         self.check(scanner, expected, tolerance=1e-11)
         scanner.counts.wait(found=1, published=1, waiting=0)
+        for _ in range(2):
+            scanner.trigger.publish(True)
+            scanner.counts.wait(scan_is_open="true")
+            self.assertTrue(scanner.end().success)
+            scanner.counts.wait(scan_is_open="false")
 
     def test_5_what_is_no_scan_is_refused_and_the_next_goes_on(self):
         scanner = Scanner(self, "bad", motion="count", line_pitch=LINE_PITCH, max_lines=LINES)
@@ -207,6 +229,16 @@ class LinesTest(unittest.TestCase):
         scanner.send(lines_of(5))
         self.check(scanner, lines_of(5))
         scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
+
+    def test_5_the_lines_of_a_scan_that_does_not_end_are_discarded_aloud(self):
+        scanner = Scanner(self, "open", motion="count", line_pitch=LINE_PITCH)
+        scanner.begin()
+        scanner.send(lines_of())
+        scanner.counts.wait(lines_of_this_scan=LINES)
+        scanner.process.send_signal(signal.SIGINT)
+        self.assertEqual(scanner.process.wait(timeout=TIMEOUT), 0)
+        scanner.log.seek(0)
+        self.assertRegex(scanner.log.read(), "discarded with its %d lines" % LINES)
 
     def test_6_the_verdict_on_a_line_scanner_alone_is_unknown(self):
         with tempfile.TemporaryDirectory() as name:
