@@ -16,7 +16,7 @@ class StageWay {
   explicit StageWay(double line_pitch) : step_(line_pitch), has_own_step_(line_pitch == 0.0) {}
 
   /// The next line, at this place along the motion [m].
-  /// @return the stage went on: to no place of its present way
+  /// @return whether the stage went on, beyond every place of its present way
   bool add(double place);
 
   /// From the lowest place to the highest [m].
@@ -27,9 +27,7 @@ class StageWay {
   /// Of each turn the first line behind it.
   const std::vector<std::size_t>& turns() const { return turns_; }
   /// Whether places fall on the first way.
-  bool fallsFirst() const {
-    return (direction_ < 0) == (turns_.size() % 2 == 0) && direction_ != 0;
-  }
+  bool fallsFirst() const { return (direction_ < 0) == (turns_.size() % 2 == 0); }
 
  private:
   void takeStep(double step);
