@@ -11,7 +11,7 @@
 /// the half-space has it:
 ///
 ///     pi/q > a0 = pi E Gamma/(2 s^2),  q = 4 U/(A E sigma^2)  a crack has room in half a wave
-///     2 U/(A sigma) > 0.05 s                                  the tension of the waves     (S10b)
+///     2 U/(A sigma) > 0.03 s                                  the tension of the waves     (S10b)
 ///
 /// with U by lines or by waves (flattening_waves.hpp).
 ///
