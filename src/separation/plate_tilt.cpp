@@ -135,7 +135,7 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
   double trust = balance.reach;
   bool is_here = true;  // the plate stands as it is known to be best
   is_tipped_ = false;
-  const double highest = heightOf(slopes_, level) + level.largestGap();
+  const double highest = heightOf(slopes_, level) + level.largestGap() + balance.reach;
   for (int trial = 0; trial < kMostTiltTrials && balance.share() > chosen::kAccuracy; ++trial) {
     const double width = level.cols() * level.pitchX();
     const double height = level.rows() * level.pitchY();

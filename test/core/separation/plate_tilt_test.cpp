@@ -14,6 +14,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "separation/support_plane.hpp"
+#include "support/sample_frames.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -207,6 +208,21 @@ TEST(PlateTilt, threeSpheresShareTheLoadByTheLever) {
   EXPECT_NEAR(load, 3e-6, 0.01 * 3e-6);
   EXPECT_NEAR(moment_x, 0.0, 0.01 * load * 60 * kPitch);
   EXPECT_NEAR(moment_y, 0.0, 0.01 * load * 60 * kPitch);
+}
+
+TEST(PlateTilt, loadsTipItNoFurtherThanTheReliefIsHigh) {
+  const HeightMap surface = samples::gaussian(64, 64, 5e-9, 5e-9, 1e-9, 40e-9, 1);
+  Options options;
+  options.lower.youngs_modulus = options.upper.youngs_modulus = 5e9;
+  options.lower.hardness = options.upper.hardness = 3e8;
+  options.interface.insulator_thickness = 2e-9;
+  options.load.voltage = 6.0;  // 3 GV/m, whose moments grow with each tilt
+  const Prediction guided = AdhesionModel(options).predict(surface);
+  options.guidance = Guidance::kFree;
+  const Prediction free = AdhesionModel(options).predict(surface);
+  EXPECT_LT(free.approach, 10.0 * guided.approach);
+  EXPECT_GT(free.pull_off_force, 0.5 * guided.pull_off_force);
+  EXPECT_NE(free.model.doubt, nullptr);
 }
 
 TEST(PlateTilt, aTiltOfTheScanChangesNothing) {
