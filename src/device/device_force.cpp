@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -137,13 +136,10 @@ class StatedSurfaces {
   std::map<const DeviceLaws*, std::optional<DeviceSurface>> surfaces_;
 };
 
-/// What stands for the logarithm of nothing.
-const double kLogOfNothing = std::log(std::numeric_limits<double>::min());
-
 /// The median of figures, by their logarithms.
 double medianFigure(std::vector<double>& logs) {
   const double median = medianOf(logs);
-  return median > kLogOfNothing ? std::exp(median) : 0.0;
+  return median > logOf(0.0) ? std::exp(median) : 0.0;
 }
 
 /// Logarithms of figures, by realisation.
@@ -152,8 +148,8 @@ struct Logs {
   std::vector<double> work;
 
   void add(const Realisation& realisation) {
-    force.push_back(std::max(std::log(realisation.pull_off_force), kLogOfNothing));
-    work.push_back(std::max(std::log(realisation.apparent_work_of_adhesion), kLogOfNothing));
+    force.push_back(logOf(realisation.pull_off_force));
+    work.push_back(logOf(realisation.apparent_work_of_adhesion));
   }
 };
 

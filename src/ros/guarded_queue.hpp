@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <ros/callback_queue.h>
+#include <ros/node_handle.h>
 #include <boost/make_shared.hpp>
 
 #include "ros/own_log.hpp"
@@ -58,5 +59,11 @@ class GuardedQueue : public ros::CallbackQueue {
     ros::CallbackInterfacePtr callback_;
   };
 };
+
+/// The handle, whose callbacks this queue calls.
+inline ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
 
 }  // namespace mems_stiction

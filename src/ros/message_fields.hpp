@@ -13,6 +13,7 @@
 #include <ros/serialization.h>
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -53,11 +54,12 @@ class MessageFields {
   void next(Field& field) {
     const Entry* value = valueOf(*name_++);
     if (value == nullptr) return;
-    const bool is_text = value->text != nullptr;
     if constexpr (std::is_arithmetic_v<Field>) {
-      if (!is_text) field = static_cast<Field>(value->number);
+      field = static_cast<Field>(value->number);
     } else if constexpr (std::is_same_v<Field, std::string>) {
-      if (is_text) field = *value->text;
+      if (value->text == nullptr)
+        throw std::logic_error(std::string(value->name) + ": a number for a field of text");
+      field = *value->text;
     }
   }
 

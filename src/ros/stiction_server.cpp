@@ -23,11 +23,6 @@ const ros::WallDuration kGatePeriod(0.01);
 constexpr int kLongWithoutPublisher = 10;  // [s]
 constexpr const char* kTooMuchWaits = "what waits holds more than max_waiting_memory";
 
-ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
-  handle.setCallbackQueue(&queue);
-  return handle;
-}
-
 /// An unlimited queue keeps every scan.
 std::size_t capacityOf(const NodeOptions& options) {
   return options.drop_policy == DropPolicy::kAll ? 0 : static_cast<std::size_t>(options.queue_size);

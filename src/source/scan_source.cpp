@@ -11,11 +11,6 @@ constexpr char kRefusedTopic[] = "refused";
 /// What was refused while nobody listened is on the log.
 constexpr std::uint32_t kRefusedQueue = 1000;
 
-ros::NodeHandle withOwnQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
-  handle.setCallbackQueue(&queue);
-  return handle;
-}
-
 std_msgs::String textMessage(const std::string& text) {
   std_msgs::String message;
   message.data = text;
@@ -27,8 +22,8 @@ std_msgs::String textMessage(const std::string& text) {
 ScanSource::ScanSource(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                        const std::string& name)
     : options_(readSourceParameters(private_handle)),
-      handle_(withOwnQueue(handle, queue_)),
-      private_handle_(withOwnQueue(private_handle, queue_)),
+      handle_(withQueue(handle, queue_)),
+      private_handle_(withQueue(private_handle, queue_)),
       refused_(private_handle_.advertise<std_msgs::String>(kRefusedTopic, kRefusedQueue)),
       accounting_([this](const std::string& text) { refused_.publish(textMessage(text)); }),
       publisher_(handle_, options_),
