@@ -16,6 +16,9 @@ Python takes its modules apart and neither hook of this one is left, Ctrl-C ends
 
 A program whose output nobody reads any more (`| head`) ends without a word, too, with the status
 that a shell gives one that SIGPIPE ends. That signal itself would also end it for a closed socket.
+Where the output cannot be written for another reason (a full disk), one line says so. Python keeps
+what is printed in a buffer, and drops what its own flush at the end of a script raises: here that is
+remembered.
 """
 
 import atexit
@@ -31,6 +34,7 @@ import tempfile
 AGAIN_AFTER = 0.02  # [s]
 STATUS = 130  # after TERM and HUP
 UNREAD = 128 + signal.SIGPIPE
+NOT_PRINTED = 120  # as of Python itself, where the rest of the output cannot be written at the end
 OTHERS = (signal.SIGTERM, signal.SIGHUP)
 ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
 
@@ -38,6 +42,8 @@ _show = sys.excepthook
 _show_dropped = sys.unraisablehook
 _has_come = False  # an interruption, whoever heard of it
 _is_of_others = False  # it was TERM or HUP
+_output = None  # the standard output, once main() has begun
+_not_printed = None  # why the rest of the output could not be written at the end
 
 
 def _raise(number=signal.SIGINT, *_):
@@ -68,6 +74,10 @@ def _is_interrupted(error):
 
 
 def _say(kind, error, trace):
+    global _not_printed
+    if isinstance(error, CannotPrint):
+        _not_printed = error  # the end of the program says it
+        return
     if not _is_interrupted(error):
         _show(kind, error, trace)
         return
@@ -93,22 +103,57 @@ def _raise_again(dropped):
     signal.setitimer(signal.ITIMER_REAL, AGAIN_AFTER)
 
 
+class CannotPrint(OSError):
+    """The standard output cannot be written; one that is not caught ends the program with one
+    line."""
+
+
 class _Printed(io.FileIO):
-    """The standard output. The first write that nobody reads ends the program; the rest is
-    dropped."""
+    """The standard output. The first write that fails is the last one; the rest is dropped. One that
+    nobody reads ends the program."""
 
     def write(self, data):
+        global _not_printed
         try:
             return super().write(data)
-        except BrokenPipeError:
+        except OSError as error:
+            if sys._getframe().f_back is None:  # Python flushes: no caller hears of the error
+                _not_printed = error
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self.fileno())
             os.close(nowhere)
-            raise SystemExit(UNREAD) from None
+            if isinstance(error, BrokenPipeError):
+                raise SystemExit(UNREAD) from None
+            raise CannotPrint(error.errno, error.strerror) from None
+
+
+def _print_the_rest():
+    """At the end of a program."""
+    if _output is None or _output.closed or _has_come:
+        return
+    error = _not_printed
+    try:
+        _output.flush()
+    except SystemExit:
+        os._exit(UNREAD)
+    except OSError as caught:
+        error = caught
+    if error is None:
+        return
+    if isinstance(error, BrokenPipeError):
+        os._exit(UNREAD)
+    print(
+        "%s: what is printed cannot be written: %s"
+        % (os.path.basename(sys.argv[0]), error.strerror),
+        file=sys.stderr,
+        flush=True,
+    )
+    os._exit(NOT_PRINTED)
 
 
 def _end_with_the_reader():
     """Of what is printed from now on."""
+    global _output
     before = sys.stdout
     if not isinstance(before, io.TextIOWrapper) or before is not sys.__stdout__:
         return
@@ -121,6 +166,7 @@ def _end_with_the_reader():
         line_buffering=before.line_buffering,
         write_through=before.write_through,
     )
+    _output = sys.stdout
 
 
 def raise_from_here_on():
@@ -184,12 +230,7 @@ def _end_at_once_from_here_on():
     """The last of what Python calls before it takes itself apart. What an interruption that was
     dropped is to raise again ends the process."""
     signal.setitimer(signal.ITIMER_REAL, 0.0)
-    try:
-        with contextlib.suppress(OSError, ValueError):  # a full disk: Python says it
-            if sys.stdout is not None:
-                sys.stdout.flush()
-    except SystemExit:
-        os._exit(UNREAD)
+    _print_the_rest()
     ours = [number for number in ENDINGS if signal.getsignal(number) == _raise]
     for number in ours:
         signal.signal(

@@ -117,19 +117,40 @@ class InterruptedTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    def ends_of(self, command, output):
+        """Status and errors of a program, whose output Python buffers, and does not."""
+        for unbuffered in ("", "1"):  # empty as if not set
+            run = subprocess.run(
+                command,
+                stdout=output,
+                stderr=subprocess.PIPE,
+                env=dict(os.environ, PYTHONUNBUFFERED=unbuffered),
+                timeout=120,
+            )
+            yield run.returncode, run.stderr.decode()
+
     def test_where_nobody_reads_any_more_a_program_ends_without_a_word(self):
         for command in (
             [sys.executable, "-c", PRINTS_IT, "1"],  # at the end of the program
             [sys.executable, "-c", PRINTS_IT, "1000000"],  # before
-            [sys.executable, "-u", "-c", PRINTS_IT, "1"],
             [program("compare_lots"), "--help"],
             [program("watch_drift"), "--help"],
         ):
             unread, written = os.pipe()
             os.close(unread)
             with os.fdopen(written, "wb") as stream:
-                run = subprocess.run(command, stdout=stream, stderr=subprocess.PIPE, timeout=120)
-            self.assertEqual((run.returncode, run.stderr), (128 + signal.SIGPIPE, b""), command)
+                for end in self.ends_of(command, stream):
+                    self.assertEqual(end, (128 + signal.SIGPIPE, ""), command)
+
+    def test_an_output_that_cannot_be_written_is_one_line(self):
+        for name in ("compare_lots", "plot_curve", "station_check", "watch_drift"):
+            with open("/dev/full", "wb") as stream:
+                for status, errors in self.ends_of([program(name), "--help"], stream):
+                    self.assertGreater(status, 0, name)
+                    self.assertEqual(
+                        errors,
+                        name + ": what is printed cannot be written: No space left on device\n",
+                    )
 
     def lines_of(self, name):
         """Of a file that may not be there yet."""
