@@ -262,6 +262,11 @@ def source_counts(node="scan_source"):
     return SourceCounts(node, "scan_source")
 
 
+def connected(publisher):
+    """Names of the nodes that a publisher of this process is connected to."""
+    return {one[1] for one in publisher.impl.get_stats_info()}
+
+
 class Station:
     """Sends scans as a camera driver does: height and scan_info with one stamp."""
 
@@ -269,8 +274,7 @@ class Station:
         self.height = rospy.Publisher(prefix + "height", Image, queue_size=1000)
         self.info = rospy.Publisher(prefix + "scan_info", ScanInfo, queue_size=1000)
         wait_until(
-            lambda: self.height.get_num_connections() and self.info.get_num_connections(),
-            "the node to subscribe",
+            lambda: connected(self.height) & connected(self.info), "the node to subscribe to both"
         )
         self._second = 1000
 
