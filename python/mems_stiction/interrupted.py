@@ -17,8 +17,8 @@ Python takes its modules apart and neither hook of this one is left, Ctrl-C ends
 A program whose output nobody reads any more (`| head`) ends without a word, too, with the status
 that a shell gives one that SIGPIPE ends. That signal itself would also end it for a closed socket.
 Where the output cannot be written for another reason (a full disk), one line says so. Python keeps
-what is printed in a buffer, and drops what its own flush at the end of a script raises: here that is
-remembered.
+what is printed in a buffer, and drops what its own flush at the end of a script raises: here that
+is remembered.
 """
 
 import atexit
@@ -109,8 +109,8 @@ class CannotPrint(OSError):
 
 
 class _Printed(io.FileIO):
-    """The standard output. The first write that fails is the last one; the rest is dropped. One that
-    nobody reads ends the program."""
+    """The standard output. The first write that fails is the last one; the rest is dropped. One
+    that nobody reads ends the program."""
 
     def write(self, data):
         global _not_printed
