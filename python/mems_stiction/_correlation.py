@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from statistics import NormalDist
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, SurfaceError
 from mems_stiction._types import Heights, Upper
 
-REACH = 1.959964  # standard deviations of a normal distribution to either side of 95 %
+NORMAL_95 = NormalDist().inv_cdf(0.975)
 FIELDS = "wavelength shortest longest correlation correlation_lower correlation_upper".split()
 FIELDS += ["rms_lower", "rms_upper", "waves"]
 
@@ -192,7 +193,7 @@ def _waves(
 def _interval(rho: float, count: float) -> Tuple[float, float]:
     if not count > 3:
         return -1.0, 1.0
-    reach = REACH / np.sqrt(count - 2)
+    reach = NORMAL_95 / np.sqrt(count - 2)
     middle = np.arctanh(np.clip(rho, -1 + 1e-15, 1 - 1e-15))
     return float(np.tanh(middle - reach)), float(np.tanh(middle + reach))
 

@@ -62,6 +62,10 @@ void Configuration::describe(OptionVisitor& visitor) {
   half_space.describe(visitor);
 }
 
+double Configuration::tipRadius() const {
+  return resolution.tip_radius > 0.0 ? resolution.tip_radius : preprocessing.tip.radius;
+}
+
 std::vector<std::string> Configuration::validate() const {
   std::vector<std::string> violations = model.validate();
   for (const std::vector<std::string>& of_section :

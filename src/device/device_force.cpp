@@ -236,7 +236,7 @@ std::vector<BandOfWaves> continuedBands(const SurfaceLaw& law, double side) {
         first.density *
         std::exp(slopeAt(0.0) * std::min(distance, 0.5 * std::log(first.wave_number / last)));
     band.density_lower = first.density;
-    band.density_upper = first.density * std::exp(slopeAt(1.96) * distance);
+    band.density_upper = first.density * std::exp(slopeAt(kNormal95) * distance);
     band.is_measured = false;
     bands.push_back(band);
   }
@@ -249,8 +249,8 @@ void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
     BandOfWaves shown;
     shown.wavelength = 2.0 * kPi / band.wave_number;
     shown.density = band.density;
-    shown.density_lower = band.density * chiSquareFactor(band.freedom, -1.96);
-    shown.density_upper = band.density * chiSquareFactor(band.freedom, 1.96);
+    shown.density_lower = band.density * chiSquareFactor(band.freedom, -kNormal95);
+    shown.density_upper = band.density * chiSquareFactor(band.freedom, kNormal95);
     force.spectrum.push_back(shown);
   }
   std::stable_sort(force.spectrum.begin(), force.spectrum.end(),

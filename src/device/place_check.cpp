@@ -9,6 +9,7 @@
 #include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
 #include "height_map/validity.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/mean.hpp"
 #include "numeric/median.hpp"
 #include "preprocess/level.hpp"
@@ -27,7 +28,6 @@ constexpr double kLeastMeasuredOfBlock = 0.5;
 /// largest of sixteen logarithms has a long tail.
 constexpr double kBeyondChance = 5.0;
 constexpr double kBeyondMost = 1.25;
-constexpr double kNormalQuantile = 1.96;
 
 /// Variance of the differences of neighbours, over both directions: the mean squared gradient about
 /// its mean.
@@ -156,8 +156,8 @@ bool PlaceCheck::isBeyond(const Checked& checked) const {
   const auto isMore = [&](double Range::*figure) {
     const std::vector<double> made = madeLike(checked, figure);
     const auto count = static_cast<double>(made.size());
-    const double deviations = kBeyondChance * studentQuantile(count - 1.0) / kNormalQuantile *
-                              std::sqrt(1.0 + 1.0 / count);
+    const double deviations =
+        kBeyondChance * studentQuantile(count - 1.0) / kNormal95 * std::sqrt(1.0 + 1.0 / count);
     const double most = *std::max_element(made.begin(), made.end());
     return checked.own.*figure >
            std::max(kBeyondMost * most, meanOf(made) + deviations * deviationOf(made));

@@ -115,9 +115,7 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       limits_(configuration.limits),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
-      tip_radius_(configuration.resolution.tip_radius > 0.0
-                      ? configuration.resolution.tip_radius
-                      : configuration.preprocessing.tip.radius),
+      tip_radius_(configuration.tipRadius()),
       counter_surface_(
           std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
                                                  withoutRegion(cleaner_.options()), limits_)) {

@@ -70,9 +70,7 @@ ScanPredictor::ScanPredictor(const Configuration& configuration)
       model_(withoutFrameLoad(options_)),
       limits_(configuration.limits),
       min_contact_pixels_(configuration.resolution.min_contact_pixels),
-      tip_radius_(configuration.resolution.tip_radius > 0.0
-                      ? configuration.resolution.tip_radius
-                      : configuration.preprocessing.tip.radius) {}
+      tip_radius_(configuration.tipRadius()) {}
 
 void ScanPredictor::setOptions(const Options& options) {
   options.check();

@@ -183,22 +183,18 @@ double ClosingPlaces::drawingEnergy(const Place& place, double distance) const {
 // (S9), the same sums
 void ClosingPlaces::measureEnergy(Place& place) {
   if (columns_.empty()) readColumns();
-  along_rows_.start(place.cols.length());
-  along_columns_.start(place.rows.length());
+  structure_.start(place.rows.length(), place.cols.length());
   for (std::size_t line = 0; line < row_of_line_.size(); ++line) {
     if (row_of_line_[line] < place.rows.from || row_of_line_[line] >= place.rows.to) continue;
-    along_rows_.add(rows_.data() + line * static_cast<std::size_t>(field_->cols()) +
-                    place.cols.from);
+    structure_.along_rows.add(rows_.data() + line * static_cast<std::size_t>(field_->cols()) +
+                              place.cols.from);
   }
   for (std::size_t line = 0; line < col_of_line_.size(); ++line) {
     if (col_of_line_[line] < place.cols.from || col_of_line_[line] >= place.cols.to) continue;
-    along_columns_.add(columns_.data() + line * static_cast<std::size_t>(field_->rows()) +
-                       place.rows.from);
+    structure_.along_columns.add(columns_.data() + line * static_cast<std::size_t>(field_->rows()) +
+                                 place.rows.from);
   }
-  const int directions = (place.cols.length() > 1 ? 1 : 0) + (place.rows.length() > 1 ? 1 : 0);
-  const double both =
-      along_rows_.integral(field_->pitchX()) + along_columns_.integral(field_->pitchY());
-  place.energy = directions > 0 ? 0.25 * contact_modulus_ * both / directions : 0.0;
+  place.energy = structure_.energy(contact_modulus_, field_->pitchX(), field_->pitchY());
 }
 
 double ClosingPlaces::largestForce() const {

@@ -96,8 +96,7 @@ class ClosingPlaces {
   int down_ = 1;                 ///< the smallest blocks, by rows and columns
   int along_ = 1;
   std::vector<GapSum> blocks_;  ///< of these, row by row
-  StructureFunction along_rows_;
-  StructureFunction along_columns_;
+  StructureFunctions structure_;
 };
 
 }  // namespace mems_stiction

@@ -64,6 +64,17 @@ double StructureFunction::integral(double pitch) const {
   return last_distance > 0.0 ? sum + 0.5 * last / last_distance : 0.0;
 }
 
+void StructureFunctions::start(int rows, int cols) {
+  along_rows.start(cols);
+  along_columns.start(rows);
+  directions_ = (cols > 1 ? 1 : 0) + (rows > 1 ? 1 : 0);
+}
+
+double StructureFunctions::energy(double contact_modulus, double pitch_x, double pitch_y) const {
+  const double both = along_rows.integral(pitch_x) + along_columns.integral(pitch_y);
+  return directions_ > 0 ? 0.25 * contact_modulus * both / directions_ : 0.0;
+}
+
 double FlatteningEnergy::of(const GapField& field, double contact_modulus) {
   return field.readGaps([&](const auto& gaps) {
     return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell]; });
@@ -86,8 +97,7 @@ double FlatteningEnergy::measure(const GapField& field, double contact_modulus,
   const int cols = field.cols();
   const int row_step = std::max(1, rows / chosen::kLines);
   const int col_step = std::max(1, cols / chosen::kLines);
-  along_rows_.start(cols);
-  along_columns_.start(rows);
+  structure_.start(rows, cols);
   row_.resize(static_cast<std::size_t>(cols));
   // the columns are read row by row: a look at each row, which is a pass over memory, but in its
   // order
@@ -103,16 +113,13 @@ double FlatteningEnergy::measure(const GapField& field, double contact_modulus,
     }
   }
   for (int i = 0; i < columns; ++i)
-    along_columns_.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
+    structure_.along_columns.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
   for (int row = row_step / 2; row < rows; row += row_step) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols;
     for (int col = 0; col < cols; ++col) row_[static_cast<std::size_t>(col)] = read(first + col);
-    along_rows_.add(row_.data());
+    structure_.along_rows.add(row_.data());
   }
-  const double both =
-      along_rows_.integral(field.pitchX()) + along_columns_.integral(field.pitchY());
-  const int directions = (cols > 1 ? 1 : 0) + (rows > 1 ? 1 : 0);
-  return directions > 0 ? 0.25 * contact_modulus * both / directions : 0.0;
+  return structure_.energy(contact_modulus, field.pitchX(), field.pitchY());
 }
 
 }  // namespace mems_stiction

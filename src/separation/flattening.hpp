@@ -41,6 +41,21 @@ class StructureFunction {
   std::vector<Lag> lags_;
 };
 
+/// The same along both directions of a frame.
+struct StructureFunctions {
+  StructureFunction along_rows;
+  StructureFunction along_columns;
+
+  /// Forgets all lines; the next ones are of a frame of this size [cells].
+  void start(int rows, int cols);
+  /// U/A [J/m^2], of the mean over both; 0 of a single cell.
+  /// - @p contact_modulus E [Pa], > 0
+  double energy(double contact_modulus, double pitch_x, double pitch_y) const;
+
+ private:
+  int directions_ = 0;
+};
+
 /// Keeps its memory between frames.
 class FlatteningEnergy {
  public:
@@ -55,8 +70,7 @@ class FlatteningEnergy {
   template <typename ReadCell>
   double measure(const GapField& field, double contact_modulus, const ReadCell& read);
 
-  StructureFunction along_rows_;
-  StructureFunction along_columns_;
+  StructureFunctions structure_;
   std::vector<double> row_;
   std::vector<double> columns_;  ///< some columns of the frame, one behind the other
 };

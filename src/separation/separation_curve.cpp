@@ -14,7 +14,7 @@ namespace {
 const double kHoldPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
 
 /// 95 % of what the curve says without a doubt lie this near to the half-space, of it [-].
-constexpr double kError = 1.96 * chosen::kSureError.pull_off;
+constexpr double kError = kNormal95 * chosen::kSureError.pull_off;
 
 /// b of summits with this Tabor parameter, (S8a) [m].
 double holdOf(double tabor_parameter, double range) {

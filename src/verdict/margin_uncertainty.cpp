@@ -14,7 +14,6 @@ namespace mems_stiction {
 namespace {
 
 /// Standard deviations from the median to the 97.5 % quantile.
-constexpr double kMarginQuantile = 1.959964;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -141,7 +140,7 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
 /// What the samples leave out.
 void takeEvidence(const Evidence& evidence, AdhesionSpread& spread) {
   if (evidence.half_space != nullptr) {
-    const FactorRange range = factorsWithin(kMarginQuantile * halfSpaceError(*evidence.half_space));
+    const FactorRange range = factorsWithin(kNormal95 * halfSpaceError(*evidence.half_space));
     widen(spread.pull_off, range);
     widen(spread.apparent_work, range);
   }
@@ -203,8 +202,8 @@ AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& optio
 
 void widen(std::vector<double>& samples, const FactorRange& range) {
   if (samples.empty()) return;
-  const double below = -std::log(range.lowest) / kMarginQuantile;
-  const double above = std::log(range.highest) / kMarginQuantile;
+  const double below = -std::log(range.lowest) / kNormal95;
+  const double above = std::log(range.highest) / kNormal95;
   const double median = quantile(samples, 0.5);
   const auto count = static_cast<double>(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -16,7 +16,6 @@ namespace mems_stiction {
 namespace {
 
 /// Standard deviations from the median to the 97.5 % quantile.
-constexpr double kToQuantile = 1.959963985;
 /// Of the area under the density to both sides.
 constexpr double kInside = 0.95;
 
@@ -85,7 +84,7 @@ struct Side {
   /// Half of the interval of the mean's logarithm [-].
   double reach(double place_variance, double excess, double count) const {
     const double variance = squared(common) + (place_variance + excess) / count;
-    if (excess == 0.0) return kToQuantile * std::sqrt(variance);
+    if (excess == 0.0) return kNormal95 * std::sqrt(variance);
     const double freedom = (count - 1.0) * squared(variance / (excess / count));
     return studentQuantile(freedom) * std::sqrt(variance);
   }
@@ -102,8 +101,8 @@ struct Sample {
     const double size = std::abs(ratio.value);
     const double least = std::min(std::abs(ratio.lower), std::abs(ratio.upper));
     const double most = std::max(std::abs(ratio.lower), std::abs(ratio.upper));
-    near.push_back(std::max(0.0, std::log(size / least)) / kToQuantile);
-    away.push_back(std::max(0.0, std::log(most / size)) / kToQuantile);
+    near.push_back(std::max(0.0, std::log(size / least)) / kNormal95);
+    away.push_back(std::max(0.0, std::log(most / size)) / kNormal95);
     const double stated = std::isnan(place_deviation) ? 0.0 : place_deviation;
     places.push_back(std::min({stated, near.back(), away.back()}));
     logarithms.push_back(std::log(size));
@@ -352,9 +351,9 @@ double studentQuantile(double freedom) {
   constexpr double kLarge =
       1e5;  // from here on one term of the expansion in 1/freedom is left, within 1e-9
   if (!(freedom < kLarge))
-    return kToQuantile + (kToQuantile * kToQuantile + 1.0) * kToQuantile / (4.0 * freedom);
+    return kNormal95 + (kNormal95 * kNormal95 + 1.0) * kNormal95 / (4.0 * freedom);
   double quantile =
-      kToQuantile;  // from below: the share is concave, so that Newton's steps stay below the root
+      kNormal95;  // from below: the share is concave, so that Newton's steps stay below the root
   for (int i = 0; i < 50; ++i) {
     const double step =
         (kInside - studentShare(quantile, freedom)) / (2.0 * studentDensity(quantile, freedom));

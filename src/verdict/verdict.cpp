@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "errors/short_number.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/words.hpp"
 #include "verdict/contact_size.hpp"
 #include "verdict/electrode_hold.hpp"
@@ -19,8 +20,6 @@ namespace {
 constexpr double kStandardLower =
     0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
-constexpr double kReach95 =
-    1.959964;  // standard deviations of a normal distribution that hold 95 % of it
 /// By less the linear rule's margin may differ unsaid [-].
 constexpr double kWorthSaying = 1.5;
 
@@ -166,9 +165,9 @@ Finding springFinding(const Holding& holding, Verdict& verdict) {
     return holdingFactor(holding, share, quantile(holding.spread.pull_off, place), deviations);
   };
   verdict.device_pull_off_force_lower =
-      verdict.device_pull_off_force * forceAt(kLowerShare, -kReach95);
+      verdict.device_pull_off_force * forceAt(kLowerShare, -kNormal95);
   verdict.device_pull_off_force_upper =
-      verdict.device_pull_off_force * forceAt(kUpperShare, kReach95);
+      verdict.device_pull_off_force * forceAt(kUpperShare, kNormal95);
   verdict.margin_lower = verdict.restoring_force / verdict.device_pull_off_force_upper;
   verdict.margin_upper = verdict.restoring_force / verdict.device_pull_off_force_lower;
   verdict.margin_uncertainty =
@@ -206,8 +205,8 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const auto workAt = [&](double place, double deviations) {
     return holdingFactor(holding, share, workFactor(holding, place), deviations);
   };
-  const double at_most = verdict.peel_number / workAt(kLowerShare, -kReach95);
-  const double at_least = verdict.peel_number / workAt(kUpperShare, kReach95);
+  const double at_most = verdict.peel_number / workAt(kLowerShare, -kNormal95);
+  const double at_least = verdict.peel_number / workAt(kUpperShare, kNormal95);
   verdict.peel_number_lower =
       std::min(at_least, at_most);  // compressed beams have peel numbers below 0
   verdict.peel_number_upper = std::max(at_least, at_most);
@@ -401,7 +400,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   const AdhesionSpread spread = spread_of();
   verdict.place_deviation = spread.place_deviation;
   verdict.surface_reach =
-      of_device != nullptr ? of_device->surface_reach : kReach95 * spread.place_deviation;
+      of_device != nullptr ? of_device->surface_reach : kNormal95 * spread.place_deviation;
   std::string why_not = of_device != nullptr ? of_device->missing_scan
                                              : whatIsMissing(prediction.short_waves, kTheScan);
   if (why_not.empty() && of_device == nullptr && !hasSizeOfScan(prediction, device)) {

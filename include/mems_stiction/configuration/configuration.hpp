@@ -81,6 +81,9 @@ struct Configuration {
   std::vector<std::string> remarks;
 
   void describe(OptionVisitor& visitor);
+  /// Of the tip that drew the scan [m]: resolution/tip_radius, else preprocessing/tip/radius; 0 =
+  /// not known.
+  double tipRadius() const;
   /// One line per violated constraint; empty when all is well.
   std::vector<std::string> validate() const;
   /// @throw OptionsError with the lines of validate(), if there are any.
