@@ -333,8 +333,13 @@ std::optional<Realisation> DeviceAreaSolver::follow(const AreaCells& cells,
                                                     bool are_all,
                                                     const std::function<cv::Mat()>& frame) {
   if (!tilts()) {
-    if (const auto found = followCells(cells, quarters, are_all))
-      return taken(withFlow(*found, frame));
+    const auto elastically = [&] {
+      Options elastic = model_;
+      elastic.deformation = Deformation::kElastic;
+      return followCells(cells, quarters, are_all, elastic);
+    };
+    if (const auto found = followCells(cells, quarters, are_all, model_))
+      return taken(withFlow(*found, frame, elastically));
     if (!are_all) return std::nullopt;
   }
   return taken(followFrame(frame()));
@@ -352,12 +357,13 @@ Realisation DeviceAreaSolver::taken(const Followed& followed) {
 }
 
 std::optional<DeviceAreaSolver::Followed> DeviceAreaSolver::followCells(
-    const AreaCells& cells, const std::vector<AreaCells>& quarters, bool are_all) {
+    const AreaCells& cells, const std::vector<AreaCells>& quarters, bool are_all,
+    const Options& model) {
   const auto isEnough = [&](const AreaAdhesion& found) {
     return found.is_enough && (are_all || !found.took_all_cells);
   };
   may_flow_ = false;
-  const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
+  const AreaAdhesion found = areaAdhesion(cells, loadedOn(model, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (!isEnough(found)) return std::nullopt;
   Followed followed;
@@ -373,7 +379,7 @@ std::optional<DeviceAreaSolver::Followed> DeviceAreaSolver::followCells(
   double work = 0.0;
   for (const AreaCells& quarter : quarters) {
     if (quarter.validCount() == 0) continue;
-    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(model_, loaded_area_, quarter.area()));
+    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(model, loaded_area_, quarter.area()));
     if (!isEnough(part)) return std::nullopt;
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
@@ -388,11 +394,13 @@ std::optional<DeviceAreaSolver::Followed> DeviceAreaSolver::followCells(
   return followed;
 }
 
-DeviceAreaSolver::Followed DeviceAreaSolver::withFlow(const Followed& by_cells,
-                                                      const std::function<cv::Mat()>& frame) {
+DeviceAreaSolver::Followed DeviceAreaSolver::withFlow(
+    const Followed& by_cells, const std::function<cv::Mat()>& frame,
+    const std::function<std::optional<Followed>()>& elastically) {
   if (!may_flow_) return by_cells;
   const Prediction found = predictFrame(frame());
-  if (found.plastic_count + found.elasto_plastic_count == 0) return by_cells;
+  if (found.plastic_count + found.elasto_plastic_count == 0)
+    return elastically().value_or(by_cells);
   // what a few contacts hold does not go with area
   if (scaleOf(found) <= kGoesOn || found.pull_off_contact_count >= kManyContacts)
     return ofFrame(found);

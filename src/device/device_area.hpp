@@ -118,9 +118,12 @@ class DeviceAreaSolver {
   /// to say so count alone
   /// @return nothing where they do not suffice
   std::optional<Followed> followCells(const AreaCells& cells,
-                                      const std::vector<AreaCells>& quarters, bool are_all);
+                                      const std::vector<AreaCells>& quarters, bool are_all,
+                                      const Options& model);
   /// By places where contacts flow and a frame tells where; else as cells have it.
-  Followed withFlow(const Followed& by_cells, const std::function<cv::Mat()>& frame);
+  /// - @p elastically finds what cells say of elastic surfaces
+  Followed withFlow(const Followed& by_cells, const std::function<cv::Mat()>& frame,
+                    const std::function<std::optional<Followed>()>& elastically);
   Followed followFrame(const cv::Mat& heights);
   Prediction predictFrame(const cv::Mat& heights) const;
   Followed ofFrame(const Prediction& found);

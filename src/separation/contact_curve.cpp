@@ -102,23 +102,30 @@ const char* doubtOf(const SeparationCurve& curve, double exponent, double force_
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
                               const FarGaps* far) {
-  start(field, settings, far, nullptr, 0.0);
+  start(field, settings, far, nullptr, true, 0.0);
 }
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings,
                               const FlowingPlaces& flow) {
-  // about the cells that have come in reach without flow do so with it
+  start(field, settings, nullptr, &flow, false, reachedFraction());
+}
+
+void ContactCurve::comeToRestElastically(const GapField& field, const ContactSettings& settings) {
+  start(field, settings, nullptr, nullptr, false, reachedFraction());
+}
+
+double ContactCurve::reachedFraction() {
   const double reached = frame_.cellsBelow(rest().approach + frame_.law().range());
   const double fraction = kMoreInReach * reached / static_cast<double>(frame_.validCount());
-  start(field, settings, nullptr, &flow, std::min(fraction, frame_.orderedFraction()));
+  return std::min(fraction, frame_.orderedFraction());
 }
 
 void ContactCurve::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
-                         const FlowingPlaces* flow, double fraction) {
+                         const FlowingPlaces* flow, bool flows_by_patches, double fraction) {
   flow_ = flow;
   cell_area_ = field.cellArea();
   has_unloading_ = false;
-  frame_.start(field, settings, far, flow == nullptr, fraction);
+  frame_.start(field, settings, far, flows_by_patches, fraction);
   followCurve(frame_, settings, loading_);
   const double gaps = takeContacts();
   regime_of_dale_.clear();

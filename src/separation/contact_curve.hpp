@@ -43,6 +43,8 @@ class ContactCurve {
   /// - @p flow of the places of `field`; both must outlive the object's use
   void comeToRest(const GapField& field, const ContactSettings& settings,
                   const FlowingPlaces& flow);
+  /// The same of the surfaces that came to rest last, no place of which has turned out to flow.
+  void comeToRestElastically(const GapField& field, const ContactSettings& settings);
   /// From then on frame() is that of the surfaces as flow has changed them.
   /// - @p force_from_next_rest forceFromNextRest() of the loading branch; 0 where they are not
   /// asked for another rest [N]
@@ -64,6 +66,8 @@ class ContactCurve {
   bool mayFlow(const LoadOptions& load) const {
     return largest_fullness_ > (load.presses() ? chosen::kMayFlow : PatchForces::kFlowOnset);
   }
+  /// Whether contacts at rest have flowed, each as a whole.
+  bool flowsByPatches() const { return has_flowed_ || largest_fullness_ > PatchForces::kFlowOnset; }
   /// Mean gap of the cells apart at rest [m]; 0 when every cell touches.
   double meanGap() const { return mean_gap_; }
   /// -dF/dD at rest [N/m]; NaN if it is not known.
@@ -84,7 +88,9 @@ class ContactCurve {
 
  private:
   void start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
-             const FlowingPlaces* flow, double fraction);
+             const FlowingPlaces* flow, bool flows_by_patches, double fraction);
+  /// Of the cells, that come in reach again about.
+  double reachedFraction();
   /// @return sum of the gaps of the cells in contact [m]
   double takeContacts();
   /// Regimes of contacts by the share of their load that places bear which have flowed, and their

@@ -122,6 +122,8 @@ bool SeparationSolver::flow(const ContactProblem& problem) {
                          ? std::max(press.approach, approach)
                          : GapField::kInvalidGap;
   }
+  if (!has_flowed && curve_.flowsByPatches())
+    curve_.comeToRestElastically(problem.gap, problem.settings);
   const double pressed_by = load.mechanical_load + curve_.rest().electrostatic;
   attracts_more_ = has_flowed && carried > chosen::kDoubtedTimes * pressed_by &&
                    carried > chosen::kDoubtedTimes *

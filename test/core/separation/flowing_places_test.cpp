@@ -328,5 +328,30 @@ TEST(SeparationFlow, aSecondPressingUnderTheSameLoadChangesLittle) {
   EXPECT_LT(lost_second, 0.1 * lost_first);
 }
 
+TEST(SeparationFlow, ofAWornSurfaceIsNone) {
+  // tops are flat by now and wide: patches as a whole would flow by Hertz's onset
+  const double load = 80e6 * 64 * 64 * 16e-18;
+  Options options = flowing(100e9, 1.2e9, load);
+  options.output.deformed_surfaces = true;
+  HeightMap lower = gaussianFrame(1.2e-9, 310);
+  HeightMap upper;
+  for (int contact = 0; contact < 12; ++contact) {
+    const Prediction pressed = AdhesionModel(options).predict({lower, upper});
+    lower = HeightMap(pressed.deformed_lower, lower.pitchX(), lower.pitchY());
+    upper = HeightMap(pressed.deformed_upper, lower.pitchX(), lower.pitchY());
+  }
+  for (const double share : {1.0, 0.8, 0.5, 0.2}) {
+    SCOPED_TRACE(share);
+    options.load.mechanical_load = share * load;
+    options.deformation = Deformation::kThreeRegimes;
+    const Prediction worn = AdhesionModel(options).predict({lower, upper});
+    options.deformation = Deformation::kElastic;
+    const Prediction elastic = AdhesionModel(options).predict({lower, upper});
+    EXPECT_NEAR(worn.pull_off_force / elastic.pull_off_force, 1.0, 1e-3);
+    EXPECT_LT(cv::norm(worn.deformed_lower, lower.heights(), cv::NORM_INF), 1e-15);
+    EXPECT_EQ(worn.plastic_count + worn.elasto_plastic_count, 0);
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction
