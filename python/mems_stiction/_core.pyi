@@ -305,8 +305,8 @@ class VerdictFigures:
     """half of the central 68 % interval of margin"""
     margin_transition: float
     """margin with the prefactors of the JKR-DMT transition"""
-    apparent_work_of_adhesion: float
-    """[J/m^2] of the rough interface, per nominal area"""
+    device_apparent_work_of_adhesion: float
+    """[J/m^2] of the device's interface, per nominal area, which beams peel"""
     peel_number: float
     """of the beam: above 1 it comes off (de Boer and Michalske 1999)"""
     peel_number_lower: float

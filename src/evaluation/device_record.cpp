@@ -23,11 +23,11 @@ const auto kVisitPart = [](const auto& item, auto&& fields) {
 };
 const auto kVisitBand = [](const auto& item, auto&& fields) { visitBandFields(item, fields); };
 
-/// The verdict's figures but for those that the force has by the same name.
+/// The verdict's figures but for those of the device that the force has.
 template <typename Fields>
 void addVerdict(const Verdict& verdict, Fields& fields) {
   visitVerdictFields(verdict, [&](const Figure& figure, const auto& value) {
-    const bool force_has_it = std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 ||
+    const bool force_has_it = std::strcmp(figure.name, "device_apparent_work_of_adhesion") == 0 ||
                               startsWith(figure.name, "device_pull_off_force");
     if (!force_has_it) fields(figure, value);
   });

@@ -35,9 +35,7 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction,
   if (extras.provenance) visitStatedProvenance(*extras.provenance, visit);
   if (!extras.formulation.empty()) visit({"formulation"}, extras.formulation);
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-    const bool verdict_has_it =
-        extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
-    if (!verdict_has_it && hasFigure(extras.formulation, figure.name)) visit(figure, value);
+    if (hasFigure(extras.formulation, figure.name)) visit(figure, value);
   });
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   visit({"regime_flag_names"}, regimeFlagNames(flags));

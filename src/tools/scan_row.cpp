@@ -31,9 +31,7 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visit({"pitch_y", "m"}, scan.pitchY());
   visit({"formulation"}, formulation);
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
-    const bool verdict_has_it =
-        verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
-    if (std::strcmp(figure.name, "processing_time") == 0 || verdict_has_it) return;
+    if (std::strcmp(figure.name, "processing_time") == 0) return;
     if (hasFigure(formulation, figure.name)) visit(figure, value);
   });
   visitRoughnessFields(prediction.roughness, visit);

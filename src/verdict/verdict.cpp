@@ -187,7 +187,7 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   const bool is_measured = device.apparent_work_of_adhesion > 0.0;
   if (!is_measured && !holding.why_not.empty()) return {Sticks::kUnknown, holding.why_not};
   const Beam beam = device.beam();
-  const double work = verdict.apparent_work_of_adhesion;
+  const double work = verdict.device_apparent_work_of_adhesion;
   if (std::isnan(work)) return withoutContacts("the beam's adhesion", holding.prediction);
   const double of_electrodes = holding.electrodes.work;
   const double share = work / (work + of_electrodes);
@@ -248,12 +248,13 @@ PeelReach peelReach(const Holding& holding, const Verdict& verdict) {
   const double pressure =
       (verdict.device_pull_off_force - holding.electrodes.force) / device.contact_area;
   PeelReach reach;
-  reach.length = reach.shortest = peelLength(beam, verdict.apparent_work_of_adhesion, pressure);
+  reach.length = reach.shortest =
+      peelLength(beam, verdict.device_apparent_work_of_adhesion, pressure);
   reach.longest = kDecayLength * reach.length;
   if (!holding.spread.isKnown()) return reach;
   for (const double share : {kLowerShare, kUpperShare}) {
     const double length =
-        peelLength(beam, verdict.apparent_work_of_adhesion * workFactor(holding, share),
+        peelLength(beam, verdict.device_apparent_work_of_adhesion * workFactor(holding, share),
                    pressure * quantile(holding.spread.pull_off, share));
     reach.shortest = std::min(reach.shortest, length);
     reach.longest = std::max(reach.longest, kDecayLength * length);
@@ -330,7 +331,7 @@ Verdict worseOf(Verdict of_spring, Verdict of_beam) {
     }
     return of_beam;
   }
-  of_spring.apparent_work_of_adhesion = of_beam.apparent_work_of_adhesion;
+  of_spring.device_apparent_work_of_adhesion = of_beam.device_apparent_work_of_adhesion;
   of_spring.peel_number = of_beam.peel_number;
   of_spring.peel_number_lower = of_beam.peel_number_lower;
   of_spring.peel_number_upper = of_beam.peel_number_upper;
@@ -363,7 +364,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   verdict.regime_flags = flags;
   const double contact_potential = options.load.contact_potential;
   verdict.pull_in_voltage = closingVoltage(device, options.interface, contact_potential);
-  verdict.apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
+  verdict.device_apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
   const bool has_contact = hasContact(device);
   if (device.hasSpring() || device.hasBeamContact())
     verdict.restoring_force = device.restoringForce();
@@ -385,11 +386,11 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   }
   const DeviceEvidence* of_device = evidence.device ? &*evidence.device : nullptr;
   if (device.apparent_work_of_adhesion > 0.0) {
-    verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion;
+    verdict.device_apparent_work_of_adhesion = device.apparent_work_of_adhesion;
   } else {
-    verdict.apparent_work_of_adhesion = of_device != nullptr
-                                            ? of_device->apparent_work_of_adhesion
-                                            : apparentWorkOfAdhesion(prediction, options);
+    verdict.device_apparent_work_of_adhesion = of_device != nullptr
+                                                   ? of_device->apparent_work_of_adhesion
+                                                   : apparentWorkOfAdhesion(prediction, options);
   }
   if (prediction.status == Status::kNoEquilibrium) {
     verdict.reason =

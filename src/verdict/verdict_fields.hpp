@@ -28,8 +28,9 @@ void visitVerdictFields(VerdictType& verdict, Visitor&& visit) {
         verdict.margin_uncertainty);
   visit({"margin_transition", "", "margin with the prefactors of the JKR-DMT transition"},
         verdict.margin_transition);
-  visit({"apparent_work_of_adhesion", "J/m^2", "of the rough interface, per nominal area"},
-        verdict.apparent_work_of_adhesion);
+  visit({"device_apparent_work_of_adhesion", "J/m^2",
+         "of the device's interface, per nominal area, which beams peel"},
+        verdict.device_apparent_work_of_adhesion);
   visit({"peel_number", "", "of the beam: above 1 it comes off (de Boer and Michalske 1999)"},
         verdict.peel_number);
   visit({"peel_number_lower", "", "2.5 % quantile of peel_number"}, verdict.peel_number_lower);

@@ -92,9 +92,6 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
   visitRoughnessFields(scan.prediction.roughness, fill);
   visitSpatialRoughnessFields(scan.prediction.spatial_roughness, fill);
   visitVerdictFields(scan.verdict, fill);
-  // the message has one field for it: the device's, which is the prediction's unless it was
-  // measured
-  scan.prediction.apparent_work_of_adhesion = scan.verdict.apparent_work_of_adhesion;
   scan.preprocessing.tip_unreached_fraction = 0.125;
   scan.preprocessing.steps.resize(2);
 

@@ -105,14 +105,16 @@ struct Verdict {
       kNotStated;  ///< half of the central 68 % interval [-]: one standard deviation
   double margin_transition =
       kNotStated;  ///< with the prefactors of the JKR-DMT transition [-], <= margin
-  double apparent_work_of_adhesion = kNotStated;  ///< of the rough interface [J/m^2]
-  double peel_number = kNotStated;                ///< of the beam [-]
-  double peel_number_lower = kNotStated;          ///< 2.5 % quantile [-]
-  double peel_number_upper = kNotStated;          ///< 97.5 % quantile [-]
-  double detachment_length = kNotStated;          ///< longest beam that comes off by itself [m]
-  double unstuck_length = kNotStated;             ///< free arm of the beam while it is stuck [m]
-  double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
-  std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
+  /// Of the rough interface, which beams peel [J/m^2]: as measured, of surfaces of the device's
+  /// size, or else the scan's.
+  double device_apparent_work_of_adhesion = kNotStated;
+  double peel_number = kNotStated;        ///< of the beam [-]
+  double peel_number_lower = kNotStated;  ///< 2.5 % quantile [-]
+  double peel_number_upper = kNotStated;  ///< 97.5 % quantile [-]
+  double detachment_length = kNotStated;  ///< longest beam that comes off by itself [m]
+  double unstuck_length = kNotStated;     ///< free arm of the beam while it is stuck [m]
+  double pull_in_voltage = kNotStated;    ///< at which the electrodes close [V]
+  std::uint32_t regime_flags = 0;         ///< bits of RegimeFlag
 
   /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln
   /// margin [-]; 0 where the device's own force judges. In no message.

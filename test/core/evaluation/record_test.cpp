@@ -202,18 +202,20 @@ TEST(Record, leavesOutWhatTheFormulationDoesNotHave) {
   }
 }
 
-TEST(Record, VerdictHasItsFieldsOnce) {
+TEST(Record, VerdictHasItsFieldsOnceBesideThoseOfTheScan) {
   RecordExtras extras;
   extras.verdict.emplace();
   extras.verdict->sticks = Sticks::kYes;
   extras.verdict->margin = 0.25;
-  extras.verdict->apparent_work_of_adhesion = 3e-3;
+  extras.verdict->device_apparent_work_of_adhesion = 3e-3;
   const std::string text = yamlRecord("a", scan(), example(), extras);
   const YAML::Node yaml = YAML::Load(text);
   EXPECT_EQ(yaml["sticks"].as<std::string>(), "yes");
   EXPECT_EQ(yaml["margin"].as<double>(), 0.25);
-  EXPECT_EQ(yaml["apparent_work_of_adhesion"].as<double>(), 3e-3);
-  EXPECT_EQ(text.find("apparent_work_of_adhesion"), text.rfind("apparent_work_of_adhesion"));
+  EXPECT_EQ(yaml["device_apparent_work_of_adhesion"].as<double>(), 3e-3);
+  const YAML::Node without = YAML::Load(yamlRecord("a", scan(), example(), {}));
+  EXPECT_EQ(yaml["apparent_work_of_adhesion"].as<std::string>(),
+            without["apparent_work_of_adhesion"].as<std::string>());
   EXPECT_EQ(text.find("regime_flags:"), text.rfind("regime_flags:"));
   EXPECT_EQ(nlohmann::json::parse(jsonRecord("a", scan(), example(), extras))["sticks"], "yes");
 }

@@ -130,7 +130,7 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
       << record["reason"];
   EXPECT_NEAR(record["margin"].get<double>(), 1e-9 / expected.pull_off_force,
               1e-12 * record["margin"].get<double>());
-  EXPECT_EQ(record["apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
+  EXPECT_EQ(record["device_apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
   const YAML::Node yaml = YAML::Load(run("--all --half-space " + call("step: 0.5")).output);
   EXPECT_EQ(yaml["verdict_by"].as<std::string>(), "half_space");
   EXPECT_EQ(yaml["reason"].as<std::string>(), record["reason"].get<std::string>());
@@ -138,7 +138,8 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
   const nlohmann::json unsolved =
       nlohmann::json::parse(run("--json --half-space " + call("max_states: 10")).output);
   EXPECT_EQ(unsolved["verdict_by"], "prediction");
-  for (const char* name : {"sticks", "margin", "margin_lower", "apparent_work_of_adhesion"}) {
+  for (const char* name :
+       {"sticks", "margin", "margin_lower", "device_apparent_work_of_adhesion"}) {
     EXPECT_EQ(unsolved[name], plain[name]) << name;
   }
   const std::string reason = unsolved["reason"].get<std::string>();

@@ -225,7 +225,7 @@ TEST_F(PredictScan, ADeviceIsJudgedByItsOwnForce) {
   ASSERT_TRUE(force.IsMap());
   EXPECT_EQ(record["device_pull_off_force"].as<double>(), force["pull_off_force"].as<double>());
   EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / force["pull_off_force"].as<double>());
-  EXPECT_EQ(record["apparent_work_of_adhesion"].as<double>(),
+  EXPECT_EQ(record["device_apparent_work_of_adhesion"].as<double>(),
             force["apparent_work_of_adhesion"].as<double>());
   EXPECT_DOUBLE_EQ(force["area"].as<double>(), 4.0804e-12);
 }

@@ -178,12 +178,12 @@ TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
       const double own_work = peelNumber(device.beam(), 1.0);
       const AdhesionSpread spread =
           adhesionSpread(predicted(1 + i % 30), Options(), uncertainty, evidence);
-      EXPECT_NEAR(verdict.peel_number * verdict.apparent_work_of_adhesion / own_work, 1.0,
+      EXPECT_NEAR(verdict.peel_number * verdict.device_apparent_work_of_adhesion / own_work, 1.0,
                   round_off);
-      EXPECT_NEAR(verdict.peel_number_lower * verdict.apparent_work_of_adhesion *
+      EXPECT_NEAR(verdict.peel_number_lower * verdict.device_apparent_work_of_adhesion *
                       quantile(spread.apparent_work, kUpperShare) / own_work,
                   1.0, round_off);
-      EXPECT_NEAR(verdict.peel_number_upper * verdict.apparent_work_of_adhesion *
+      EXPECT_NEAR(verdict.peel_number_upper * verdict.device_apparent_work_of_adhesion *
                       quantile(spread.apparent_work, kLowerShare) / own_work,
                   1.0, round_off);
     }
@@ -271,7 +271,7 @@ TEST(DeviceVerdict, beamsTakeTheDevicesWork) {
   beam.beam_modulus = 169e9;
   beam.beam_length = std::pow(0.375 * 169e9 * 8e-18 * 1e-12 / 1e-4, 0.25) * 0.5;
   const Verdict verdict = verdictOf(predicted(), beam, exact(), Options(), kCell, found());
-  EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 1e-4);
+  EXPECT_DOUBLE_EQ(verdict.device_apparent_work_of_adhesion, 1e-4);
   EXPECT_NEAR(verdict.peel_number, 16.0, 1e-9);
   EXPECT_NEAR(verdict.detachment_length, 2.0 * beam.beam_length, 1e-9 * beam.beam_length);
   EXPECT_NEAR(std::log(verdict.peel_number_upper / 16.0), 2.364624 * 0.5 * kDeviation,
@@ -291,7 +291,7 @@ TEST(DeviceVerdict, theHalfSpaceMovesItAsItMovesTheScan) {
   const Verdict verdict = verdictWith(evidence, 6.0);
   EXPECT_EQ(verdict.judge, Judge::kHalfSpace);
   EXPECT_NEAR(verdict.margin, 5.0, 1e-12);
-  EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 2e-4);
+  EXPECT_DOUBLE_EQ(verdict.device_apparent_work_of_adhesion, 2e-4);
 }
 
 TEST(DeviceVerdict, ofAllScansTogetherIsThatOfThePart) {

@@ -146,11 +146,11 @@ TEST(ElectrodeHold, countsInPeelNumberAndForceOfABeam) {
   ASSERT_TRUE(std::isfinite(hold.force) && hold.force > 0.0);
   EXPECT_NEAR(verdict.device_pull_off_force, bare.device_pull_off_force + hold.force,
               1e-9 * verdict.device_pull_off_force);
-  EXPECT_NEAR(verdict.peel_number * (bare.apparent_work_of_adhesion + hold.work),
-              bare.peel_number * bare.apparent_work_of_adhesion, 1e-9);
+  EXPECT_NEAR(verdict.peel_number * (bare.device_apparent_work_of_adhesion + hold.work),
+              bare.peel_number * bare.device_apparent_work_of_adhesion, 1e-9);
   EXPECT_LT(verdict.peel_number_lower, verdict.peel_number);
   EXPECT_GT(verdict.peel_number_upper, verdict.peel_number);
-  EXPECT_EQ(verdict.apparent_work_of_adhesion, bare.apparent_work_of_adhesion);
+  EXPECT_EQ(verdict.device_apparent_work_of_adhesion, bare.device_apparent_work_of_adhesion);
 }
 
 /// The longest beam that comes off is the one whose peel number is 1, with the field of an

@@ -82,7 +82,7 @@ TEST(HalfSpaceVerdict, JudgesYesWhereTheCurveSaysNo) {
   EXPECT_DOUBLE_EQ(verdict.margin, 0.5);
   EXPECT_DOUBLE_EQ(verdict.margin_transition, 0.5);
   EXPECT_DOUBLE_EQ(verdict.device_pull_off_force, 6.0 * kPullOff);
-  EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 0.06);
+  EXPECT_DOUBLE_EQ(verdict.device_apparent_work_of_adhesion, 0.06);
   EXPECT_EQ(verdict.reason.find("by the half-space: margin 0.5, 95 % within "), 0U)
       << verdict.reason;
 }

@@ -162,7 +162,7 @@ TEST(Verdict, isUnknownWithItsReasonWhenTheDeviceIsNotStated) {
   EXPECT_EQ(verdict.restoring_force, 1e-3);
   EXPECT_TRUE(std::isnan(verdict.margin));
   EXPECT_TRUE(std::isnan(verdict.peel_number));
-  EXPECT_TRUE(std::isnan(verdict.apparent_work_of_adhesion))
+  EXPECT_TRUE(std::isnan(verdict.device_apparent_work_of_adhesion))
       << "nobody asks for what the paper's formulation lacks";
 }
 
@@ -261,10 +261,11 @@ TEST(Verdict, judgesABeamByItsPeelNumber) {
 TEST(Verdict, takesTheContactsEnergyForABeamUnlessStated) {
   const Spheres spheres;
   const Verdict verdict = verdictFor(spheres, cantilever(100e-6));
-  EXPECT_NEAR(verdict.apparent_work_of_adhesion,
+  EXPECT_NEAR(verdict.device_apparent_work_of_adhesion,
               apparentWorkOfAdhesion(spheres.prediction, spheres.options), 0.0);
   EXPECT_NEAR(verdict.peel_number,
-              peelNumber(cantilever(100e-6).beam(), verdict.apparent_work_of_adhesion), 1e-12);
+              peelNumber(cantilever(100e-6).beam(), verdict.device_apparent_work_of_adhesion),
+              1e-12);
   EXPECT_LT(verdict.peel_number_lower, verdict.peel_number);
   EXPECT_GT(verdict.peel_number_upper, verdict.peel_number);
 }
