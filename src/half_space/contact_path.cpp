@@ -37,6 +37,9 @@ constexpr double kSummitKinkShare = 1.5;
 /// The smallest step that misses more than this goes over a jump; on the unloading branch, whose
 /// work counts, what is taken back at all.
 constexpr double kJumpError = 0.06;
+/// Without attraction no jump can be missed, and the force need not be followed below this share of
+/// the load: what states are out by there would ask for ever smaller steps.
+constexpr double kToldShare = 0.1;
 /// Bodies are pressed heavily where they carry more than this many times the largest attraction so
 /// far, as a jump of as much attraction would be less than kJumpError there, and where their
 /// contacts bear more on average than the law attracts.
@@ -145,8 +148,8 @@ double ContactPath::leftAtRest(double load) const {
 double ContactPath::curvatureErrorOf(const ForcePoint& next) const {
   const StepParabola parabola(present_, next);
   // of the smaller one: a step from a large load to none must not miss the attraction
-  const double scale =
-      std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
+  const double scale = std::max({strongest_, next.force, least_force_,
+                                 std::min(std::abs(present_.force), std::abs(next.force))});
   return scale > 0.0 ? parabola.curvatureError() / scale : 0.0;
 }
 
@@ -200,6 +203,9 @@ PathStatus ContactPath::settle(double height, const Accuracy& accuracy, ForcePoi
   if (minimiser_.isCancelled()) return PathStatus::kCancelled;
   if (!state.is_converged) return PathStatus::kNotConverged;
   next = {height, state.force, state.energy, state.contact_area, state.mean_gap, true};
+  // what a residual leaves is no attraction, against which contacts would have to be pressed
+  // heavily
+  if (!minimiser_.law().attracts()) next.force = std::min(next.force, 0.0);
   if (accuracy.residual == 1.0) largest_residual_ = std::max(largest_residual_, state.residual);
   return PathStatus::kDone;
 }
@@ -524,6 +530,7 @@ PathStatus ContactPath::begin(double height) {
 
 PathStatus ContactPath::approach(double load) {
   if (load > minimiser_.largestLoad()) return PathStatus::kLoadNotReached;
+  least_force_ = minimiser_.law().attracts() ? 0.0 : kToldShare * load;
   PathStatus status = begin(startHeight());
   double lowest = -minimiser_.largestRelief() - kStartHeight * minimiser_.law().range();
   if (std::isfinite(minimiser_.smallestStiffness())) {

@@ -199,7 +199,10 @@ class ContactPath {
   bool reuseTowardsSummit(ForceCurve& curve);
   /// From behind the largest force to the end. @return whether both ways are one there
   bool reuseBehindSummit(ForceCurve& curve);
-  /// Takes the stiffness from the first step out.
+  /// At rest, where the first step out would change the force by too little to tell it.
+  /// @return whether it is known
+  bool measureStiffness();
+  /// Else takes the stiffness from the first step out.
   void noteStiffness();
   double startHeight() const;
   Accuracy summitAccuracy() const;
@@ -278,6 +281,8 @@ class ContactPath {
       true;  ///< the present branch is that of the loading branch, as far as is known
   double changed_energy_ = 0.0;  ///< [J]
   double stiffness_ = std::numeric_limits<double>::quiet_NaN();
+  bool is_stiffness_known_ = false;
+  double least_force_ = 0.0;  ///< errors of smaller forces do not matter [N]
   double largest_residual_ = 0.0;
   int states_ = 0;
   int newton_steps_ = 0;

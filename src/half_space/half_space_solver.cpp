@@ -136,7 +136,12 @@ double largestPitch(const HalfSpaceProblem& problem) {
 }
 
 /// What to do about a path of too many states.
-std::string adviceOn(const HalfSpaceProblem& problem, const SolvedHalfSpace& solution) {
+std::string adviceOn(const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
+                     const SolvedHalfSpace& solution) {
+  if (!options.attraction)
+    return "the repulsion is too steep for states as exact as these: state a smaller "
+           "half_space/tolerance, or a longer half_space/range than " +
+           numberText(solution.range) + " m";
   if (solution.is_resolved) return "raise it";
   return "pixels of " + shortNumber(largestPitch(problem)) +
          " m do not resolve the edges of the contacts, which jump from pixel to pixel: scan a "
@@ -162,7 +167,8 @@ std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem,
              std::to_string(options.max_newton_steps) + " next to the one " + where;
     case PathStatus::kTooManyStates:
       return "half_space/max_states = " + std::to_string(options.max_states) +
-             " did not suffice; the path ends " + where + "; " + adviceOn(problem, solution);
+             " did not suffice; the path ends " + where + "; " +
+             adviceOn(problem, options, solution);
     case PathStatus::kCancelled:
       break;
   }
@@ -342,8 +348,8 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
   SolvedHalfSpace solution;
   solution.range = law.range();
   solution.cohesive_length = cohesiveLength(problem, law);
-  solution.is_resolved =
-      solution.cohesive_length >= kPixelsPerCohesiveLength * largestPitch(problem);
+  solution.is_resolved = !law.attracts() || solution.cohesive_length >=
+                                                kPixelsPerCohesiveLength * largestPitch(problem);
   path_settings.is_resolved = solution.is_resolved;
   LargePageVector<float> flowed;
   {

@@ -188,6 +188,33 @@ TEST(HardFrames, RestIsSolvedWhereTheStepBehindItIsNot) {
   EXPECT_EQ(rest.rest_force, whole.rest_force);
 }
 
+TEST(HardFrames, StiffnessOfSoftPressedBodiesIsThatOfNeighbouringRests) {
+  // a step of z0 changes their force by less than states are out
+  HalfSpaceProblem problem;
+  cv::Mat1d sphere(96, 96);
+  for (int i = 0; i < 96; ++i) {
+    for (int j = 0; j < 96; ++j)
+      sphere(i, j) = -0.5 * 4e-16 * ((i - 47.5) * (i - 47.5) + (j - 47.5) * (j - 47.5)) / 10e-6;
+  }
+  problem.surfaces.lower = HeightMap(sphere, 20e-9, 20e-9);
+  problem.lower_material.youngs_modulus = problem.upper_material.youngs_modulus = 2e9;
+  HalfSpaceOptions options;
+  options.attraction = options.flow = false;
+  const auto under = [&](double load, HalfSpacePath path) {
+    problem.load.mechanical_load = load;
+    options.path = path;
+    return HalfSpaceSolver(options).solve(problem);
+  };
+  const SolvedHalfSpace less = under(0.95e-5, HalfSpacePath::kRest);
+  const SolvedHalfSpace more = under(1.05e-5, HalfSpacePath::kRest);
+  const double slope =
+      std::abs((more.rest_force - less.rest_force) / (more.rest_height - less.rest_height));
+  for (const HalfSpacePath path : {HalfSpacePath::kRest, HalfSpacePath::kWhole}) {
+    for (const double load : {0.98e-5, 1e-5, 1.02e-5})
+      EXPECT_NEAR(under(load, path).contact_stiffness / slope, 1.0, 0.05) << load << " N";
+  }
+}
+
 /// A frame of 640 nm whose bodies are pressed until nearly all of it or all touches.
 HalfSpaceProblem closed(double pressure) {
   HalfSpaceProblem problem = gaussian(128, 100e-9, 5e-9);
