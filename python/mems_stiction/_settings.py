@@ -61,20 +61,19 @@ class Settings:
 
 
 def _configuration_of(config: Optional[Config], settings: Dict[str, Any]) -> _core.Configuration:
+    over = _plain(settings)
     if isinstance(config, Settings):
-        configuration = config._configuration
-    elif config is None:
-        configuration = _core.Configuration()
-    elif isinstance(config, Mapping):
-        configuration = _core.Configuration().changed(_plain(config))
-    elif isinstance(config, (str, os.PathLike)):
-        configuration = _core.Configuration().loaded(os.fspath(config))
-    else:
-        raise OptionsError(
-            "config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings"
-            % (config,)
-        )
-    return configuration.changed(_plain(settings)) if settings else configuration
+        return config._configuration.changed({}, over) if over else config._configuration
+    if config is None:
+        return _core.Configuration().changed({}, over)
+    if isinstance(config, Mapping):
+        return _core.Configuration().changed(_plain(config), over)
+    if isinstance(config, (str, os.PathLike)):
+        return _core.Configuration().loaded(os.fspath(config), over)
+    raise OptionsError(
+        "config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings"
+        % (config,)
+    )
 
 
 def settings_with(

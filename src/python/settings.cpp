@@ -18,6 +18,7 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "settings/option_yaml.hpp"
 #include "settings/yaml_text.hpp"
 
@@ -106,19 +107,22 @@ void bindSettings(py::module& module) {
       .def(py::init<>())
       .def(
           "changed",
-          [](const Configuration& configuration, const py::dict& tree) {
+          [](const Configuration& configuration, const py::dict& tree, const py::dict& over) {
             const YAML::Node node = nodeOf(tree);
-            Configuration changed = configurationFromYaml(node, configuration);
-            placeNamedFiles(keysOf(node), std::filesystem::current_path(), changed);
+            const YAML::Node before = nodeOf(over);
+            Configuration changed = configurationFromYaml(node, before, configuration);
+            std::vector<std::string> keys = keysOf(node);
+            addMissing(keysOf(before), keys);
+            placeNamedFiles(keys, std::filesystem::current_path(), changed);
             return changed;
           },
-          "tree"_a)
+          "tree"_a, "over"_a)
       .def(
           "loaded",
-          [](const Configuration& configuration, const std::string& path) {
-            return loadConfiguration(path, configuration);
+          [](const Configuration& configuration, const std::string& path, const py::dict& over) {
+            return loadConfiguration(path, nodeOf(over), configuration);
           },
-          "path"_a)
+          "path"_a, "over"_a)
       .def(
           "read",
           [](const Configuration& configuration, const std::string& text) {

@@ -394,6 +394,19 @@ std::vector<std::string> keysOf(const YAML::Node& tree) {
   return keys;
 }
 
+YAML::Node withoutKeys(const YAML::Node& tree, const std::vector<std::string>& keys) {
+  const auto isOne = [&](const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  const std::vector<std::string> stated = keysOf(tree);
+  if (std::none_of(stated.begin(), stated.end(), isOne)) return tree;
+  YAML::Node rest(YAML::NodeType::Map);
+  for (const auto& [key, value] : statedIn(tree)) {
+    if (!isOne(key)) rest.force_insert(key, value);
+  }
+  return rest;
+}
+
 std::vector<std::string> emptyPartsOf(const YAML::Node& tree) {
   if (!tree.IsDefined() || tree.IsNull()) return {"states nothing, the defaults hold"};
   std::vector<std::string> lines;

@@ -44,6 +44,9 @@ std::vector<std::pair<std::string, YAML::Node>> statedIn(const YAML::Node& tree)
 /// The keys of statedIn().
 std::vector<std::string> keysOf(const YAML::Node& tree);
 
+/// The tree without these keys.
+YAML::Node withoutKeys(const YAML::Node& tree, const std::vector<std::string>& keys);
+
 /// What states nothing where somebody may have meant to: an empty text, a section with nothing
 /// below.
 std::vector<std::string> emptyPartsOf(const YAML::Node& tree);

@@ -11,6 +11,7 @@ import warnings
 
 import mems_stiction
 import numpy as np
+import yaml
 
 try:
     from mems_stiction import _core  # noqa: F401
@@ -257,6 +258,31 @@ class BitsTest(unittest.TestCase):
         self.assertNotEqual(
             given[0].contact_area, mems_stiction.predict(heights, PITCH).contact_area
         )
+
+    def test_keywords_go_before_dictionary_and_file_and_both_are_checked_together(self):
+        (self.folder / "part.yaml").write_text(
+            "load: {voltage: 5.0}\nlower: {youngs_modulus: 1.0e13}\n"
+        )
+        for config in (
+            self.folder / "part.yaml",
+            {"load": {"voltage": 5.0}, "lower/youngs_modulus": 1e13},
+        ):
+            settings = mems_stiction.Settings(
+                config, interface={"insulator_thickness": 1e-7}, limits={"accept_implausible": True}
+            )
+            self.assertEqual(yaml.safe_load(settings.yaml())["lower"]["youngs_modulus"], 1e13)
+            mended = mems_stiction.Settings(
+                config, **{"load/voltage": 0.0, "lower": {"youngs_modulus": 1e11}}
+            )
+            self.assertEqual(yaml.safe_load(mended.yaml())["lower"]["youngs_modulus"], 1e11)
+            with self.assertRaisesRegex(mems_stiction.OptionsError, "insulator_thickness"):
+                mems_stiction.Settings(config, **{"limits/accept_implausible": True})
+        with self.assertRaises(mems_stiction.OptionsError) as caught:
+            mems_stiction.Settings(
+                self.folder / "part.yaml", load={"voltage": "much"}, lower={"youngs_modulus": 1e11}
+            )
+        self.assertIn("load/voltage", str(caught.exception))
+        self.assertNotIn("part.yaml", str(caught.exception).splitlines()[0])
 
 
 if __name__ == "__main__":
