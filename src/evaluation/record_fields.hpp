@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Figures as the fields of a record: what record.hpp and device_record.hpp write with.
+/// Figures as the fields of a record: what records of scans and devices are written with.
 
 #include <yaml-cpp/yaml.h>
 

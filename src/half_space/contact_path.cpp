@@ -324,9 +324,7 @@ void ContactPath::planStep() {
        point != approach_.points.rend() && point->force < 0.0; ++point) {
     if (!point->is_solved || point->height < present_.height + smallest) continue;
     const double curvature_error = curvatureErrorOf(*point) * kUsualStep / settings_.step;
-    if (curvature_error >
-        (isHeavy(present_) && isHeavy(*point) ? kLargestHeavyError : kPlannedError))
-      break;
+    if (curvature_error > (isHeavy(*point) ? kLargestHeavyError : kPlannedError)) break;
     step_ = point->height - present_.height;
   }
 }
@@ -358,7 +356,7 @@ ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double directi
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
   const bool is_unloading = !is_in && settings_.samples_curve;
-  const double largest_error_out = settings_.is_resolved ? kLargestSagOut : kLargestError;
+  const double largest_error_out = settings_.is_resolved ? kLargestErrorOut : kLargestError;
   const double at_most = std::max({curve.largest_force, next.force, 0.0});
   const bool may_exceed = mayExceed(direction, step, at_most);
   const bool is_at_summit = is_unloading && present_.force > kSummitForce * at_most;

@@ -153,7 +153,7 @@ class ContactPath {
   static constexpr double kWantedError = 0.01;
   static constexpr double kSummitErrorShare = 2.0;
   /// The curvature error that is taken back on the unloading branch.
-  static constexpr double kLargestSagOut = 0.015;
+  static constexpr double kLargestErrorOut = 0.015;
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the
   /// narrowest gap.
   static constexpr double kLeastClosing = 0.1;

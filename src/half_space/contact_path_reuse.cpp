@@ -117,7 +117,7 @@ std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint
     if (point.force > summit.force) summit = point;
   }
   if (!top || summit.force > (1.0 + kSummit.force) * top->force) return summit;
-  const double largest_error = kLargestSagOut / kSummitErrorShare * settings_.step / kUsualStep;
+  const double largest_error = kLargestErrorOut / kSummitErrorShare * settings_.step / kUsualStep;
   for (auto from = first; from != last; ++from) {
     if (StepParabola(*from, *(from + 1)).curvatureError() > largest_error * top->force)
       return between(*from, *(from + 1), 0.5);

@@ -18,7 +18,7 @@
 
 namespace mems_stiction {
 
-/// In which of the packets a comparison is true.
+/// In which of the elements a comparison is true.
 class PacketMask {
  public:
   using Vector = std::int64_t
@@ -41,7 +41,7 @@ class PacketMask {
     return PacketMask(a.bits_ | b.bits_);
   }
 
-  /// In how many packets it is true.
+  /// In how many elements it is true.
   MEMS_STICTION_INLINE int count() const {
     return -static_cast<int>(bits_[0] + bits_[1] + bits_[2] + bits_[3]);
   }
@@ -55,9 +55,9 @@ class Packet {
  public:
   static constexpr std::size_t kCount = 4;
 
-  /// 0 in all packets.
+  /// 0 in all elements.
   MEMS_STICTION_INLINE Packet() : values_{} {}
-  /// The same number in all packets.
+  /// The same number in all elements.
   MEMS_STICTION_INLINE Packet(double value)
       : values_{value, value, value, value} {}  // NOLINT: as double from int
   MEMS_STICTION_INLINE Packet(double a, double b, double c, double d) : values_{a, b, c, d} {}
@@ -76,7 +76,7 @@ class Packet {
     std::memcpy(&loaded, values, sizeof loaded);
     return Packet(__builtin_convertvector(loaded, Vector));
   }
-  /// The first `count` packets from memory, the others `rest`.
+  /// The first `count` elements from memory, the others `rest`.
   template <typename Scalar>
   MEMS_STICTION_INLINE static Packet loadFirst(const Scalar* values, std::size_t count,
                                                double rest) {
@@ -89,7 +89,7 @@ class Packet {
   MEMS_STICTION_INLINE void store(double* values) const {
     std::memcpy(values, &values_, sizeof values_);
   }
-  /// The first `count` packets to memory.
+  /// The first `count` elements to memory.
   MEMS_STICTION_INLINE void storeFirst(std::size_t count, double* values) const {
     for (std::size_t i = 0; i < count; ++i) values[i] = values_[i];
   }

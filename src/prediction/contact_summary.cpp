@@ -112,8 +112,8 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution,
   prediction.flattening_energy = solution.flattening_energy;
   prediction.pull_off_exponents = solution.pull_off_exponents;
   prediction.work_exponents = solution.work_exponents;
-  prediction.flattening_ratio =
-      work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
+  const double gained = work_of_adhesion + settings.capillary.law().energy(0.0);
+  prediction.flattening_ratio = gained > 0.0 ? solution.flattening_energy / gained : kUnknown;
   prediction.is_conforming = solution.is_conforming;
   prediction.is_bonded_by_load = solution.is_bonded_by_load;
   prediction.adhesion_parameter = solution.adhesion_parameter;

@@ -102,7 +102,7 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit({"contact_stiffness", "N/m", "-dF/dD at rest"}, prediction.contact_stiffness);
   visit({"flattening_energy", "J/m^2", "that pressing the surfaces flat would store, per area"},
         prediction.flattening_energy);
-  visit({"flattening_ratio", "", "flattening_energy/work of adhesion"},
+  visit({"flattening_ratio", "", "flattening_energy over what adhesion and water give"},
         prediction.flattening_ratio);
   visit({"adhesion_exponent", "", "d ln(pull_off_force)/d ln(work of adhesion)"},
         prediction.pull_off_exponents.adhesion);
@@ -181,17 +181,21 @@ void visitAsperityFields(Contact& asperity, Visitor&& visit) {
   visit({"x", "m", "centre, column times pitch_x"}, asperity.x);
   visit({"y", "m", "centre, row times pitch_y"}, asperity.y);
   visit({"z", "m", "height of the scanned surface at the centre"}, asperity.z);
-  visit({"cap_radius", "m", "radius of the base of the spherical caps"}, asperity.cap_radius);
-  visit({"composite_radius", "m", "radius of curvature of the couple (5)"},
+  visit({"cap_radius", "m",
+         "of a disc as large as the overlap; paper, printed: of the base of the caps"},
+        asperity.cap_radius);
+  visit({"composite_radius", "m", "of the gap; paper, printed: of the couple (5)"},
         asperity.composite_radius);
   visit({"load", "N", "share of the normal load (6)"}, asperity.load);
-  visit({"contact_radius", "m", "radius of the JKR contact at that load (7)"},
-        asperity.contact_radius);
-  visit({"tilt", "rad", "angle between the contact plane and the horizontal"}, asperity.tilt);
+  visit(
+      {"contact_radius", "m", "of a disc of the real area; paper, printed: of the JKR contact (7)"},
+      asperity.contact_radius);
+  visit({"tilt", "rad", "of the plane of contact to the horizontal; separation_curve: NaN"},
+        asperity.tilt);
   visit({"plasticity_index", "", "(E/Ha) sqrt(sigma/R) (9)"}, asperity.plasticity_index);
   visit({"tabor_parameter", "", "JKR holds for values well above 1, DMT well below"},
         asperity.tabor_parameter);
-  visit({"area", "m^2", "cells in contact"}, asperity.area);
+  visit({"area", "m^2", "real; paper, printed: of the cells in contact"}, asperity.area);
   visit({"is_at_border", "", "reaches the frame's border: its summit may lie outside"},
         asperity.is_at_border);
   visit({"regime", "", "1 elastic, 2 elasto-plastic, 3 plastic"}, asperity.regime);

@@ -132,7 +132,7 @@ constexpr int kParts = 512;
 /// What forces at rest may lack of what is carried, growth of the gap in the springs' table, and
 /// what of the work bending may change where the curve begins [-].
 constexpr double kAccuracy = 1.0 / kParts;
-/// From one displacement to the next z0 + D grows by this share.
+/// From one displacement to the next z0 + |D| grows by this share.
 constexpr double kStep = 0.08;
 /// Growth from one distance of the flattening energy to the next.
 constexpr double kNextLength = 1.25;

@@ -63,7 +63,8 @@ class SeparationSolver : public ContactSolver {
   /// Which way the surfaces part, of two that have come to rest.
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
   void takeUnloading(const Unloading& unloading, ContactSolution& solution) const;
-  /// The doubt of surfaces whose texture changes from place to place, where there is no other.
+  /// The doubts of bonded surfaces of changing texture, of blocks that close by themselves and of
+  /// flat tops, where there is no other.
   void doubtPlaces(const GapField& field, ContactSolution& solution);
   /// Whether contacts with flat tops hold more than this together [N], and than one by one.
   bool holdTogether(double force);

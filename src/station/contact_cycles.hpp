@@ -32,7 +32,7 @@ struct ContactCycle {
       false;  ///< the pull-off force: the search ended before contacts stopped growing
   double pull_off_force = 0.0;       ///< [N]
   double van_der_waals_force = 0.0;  ///< [N]
-  double contact_area = 0.0;         ///< cells in contact [m^2]
+  double contact_area = 0.0;         ///< real; of the paper that of the cells in contact [m^2]
   double contact_area_jkr = 0.0;     ///< [m^2]
   double contact_fraction = 0.0;     ///< [-]
   int asperity_count = 0;

@@ -22,7 +22,7 @@ void visitSweepFields(const LoadSweepRow& row, Visitor&& visit) {
   visit({"van_der_waals_force", "N"}, row.van_der_waals_force);
   visit({"electrostatic_force", "N"}, row.electrostatic_force);
   visit({"normal_load", "N"}, row.normal_load);
-  visit({"contact_area", "m^2", "cells in contact"}, row.contact_area);
+  visit({"contact_area", "m^2", "real; paper, printed: of the cells in contact"}, row.contact_area);
   visit({"contact_area_jkr", "m^2", "sum of the JKR contacts"}, row.contact_area_jkr);
   visit({"contact_fraction"}, row.contact_fraction);
   visit({"asperity_count", "", "contacts"}, row.asperity_count);
@@ -70,7 +70,8 @@ void visitCycleFields(const ContactCycle& cycle, Visitor&& visit) {
   visit({"status", "", "0 equilibrium, 1 bonded, 2 none"}, cycle.status);
   visit({"pull_off_force", "N"}, cycle.pull_off_force);
   visit({"van_der_waals_force", "N"}, cycle.van_der_waals_force);
-  visit({"contact_area", "m^2", "cells in contact"}, cycle.contact_area);
+  visit({"contact_area", "m^2", "real; paper, printed: of the cells in contact"},
+        cycle.contact_area);
   visit({"contact_area_jkr", "m^2", "sum of the JKR contacts"}, cycle.contact_area_jkr);
   visit({"contact_fraction"}, cycle.contact_fraction);
   visit({"asperity_count", "", "contacts"}, cycle.asperity_count);

@@ -41,8 +41,8 @@ struct NormalLoad {
 /// How the search for the place of rest ended.
 enum class Status : std::uint8_t {
   kEquilibrium = 0,  ///< the contacts carry the loads: the surfaces rest
-  kBonded = 1,  ///< the surfaces lie against each other nearly everywhere; forces are lower bounds
-                ///< where the model says so (ModelStatement::is_bound_where_bonded)
+  kBonded = 1,  ///< the surfaces conform, or overlap over approach/max_contact_fraction before they
+                ///< rest; forces are lower bounds where ModelStatement::is_bound_where_bonded
   kNoEquilibrium = 2,  ///< the search range ended first: results are those of the last step
 };
 
@@ -73,15 +73,16 @@ struct SeparationCurvePoint {
 /// One contact at equilibrium.
 struct Asperity {
   double x = 0.0, y = 0.0,
-         z = 0.0;           ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
-  double cap_radius = 0.0;  ///< rc, radius of the base of the spherical caps [m]
-  double composite_radius = 0.0;  ///< R_i of (5) [m]
+         z = 0.0;  ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
+  double cap_radius =
+      0.0;  ///< of a disc as large as the overlap; of the paper rc, of the caps' base [m]
+  double composite_radius = 0.0;  ///< of the gap; of the paper R_i of (5) [m]
   double load = 0.0;              ///< F_i of (6) [N]
-  double contact_radius = 0.0;    ///< a of JKR at the equilibrium load (7) [m]
-  double tilt = 0.0;              ///< theta [rad]
+  double contact_radius = 0.0;    ///< of a disc of the real area; of the paper a of JKR (7) [m]
+  double tilt = 0.0;              ///< of the paper theta, else NaN [rad]
   double plasticity_index = 0.0;  ///< phi of (9) [-]
   double tabor_parameter = 0.0;   ///< mu [-]
-  double area = 0.0;              ///< in contact [m^2]
+  double area = 0.0;              ///< real; of the paper that of the cells in contact [m^2]
   bool is_at_border = false;      ///< reaches the frame's border: its summit may lie outside
   Regime regime = Regime::kElastic;
 };

@@ -15,7 +15,7 @@
 
 namespace mems_stiction {
 
-/// The interface of the pair. Sources of the defaults: doc/theory.md, "Materials".
+/// The interface of the pair. Sources of the defaults: config/stiction.yaml.
 struct InterfaceOptions {
   double work_of_adhesion = 0.05;    ///< Gamma, thermodynamic, of the flat interface [J/m^2], >= 0
   double hamaker_constant = 65e-21;  ///< H across the gap's medium, of films where bodies have them

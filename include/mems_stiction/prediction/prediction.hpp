@@ -9,8 +9,8 @@
 ///     apparent work     = integral of the attraction on retraction from rest on, over the nominal
 ///                         area
 ///     contact fraction  = contact area/area of the valid cells
-///     flattening ratio  = energy that presses the surfaces flat/energy that adhesion gives: bonded
-///                         below 0.75
+///     flattening ratio  = energy that presses the surfaces flat/what adhesion and water give:
+///                         below 0.75 they may bond
 ///
 /// Forces and areas are those of the scanned area, not of a device (device/device_force.hpp).
 /// Assumptions stand with the solver that answered, and `model` says what holds of the figures.

@@ -59,7 +59,8 @@ TEST(InputFile, WhatIsNoFileIsRefusedWithoutWaiting) {
     EXPECT_EQ(refusal(pipe, kind), pipe + ": is a pipe, a socket or a device, not a file");
     EXPECT_EQ(refusal("/dev/zero", kind), "/dev/zero: is a pipe, a socket or a device, not a file");
     EXPECT_EQ(refusal("/tmp", kind), "/tmp: is a folder, not a list");
-    EXPECT_EQ(refusal("/nonexistent", kind), "/nonexistent: there is no such file");
+    const std::string missing = folder.file("missing");
+    EXPECT_EQ(refusal(missing, kind), missing + ": there is no such file");
   }
 }
 

@@ -56,7 +56,8 @@ TEST(OutputFile, APipeThatTheShellHasOpenedIsWrittenTo) {
 }
 
 TEST(OutputFile, AFolderThatIsMissingLeavesNothing) {
-  EXPECT_THROW(writeFile("/nonexistent/out", "x"), FileError);
+  const ScratchFolder folder;
+  EXPECT_THROW(writeFile(folder.file("none/out"), "x"), FileError);
 }
 
 /// Somebody who guesses the name of the partial file lays a link there: the file behind it is not

@@ -400,7 +400,8 @@ TEST(ScanFile, HeightTiffKeepsNanometresOnAStageOffset) {
 }
 
 TEST(ScanFile, HeightTiffThatCannotBeWrittenIsNamed) {
-  EXPECT_THROW(writeHeightTiff("/nonexistent/out.tiff", example(CV_32FC1)), FileError);
+  const ScratchFolder folder;
+  EXPECT_THROW(writeHeightTiff(folder.file("none/out.tiff"), example(CV_32FC1)), FileError);
 }
 
 /// A directory of these entries; texts that they point to follow it.
