@@ -110,7 +110,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
             )
         )
         lines.append(
-            "  apparent work of adhesion %s; %s hold it"
+            "  apparent work of adhesion %s; held at %s"
             % (
                 with_interval(
                     self.apparent_work_of_adhesion,

@@ -26,7 +26,8 @@ ROUGHNESS = (
     ("rms_slope", "rms slope", ""),
     ("rms_curvature", "rms curvature", "1/m"),
 )
-MOST_DECADES = 1e-12  # of the largest density: less is what an interpolation left
+LEAST_DENSITY = 1e-12  # of the largest one: less is what an interpolation left
+LEAST_SHOWN = 1e-6  # of the largest force, rms height, slope or curvature
 LINE = 0.19  # height of a line of text below the panels [inches]
 LETTERS = 185  # of such a line
 
@@ -253,7 +254,7 @@ def _draw_spectrum(axes, bands):
     axes.set_yscale("log")
     _length_axis(axes, waves)
     highest = np.nanmax(bands["density"]) if np.isfinite(bands["density"]).any() else 1.0
-    axes.set_ylim(bottom=max(axes.get_ylim()[0], MOST_DECADES * highest))
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST_DENSITY * highest))
     axes.set_xlabel("wavelength")
     axes.set_ylabel("power spectral density [m⁴]")
     if labelled:
@@ -280,6 +281,7 @@ def _draw_roughness(panels, bands):
         _length_axis(axes, waves)
         if np.isfinite(values).any():
             axes.set_yscale("log")
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST_SHOWN * np.nanmax(values)))
             few = np.nanmax(values) < 30 * np.nanmin(values)
             _label(
                 axes.yaxis,
@@ -409,4 +411,5 @@ def _draw_force(axes, record):
     if axes.get_legend_handles_labels()[0]:
         axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
     bottom, top = axes.get_ylim()
+    bottom = max(bottom, LEAST_SHOWN * top)
     axes.set_ylim(bottom, top * (top / bottom) ** 0.3)  # room for the legend

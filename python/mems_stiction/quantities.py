@@ -3,9 +3,7 @@
 import math
 import re
 
-BEYOND_PREFIXES = (
-    1e15  # no figure here is so large: what is gets an exponent, in place of hundreds of digits
-)
+BEYOND_PREFIXES = 1e15  # from there on, and below the smallest prefix: an exponent
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {
     -21: "z",
@@ -43,7 +41,7 @@ def with_unit(value, unit, digits=3):
         return "%s %s" % (value, unit)
     if value == 0:
         return "0 %s" % unit
-    if abs(value) >= BEYOND_PREFIXES:
+    if abs(value) >= BEYOND_PREFIXES or abs(value) < 10.0 ** min(_PREFIXES):
         return "%.*g %s" % (digits, value, unit)
     exponent, letter = prefix_for(float("%.*e" % (digits - 1, value)))
     scaled = float("%.*g" % (digits, value / 10.0**exponent))

@@ -87,6 +87,12 @@ def _causes(before, after, is_leap, pull_in_voltage):
 
 def _contacts(before, after):
     more = after.asperity_count - before.asperity_count
+    if after.contact_area < before.contact_area:
+        if more < 0:
+            return "%d contact%s let%s go" % (-more, *(("", "s") if more == -1 else ("s", "")))
+        if more > 0:
+            return "contacts come apart, %d to %d" % (before.asperity_count, after.asperity_count)
+        return "the same contacts shrink at once"
     if more > 0:
         return "%d new contact%s snap%s in" % (
             more,

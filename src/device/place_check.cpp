@@ -226,9 +226,9 @@ std::string PlaceCheck::sentence() const {
          shortNumber(texture.place.height * scan.pitchY() * 1e6, 2) +
          " um about x = " + middle(texture.place.x, texture.place.width, scan.pitchX()) +
          " um, y = " + middle(texture.place.y, texture.place.height, scan.pitchY()) +
-         " um hold most, with " + shortNumber(std::exp(0.5 * texture.gradient), 2) +
-         " times the rms gradient and " + shortNumber(std::exp(0.5 * texture.height), 2) +
-         " times the rms height of the scan's other places";
+         " um hold most; over the scan's other places their rms gradient is " +
+         shortNumber(std::exp(0.5 * texture.gradient), 2) + ", their rms height " +
+         shortNumber(std::exp(0.5 * texture.height), 2);
 }
 
 }  // namespace mems_stiction

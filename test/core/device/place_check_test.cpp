@@ -72,7 +72,7 @@ TEST(PlaceCheck, APlaceThatIsSmootherIsNamed) {
       sentence.find(
           "patchy: its places differ by more than chance. The 0.32 x 0.32 um about x = 0.8 um, "
           "y = 0.48 um hold most, with " +
-          shortNumber(std::exp(0.5 * smooth.gradient), 2) + " times the rms gradient"),
+          "rms gradient is " + shortNumber(std::exp(0.5 * smooth.gradient), 2)),
       std::string::npos)
       << sentence;
 }
