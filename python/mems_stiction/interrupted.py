@@ -23,6 +23,7 @@ is remembered.
 
 import atexit
 import contextlib
+import errno
 import io
 import os
 import pathlib
@@ -129,11 +130,12 @@ class _Printed(io.FileIO):
 
 def _print_the_rest():
     """At the end of a program."""
-    if _output is None or _output.closed or _has_come:
+    if _has_come:
         return
     error = _not_printed
     try:
-        _output.flush()
+        if _output is not None and not _output.closed:
+            _output.flush()
     except SystemExit:
         os._exit(UNREAD)
     except OSError as caught:
@@ -142,9 +144,14 @@ def _print_the_rest():
         return
     if isinstance(error, BrokenPipeError):
         os._exit(UNREAD)
+    is_closed = error.errno == errno.EBADF
     print(
-        "%s: what is printed cannot be written: %s"
-        % (os.path.basename(sys.argv[0]), error.strerror),
+        "%s: %s%s"
+        % (
+            os.path.basename(sys.argv[0]),
+            "" if is_closed else "what is printed cannot be written: ",
+            error.strerror,
+        ),
         file=sys.stderr,
         flush=True,
     )
@@ -169,8 +176,40 @@ def _end_with_the_reader():
     _output = sys.stdout
 
 
+class Closed:
+    """In place of the standard output where the caller has closed it, and Python has none: to write
+    there fails, as on a full disk."""
+
+    closed = False
+    encoding = "utf-8"
+
+    def write(self, text):
+        raise CannotPrint(errno.EBADF, "what is to be printed goes to an output that is closed")
+
+    def flush(self):
+        pass
+
+    def isatty(self):
+        return False
+
+
+def _hold_standard_streams():
+    """What is opened next would take the descriptor of one that the caller has closed, and whatever
+    is printed would be written into that file."""
+    for number, flags in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, flags)  # the lowest that is free: this one
+    if sys.stdout is None:
+        sys.stdout = Closed()
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w")
+
+
 def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
+    _hold_standard_streams()
     _end_with_the_reader()
     for number in (signal.SIGINT,) + OTHERS:
         if signal.getsignal(number) in (signal.SIG_DFL, _end_now):

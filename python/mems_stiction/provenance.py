@@ -1,7 +1,9 @@
 """Where a result comes from, in one line: scan, part, serial number, lot, wafer, settings,
 version."""
 
-from mems_stiction.quantities import literal
+from mems_stiction.quantities import literal, shortened
+
+LONGEST_NAME = 70  # letters of one in a line of them
 
 # of every result, as the messages name them
 FIELDS = (
@@ -41,7 +43,8 @@ def provenance_words(source, leave_out=()):
         (word, value_of(name)) for word, name in _WORDS if name not in leave_out and value_of(name)
     ]
     return ", ".join(
-        value if value.startswith(word) else "%s %s" % (word, value) for word, value in known
+        shortened(value if value.startswith(word) else "%s %s" % (word, value), LONGEST_NAME)
+        for word, value in known
     )  # "scan_7" says what it is
 
 

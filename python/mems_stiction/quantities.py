@@ -4,6 +4,7 @@ import math
 import re
 
 BEYOND_PREFIXES = 1e15  # from there on, and below the smallest prefix: an exponent
+LONGEST_DRAWN = 400  # letters of a line of a picture
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {
     -21: "z",
@@ -99,10 +100,15 @@ def typeset(text):
     return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
+def shortened(text, most):
+    """The text, cut to so many letters."""
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
 def literal(text):
     """A text that came from outside, as it stands, for a picture of matplotlib, which takes what is
-    between two dollar signs for a formula."""
-    return text.replace("$", r"\$")
+    between two dollar signs for a formula, and cannot draw some thousand letters in a line."""
+    return shortened(text, LONGEST_DRAWN).replace("$", r"\$")
 
 
 _UNITS = r"(?:[afpnuµmkMG]?(?:m|N|V|J|Pa|s|Hz|K)(?:\^?[2²3³])?(?:/(?:m|s)(?:\^?[2²3³])?)?|%)"

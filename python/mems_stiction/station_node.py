@@ -1,7 +1,7 @@
 """How a command line becomes a node: without a master it gives up in time, what it is to write can
 be written, and what others say reaches no terminal as a control character."""
 
-import errno
+import logging
 import sys
 import time
 import urllib.parse
@@ -31,23 +31,6 @@ class Printable:
 
     def __getattr__(self, name):
         return getattr(self._stream, name)
-
-
-class Closed:
-    """In place of a stream that the caller has closed, which is None: to write there fails, as on a
-    full disk."""
-
-    closed = False
-    encoding = "utf-8"
-
-    def write(self, text):
-        raise OSError(errno.EBADF, "what is to be printed goes to an output that is closed")
-
-    def flush(self):
-        pass
-
-    def isatty(self):
-        return False
 
 
 PATIENCE = 30.0  # for a master, of a program that runs until it is stopped [s]
@@ -97,7 +80,8 @@ def become_node(name, timeout, **options):
             )
             is_told = True
         time.sleep(0.1)
-    sys.stdout, sys.stderr = Printable(sys.stdout or Closed()), Printable(sys.stderr or Closed())
+    sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
+    logging.raiseExceptions = False  # a full disk under ROS_HOME is no matter of the answer
     try:
         rospy.init_node(name, anonymous=True, **options)
     except rospy.ROSInitException:

@@ -14,7 +14,7 @@ from mems_stiction.prediction_text import (
     ratio_name,
 )
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import counted, literal, prefix_for
+from mems_stiction.quantities import counted, literal, prefix_for, shortened
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -372,7 +372,7 @@ def _line_of_text(figure, height, text, colour, size, longest):
     figure.text(
         0.1,
         height,
-        literal(text if len(text) <= longest else text[: longest - 3] + "..."),
+        literal(shortened(text, longest)),
         ha="left",
         va="center",
         fontsize=size,

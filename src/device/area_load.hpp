@@ -14,7 +14,7 @@ namespace mems_stiction {
 /// - @p area of the other surface [m^2]; its load is allowed, whatever the limit
 inline Options loadedOn(const Options& model, double loaded_area, double area) {
   Options options = model;
-  options.load.setMechanicalLoad(model.load.mechanical_load * area / loaded_area);
+  options.load.setShareOfLoad(model.load.mechanical_load * area / loaded_area);
   options.load.max_mechanical_load =
       std::max(options.load.max_mechanical_load, options.load.mechanical_load);
   return options;

@@ -49,10 +49,11 @@ std::vector<HeightMap> drawnAgain(const std::vector<HeightMap>& scans, std::uint
 /// What the scans say, and what they would say if they had been other ones of the same surface.
 class Surfaces {
  public:
-  Surfaces(const DeviceSurfaces& scanned, double side, const DeviceForceOptions& options)
+  /// - @p size of a surface that is made
+  Surfaces(const DeviceSurfaces& scanned, const MadeSize& size, const DeviceForceOptions& options)
       : lower_(mapsOf(scanned.scans)),
         upper_(mapsOf(scanned.counter_surface)),
-        side_(side),
+        size_(size),
         options_(options),
         of_lower_(lower_) {
     if (!upper_.empty()) of_upper_.emplace(upper_);
@@ -75,11 +76,17 @@ class Surfaces {
     std::vector<HeightMap> upper;
   };
   MadeScans scansAgain(int realisation, std::uint64_t seed) {
-    const DeviceLaws& stated = laws(realisation);
-    MadeScans made;
-    made.lower = again(stated.lower, lower_, seed);
-    if (stated.upper) made.upper = again(*stated.upper, upper_, seed + 500);
-    return made;
+    return scansAgain(realisation, seed, OwnWavesOf::kWidest);
+  }
+  /// Whether surfaces of the device have the long waves of a wide scan.
+  bool haveOwnWaves() const {
+    const DeviceLaws& stated = laws(0);
+    return takesOwnWaves(stated.lower, size_) ||
+           (stated.upper && takesOwnWaves(*stated.upper, size_));
+  }
+  /// The same as scansAgain() of surfaces as those of the device: with these long waves, too.
+  MadeScans scansOfDevice(int realisation, std::uint64_t seed) {
+    return scansAgain(realisation, seed, OwnWavesOf::kAll);
   }
   /// What they say.
   DeviceLaws lawsAgain(int realisation, const MadeScans& made) const {
@@ -95,21 +102,29 @@ class Surfaces {
   const std::vector<HeightMap>& upper() const { return upper_; }
 
  private:
+  MadeScans scansAgain(int realisation, std::uint64_t seed, OwnWavesOf own_waves) {
+    const DeviceLaws& stated = laws(realisation);
+    MadeScans made;
+    made.lower = again(stated.lower, lower_, seed, own_waves);
+    if (stated.upper) made.upper = again(*stated.upper, upper_, seed + 500, own_waves);
+    return made;
+  }
   std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans,
-                               std::uint64_t seed) {
+                               std::uint64_t seed, OwnWavesOf own_waves) {
     std::mt19937_64 engine(seed);
-    const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
-    return makers_.try_emplace(&law, law, scans, side_).first->second.make(continuation, engine);
+    const SpectrumContinuation continuation = drawnContinuation(law, size_.sideX(), engine);
+    return makers_.try_emplace({&law, own_waves}, law, scans, size_.sideX(), own_waves)
+        .first->second.make(continuation, engine);
   }
 
   std::vector<HeightMap> lower_;
   std::vector<HeightMap> upper_;
-  double side_;
+  MadeSize size_;
   DeviceForceOptions options_;
   SurfaceStudy of_lower_;
   std::optional<SurfaceStudy> of_upper_;
   std::vector<DeviceLaws> laws_;
-  std::map<const SurfaceLaw*, ScanMaker> makers_;
+  std::map<std::pair<const SurfaceLaw*, OwnWavesOf>, ScanMaker> makers_;
 };
 
 /// Surfaces of the device's size by what the scans say; one for each law, which goes on from seed
@@ -279,6 +294,14 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
   force.apparent_work_of_adhesion *= std::exp(of_work.shift());
   force.force_deviation = std::hypot(force.force_deviation, of_force.shiftDeviation());
   force.work_deviation = std::hypot(force.work_deviation, of_work.shiftDeviation());
+  if (of_force.fails() || of_work.fails()) {
+    force.missing_scan =
+        "scans of surfaces that are made by the spectrum and the heights of these hold " +
+        shortNumber(std::exp(-(of_force.fails() ? of_force : of_work).difference), 2) +
+        " times as much, since their summits are of another kind: how a larger contact holds is "
+        "not "
+        "known; scan a whole contact with these pixels";
+  }
   if (std::abs(of_force.shift()) < std::log(kToldMisfit)) return;
   force.warnings.push_back(
       "the scans hold " + shortNumber(std::exp(of_force.difference), 2) +
@@ -521,7 +544,7 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
   const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
   const bool has_parts = options.pitch == 0.0 && haveRoom(parts_lower, pieces) &&
                          (parts_upper.empty() || haveRoom(parts_upper, pieces));
-  Surfaces known(surfaces, pieces.side(), options);
+  Surfaces known(surfaces, pieces.size, options);
   std::vector<std::string> warnings;
   if (!has_parts)
     warnings = missingLongWaves(surfaces, known.laws(0), std::sqrt(area.area / area.contacts));
@@ -583,11 +606,13 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
       addOthers(ofParts(other_lower, other_upper, seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
+      const Surfaces::MadeScans of_device =
+          known.haveOwnWaves() ? known.scansOfDevice(number, seed + 8) : scans;
       const bool has_upper = !scans.upper.empty();
       const std::vector<HeightMap> from_above = turned(scans.upper);
       for (ModelRun* run : runs) {
         const ModelRun* first = run == runs.front() ? nullptr : runs.front();
-        run->check->add(scans.lower, scans.upper);
+        run->check->add(of_device.lower, of_device.upper);
         run->places.front().add(scans.lower, first != nullptr ? &first->places.front() : nullptr);
         if (has_upper)
           run->places.back().add(from_above, first != nullptr ? &first->places.back() : nullptr);
@@ -700,9 +725,9 @@ std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const Devi
       forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     DeviceForce& force = forces[i];
-    force.missing_scan = missingShortWaves(usable.surfaces, models[i]);
-    if (force.missing_scan.empty())
-      force.missing_scan = missingPixels(area, madePitch(usable.surfaces, options));
+    std::string missing = missingShortWaves(usable.surfaces, models[i]);
+    if (missing.empty()) missing = missingPixels(area, madePitch(usable.surfaces, options));
+    if (!missing.empty()) force.missing_scan = missing;
     if (!force.missing_scan.empty())
       force.warnings.insert(force.warnings.begin(), force.missing_scan);
     force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());

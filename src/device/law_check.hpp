@@ -40,6 +40,9 @@ struct LawMisfit {
   double shift() const;
   /// and how sure that is: standard deviation.
   double shiftDeviation() const;
+  /// Whether surfaces of the law are none as the scans: what the misfit becomes on a larger area is
+  /// not known.
+  bool fails() const;
 };
 
 /// Collects the forces of scans that a law has made.

@@ -71,12 +71,6 @@ int reflected(int index, int count) {
   return std::clamp(at, 0, count - 1);
 }
 
-bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
-  constexpr double kWholeShare = 0.999;
-  return own.heights.cols * own.pitch_x >= kWholeShare * size.sideX() &&
-         own.heights.rows * own.pitch_y >= kWholeShare * size.sideY();
-}
-
 TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation,
                      const MadeSize& size, double longest_wave, bool has_own, std::uint64_t seed,
                      BlockChoice blocks) {
@@ -91,6 +85,12 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
 }
 
 }  // namespace
+
+bool takesOwnWaves(const SurfaceLaw& law, const MadeSize& size) {
+  constexpr double kWholeShare = 0.999;
+  return law.own && law.own->heights.cols * law.own->pitch_x >= kWholeShare * size.sideX() &&
+         law.own->heights.rows * law.own->pitch_y >= kWholeShare * size.sideY();
+}
 
 BlockChoice blocksOf(const MadeSize& size) {
   constexpr std::int64_t kOneTransform = 1 << 20;
@@ -119,9 +119,9 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
                          BlockChoice blocks, Among among)
     : law_(&law),
       size_(size),
-      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own),
-                     2 * seed, blocks)),
-      has_own_(law.own && fitsIn(size, *law.own)) {
+      field_(fieldOf(law, continuation, size, longest_wave, takesOwnWaves(law, size), 2 * seed,
+                     blocks)),
+      has_own_(takesOwnWaves(law, size)) {
   if (law.non_gaussian_share > 0.0) {
     translation_.emplace([&](double g) { return law.marginal.heightOf(g); });
     if (law.split_wave_number > 0.0) {
@@ -228,7 +228,8 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
   }
 }
 
-ScanMaker::ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave)
+ScanMaker::ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave,
+                     OwnWavesOf own_waves)
     : law_(&law), without_own_(law), longest_wave_(longest_wave) {
   without_own_.own.reset();
   for (const HeightMap& scan : like) {
@@ -239,9 +240,10 @@ ScanMaker::ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, 
     if (known != kinds_.end()) continue;
     kinds_.emplace_back();
     kinds_.back().size = size;
-    kinds_.back().has_own = law.own &&
-                            size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
-                            size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
+    kinds_.back().has_own =
+        law.own && (own_waves == OwnWavesOf::kAll ||
+                    (size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
+                     size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y));
   }
 }
 

@@ -102,14 +102,23 @@ class MadeSurface {
   cv::Mat spare_;
 };
 
-/// Makes scans of surfaces of one law, with the pixels and sizes of other scans. Those as large as
-/// the widest have its long waves.
+/// Whether a surface of this size takes the long waves of the widest scan, at a place of it.
+bool takesOwnWaves(const SurfaceLaw& law, const MadeSize& size);
+
+/// Which of the scans that are made have the long waves of the widest one.
+enum class OwnWavesOf {
+  kWidest,  ///< those as large as it: others are of any place of such a surface
+  kAll      ///< all that fit into it, as surfaces of a device that does
+};
+
+/// Makes scans of surfaces of one law, with the pixels and sizes of other scans.
 class ScanMaker {
  public:
   /// - @p law must outlive the object
   /// - @p like have these sizes and pixels
   /// - @p longest_wave that the surface has, where it is longer than a scan [m]
-  ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave);
+  ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave,
+            OwnWavesOf own_waves = OwnWavesOf::kWidest);
   ScanMaker(const ScanMaker&) = delete;
   ScanMaker& operator=(const ScanMaker&) = delete;
 

@@ -27,7 +27,7 @@ Options onFrame(const Options& options, const DeviceOptions& device, const Surfa
         numberText(stated.max_mechanical_load) + " N");
   }
   Options scaled = options;
-  scaled.load.setMechanicalLoad(load);
+  scaled.load.setShareOfLoad(load);
   return scaled;
 }
 

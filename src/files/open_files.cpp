@@ -1,8 +1,11 @@
 #include "files/open_files.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 namespace mems_stiction {
 namespace {
@@ -12,6 +15,15 @@ constexpr rlim_t kEnough = 256;
 constexpr rlim_t kWanted = 1024;
 
 }  // namespace
+
+void holdStandardDescriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // the lowest that is free: this one
+    if (::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY) != descriptor)
+      return;
+  }
+}
 
 std::string lackOfOpenFiles() {
   rlimit limit{};

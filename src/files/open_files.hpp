@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// How many files and connections the process may have open at once (RLIMIT_NOFILE, `ulimit -n`).
+/// Files that a process has open from its start: how many there may be (RLIMIT_NOFILE, `ulimit
+/// -n`), and the three standard ones.
 
 #include <string>
 
@@ -13,5 +14,11 @@ namespace mems_stiction {
 /// else empty. roscpp keeps 32 descriptors free and refuses, without a word, every connection that
 /// would take one of them.
 std::string lackOfOpenFiles();
+
+/// Where the caller has closed a standard stream, what is opened next would take its descriptor,
+/// and whatever is printed would be written into that file. For the begin of a program: the null
+/// device takes the place of each, and what is to be printed cannot be written, as if it were
+/// closed.
+void holdStandardDescriptors();
 
 }  // namespace mems_stiction

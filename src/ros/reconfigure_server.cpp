@@ -71,6 +71,42 @@ RunningSettings changedBy(const dynamic_reconfigure::Config& message, RunningSet
   return settings;
 }
 
+/// One line for each entry that is no setting, has another type, or comes twice.
+template <typename Value>
+void checkNames(const dynamic_reconfigure::Config& wanted, const dynamic_reconfigure::Config& known,
+                const char* type, std::vector<std::string>& violations) {
+  const auto isOf = [](const auto& entries, const std::string& name) {
+    return std::any_of(entries.begin(), entries.end(),
+                       [&](const auto& entry) { return entry.name == name; });
+  };
+  std::vector<std::string> seen;
+  for (const auto& entry : entriesOf<Value>(wanted)) {
+    const std::string name = "'" + shortened(entry.name, kLongestQuotation) + "'";
+    if (std::find(seen.begin(), seen.end(), entry.name) != seen.end()) {
+      violations.push_back(name + " is given twice");
+    } else if (!isOf(entriesOf<Value>(known), entry.name)) {
+      const bool is_known = isOf(known.doubles, entry.name) || isOf(known.ints, entry.name) ||
+                            isOf(known.bools, entry.name) || isOf(known.strs, entry.name);
+      violations.push_back(name + (is_known ? std::string(" is given as ") + type +
+                                                  ", which is another type than that of the setting"
+                                            : " is no setting that can be changed"));
+    }
+    seen.push_back(entry.name);
+  }
+}
+
+/// @throw OptionsError
+void checkNames(const dynamic_reconfigure::Config& wanted, StictionConfig config) {
+  dynamic_reconfigure::Config known;
+  config.__toMessage__(known);
+  std::vector<std::string> violations;
+  checkNames<double>(wanted, known, "a double", violations);
+  checkNames<int>(wanted, known, "an int", violations);
+  checkNames<bool>(wanted, known, "a bool", violations);
+  checkNames<std::string>(wanted, known, "a string", violations);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
 StictionConfig configOf(const RunningSettings& settings) {
   StictionConfig config = StictionConfig::__getDefault__();
   dynamic_reconfigure::Config message;
@@ -188,6 +224,7 @@ void ReconfigureServer::take(dynamic_reconfigure::Config& wanted) {
   const boost::recursive_mutex::scoped_lock lock(mutex_);
   try {
     StictionConfig config = configOf(settings_.current());
+    checkNames(wanted, config);
     config.__fromMessage__(wanted);
     config.__clamp__();
     dynamic_reconfigure::Config message;
@@ -197,7 +234,7 @@ void ReconfigureServer::take(dynamic_reconfigure::Config& wanted) {
     changed_();
   } catch (const OptionsError& error) {
     for (const std::string& line : error.violations()) {
-      logSoon(ros::console::levels::Warn, "reconfigure refused, nothing changed: " + line);
+      logSoon(ros::console::levels::Warn, oneLine("reconfigure refused, nothing changed: " + line));
     }
   } catch (const std::future_error&) {
     // the node is shutting down

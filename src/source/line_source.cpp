@@ -189,6 +189,7 @@ bool LineSource::takeLine(const Waiting& waiting) {
             oneLine(std::string("a line has no place: ") + error.what()));
   } catch (const std::exception& error) {  // whatever it is, the next line may do
     ++counts_.refused;
+    noteNumber(waiting.line->header);
     logSoon(ros::console::levels::Warn, oneLine("a line is passed over: " + reasonOf(error)));
   }
   return true;
@@ -220,6 +221,10 @@ LineSource::TakenLine LineSource::placed(const sensor_msgs::PointCloud2& line) {
 
 void LineSource::countNumber(const std_msgs::Header& header) {
   ++counts_.taken;
+  noteNumber(header);
+}
+
+void LineSource::noteNumber(const std_msgs::Header& header) {
   if (last_header_ && header.seq > last_header_->seq + 1) {
     counts_.lost_by_sequence += header.seq - last_header_->seq - 1;
   }

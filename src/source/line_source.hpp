@@ -94,6 +94,8 @@ class LineSource {
   TakenLine placed(const sensor_msgs::PointCloud2& line);
   std::int64_t numberOf(const std_msgs::Header& header);
   void countNumber(const std_msgs::Header& header);
+  /// Counts the lines that the driver has sent between the last one and this one.
+  void noteNumber(const std_msgs::Header& header);
   void add(TakenLine line);
   static void append(Scan& scan, TakenLine line);
   /// The lines behind the furthest one are those of a new scan.

@@ -16,6 +16,7 @@
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "files/interruption.hpp"
+#include "files/open_files.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
@@ -114,6 +115,7 @@ int forEachScan(const std::string& program, const std::vector<std::string>& scan
 /// The whole of main(): describe(app, arguments), parse, run(arguments). @return the exit status
 template <typename Arguments, typename Describe, typename Run>
 int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
+  holdStandardDescriptors();
   cleanUpWhenInterrupted();
   try {
     if (asksVersion(argc, argv)) {

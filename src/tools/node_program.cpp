@@ -124,6 +124,7 @@ int run(int argc, char** argv, const NodeProgram& program) {
 }  // namespace
 
 int runNode(int argc, char** argv, const NodeProgram& program) {
+  holdStandardDescriptors();
   try {
     return run(argc, argv, program);
   } catch (const std::exception& error) {

@@ -42,6 +42,16 @@ TEST(LawCheck, ScansThatHoldMoreStronglyHaveOne) {
   EXPECT_GT(misfit.shift(), 0.5 * misfit.difference);
   EXPECT_LT(misfit.shift(), misfit.difference);
   EXPECT_GT(misfit.shiftDeviation(), 0.2 * misfit.difference);
+  EXPECT_FALSE(misfitOf(scansOf(5e-9, 1, 4), 5e-9).fails());
+}
+
+TEST(LawCheck, ALawFailsByAFactorOfThreeAndItsMisfitIsContained) {
+  const LawMisfit failed{std::log(4.0), 0.05};
+  EXPECT_TRUE(failed.fails());
+  EXPECT_TRUE((LawMisfit{-std::log(4.0), 0.05}.fails()));
+  EXPECT_GT(1.96 * failed.shiftDeviation(), failed.share() * failed.difference);
+  EXPECT_FALSE((LawMisfit{std::log(3.1), 0.05}.fails()));
+  EXPECT_FALSE((LawMisfit{std::log(4.0), 1.0}.fails())) << "by chance";
 }
 
 /// A hole takes the summits of its place away, from the scan and from those that are made like it.

@@ -71,8 +71,9 @@ TEST(PlaceCheck, APlaceThatIsSmootherIsNamed) {
   EXPECT_NE(
       sentence.find(
           "patchy: its places differ by more than chance. The 0.32 x 0.32 um about x = 0.8 um, "
-          "y = 0.48 um hold most, with " +
-          "rms gradient is " + shortNumber(std::exp(0.5 * smooth.gradient), 2)),
+          "y = 0.48 um hold most; over the scan's other places their "
+          "rms gradient is " +
+          shortNumber(std::exp(0.5 * smooth.gradient), 2)),
       std::string::npos)
       << sentence;
 }
