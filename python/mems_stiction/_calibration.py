@@ -17,6 +17,7 @@ from mems_stiction.calibration_data import Measurement, measurements_of
 from mems_stiction.calibration_search import Found, Search
 from mems_stiction.calibration_second import with_second
 from mems_stiction.calibration_statements import (
+    of_doubts,
     of_high_work,
     of_misfit,
     of_other_places,
@@ -286,7 +287,14 @@ def _calibration(
         relative = axis.relative_uncertainty(parameter, interval)
         if relative is not None:
             constants["uncertainty/" + word] = relative
-    statements = of_other_places(data) + of_outliers(data, found) + of_misfit(found) + statements
+    fitted = {axis.name: axis.value(value) for axis, value in zip(found.axes, fit.parameters)}
+    statements = (
+        of_other_places(data)
+        + of_outliers(data, found)
+        + of_misfit(found)
+        + of_doubts(data, fitted)
+        + statements
+    )
     is_told = found.axes[0].tells(found.intervals[0])
     least = fit.parameters[0] if is_told else found.intervals[0].lower
     statements[:0] = of_radii(data) + of_high_work(found, least)

@@ -62,6 +62,7 @@ class Figures(NamedTuple):
     force, work: the geometric mean over such places [N, J/m^2]. ..._scatter: standard deviation of
     its logarithm from one place of the surfaces to another [-]. ..._common: what all places of the
     same surfaces share, since the scans, and the places that were looked at, are a sample [-].
+    doubt: why a force may be out by more than 1.3, empty where it is not doubted.
     """
 
     force: float
@@ -70,6 +71,7 @@ class Figures(NamedTuple):
     work_scatter: float = 0.0
     force_common: float = 0.0
     work_common: float = 0.0
+    doubt: str = ""
 
 
 class Place:
@@ -334,7 +336,8 @@ def _of_several(predictions: List[Any]) -> Figures:
     work, work_scatter, work_common = _of_places(
         [one.apparent_work_of_adhesion for one in predictions]
     )
-    return Figures(force, work, force_scatter, work_scatter, force_common, work_common)
+    doubt = next((one.model_doubt for one in predictions if one.model_doubt), "")
+    return Figures(force, work, force_scatter, work_scatter, force_common, work_common, doubt)
 
 
 def _of_places(values: List[float]) -> Tuple[float, float, float]:
@@ -359,6 +362,7 @@ def _probe_alone(radius: float, stated: Dict[str, Any]) -> Tuple[np.ndarray, flo
     work = stated["interface/work_of_adhesion"]
     contact_radius = (6.0 * math.pi * work * radius**2 * compliance) ** (1.0 / 3.0)
     half = max(math.sqrt(2.0 * radius * PROBE_DEPTH), PROBE_CONTACTS * contact_radius)
+    half = min(half, radius)  # a paraboloid is no sphere beyond: what is softer is doubted
     x = (np.arange(PROBE_PIXELS) + 0.5) / PROBE_PIXELS * 2.0 * half - half
     return -(x[:, None] ** 2 + x[None, :] ** 2) / (2.0 * radius), 2.0 * half / PROBE_PIXELS
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import List
+from typing import Dict, List
 
 import numpy as np
 
@@ -32,6 +32,20 @@ def of_other_places(data: List[Measurement]) -> List[str]:
     return [
         "values on one scan's area differ by more than their uncertainties say: they were taken "
         "for other places of the surface"
+    ]
+
+
+def of_doubts(data: List[Measurement], constants: Dict[str, float]) -> List[str]:
+    """Of predictions that may be out by more than the interval says."""
+    names: Dict[str, List[str]] = {}
+    for datum in data:
+        doubt = datum.place.figures_of_scan(constants).doubt
+        if doubt:
+            names.setdefault(doubt, []).append(datum.name)
+    return [
+        "what is predicted for %s may be out by more than 1.3, and the work of adhesion with it: %s"
+        % (", ".join(of_doubt[:MOST_ASKED]) + (" and others" * (len(of_doubt) > MOST_ASKED)), doubt)
+        for doubt, of_doubt in names.items()
     ]
 
 

@@ -81,7 +81,7 @@ const std::map<std::string, Usual>& usualValues() {
       {"device/apparent_work_of_adhesion", {1e-15, 10.0, {{"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}}}},
       {"interface/hamaker_constant", hamaker},
       {"interface/retardation_length", retardation},
-      {"interface/water_film", film},
+      {"interface/water_film", {1e-10, 2e-8, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"um", 1e-6}}}},
       {"paper/cutoff_distance", atomic},
       {"interface/equilibrium_distance", atomic},
       {"interface/insulator_thickness", layer},

@@ -19,8 +19,9 @@ constexpr double kByChance = 4.0;
 /// Share of a misfit at the size of the scans that is found at that of the device; the rest of it
 /// is its uncertainty (doc/device.md says on which surfaces it was set).
 constexpr double kCarried = 0.7;
-/// A misfit that is larger by a standard error tells that summits are of another kind: on bumps of one height (misfits of 5 to
-/// 19) the device's force was 0.05 to 10 times that of the whole surface.
+/// A misfit that is larger by a standard error tells that summits are of another kind: on bumps of
+/// one height (misfits of 5 to 19) the device's force was 0.05 to 10 times that of the whole
+/// surface.
 constexpr double kFailedTimes = 3.0;
 /// Of many scans, so many are made and predicted in each round.
 constexpr std::size_t kScansOfRound = 4;

@@ -7,6 +7,7 @@
 #include "configuration/usual_values.hpp"
 #include "evaluation/breakdown.hpp"
 #include "evaluation/half_space_call.hpp"
+#include "loads/force_range.hpp"
 #include "numeric/rounding.hpp"
 #include "verdict/missing_scan.hpp"
 
@@ -21,6 +22,11 @@ constexpr double kLargestSlant = 0.2;
 
 /// Below, Kelvin's radius is less than 0.23 nm.
 constexpr double kLeastHumidity = 0.1;
+/// Beyond, a face carries drops and no film [rad].
+constexpr double kHardlyWets = 1.0;
+/// Between atoms of two faces that nearly touch [m].
+constexpr double kShortestRange = 5e-11;
+constexpr double kLongestRange = 2e-9;
 
 /// What settings say of each other.
 void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
@@ -52,9 +58,35 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
                     " the meniscus is narrower than a molecule of water, and the force is far too "
                     "large: 0 is dry");
   }
+  const CapillaryOptions& water = configuration.model.capillary;
+  if (humidity > 0.0 && water.water_film > 0.0 && water.contact_angle > kHardlyWets) {
+    lines.push_back("interface/water_film " + fourDigits(water.water_film) +
+                    " m beside interface/contact_angle " + fourDigits(water.contact_angle) +
+                    " rad: faces that water hardly wets have no film");
+  }
   checkPlate("lower", configuration.model.lower);
   checkPlate("upper", configuration.model.upper);
+  const InterfaceOptions& interface = configuration.model.interface;
+  const double range = forceRange(interface, configuration.model.lower, configuration.model.upper);
+  const bool are_usual = isUsual("interface/work_of_adhesion", interface.work_of_adhesion) &&
+                         isUsual("interface/hamaker_constant", interface.hamaker_constant);
+  if (are_usual && interface.work_of_adhesion > 0.0 && interface.hamaker_constant > 0.0 &&
+      (range < kShortestRange || range > kLongestRange)) {
+    lines.push_back("interface/work_of_adhesion " + fourDigits(interface.work_of_adhesion) +
+                    " J/m^2 beside interface/hamaker_constant " +
+                    fourDigits(interface.hamaker_constant) +
+                    " J is an attraction of the range z0 = " + fourDigits(range) +
+                    " m; that of atoms is " + fourDigits(kShortestRange) + " to " +
+                    fourDigits(kLongestRange) + " m: are both units right?");
+  }
   const DeviceOptions& device = configuration.device;
+  const double of_flat = interface.work_of_adhesion + water.law().energy(0.0);
+  if (isUsual("device/apparent_work_of_adhesion", device.apparent_work_of_adhesion) &&
+      exceeds(device.apparent_work_of_adhesion, of_flat)) {
+    lines.push_back("device/apparent_work_of_adhesion " +
+                    fourDigits(device.apparent_work_of_adhesion) + " J/m^2 exceeds the " +
+                    fourDigits(of_flat) + " J/m^2 of flat surfaces: is its unit right?");
+  }
   if (device.hasBeam() && exceeds(kSlenderness * device.beam_thickness, device.beam_length)) {
     lines.push_back("device/beam_length " + fourDigits(device.beam_length) +
                     " m beside device/beam_thickness " + fourDigits(device.beam_thickness) +

@@ -560,6 +560,28 @@ class KindsTest(unittest.TestCase):
         )
         self.assertGreater(found.work_of_adhesion, 0.98 * TRUTH)
         self.assertLess(found.work_of_adhesion, 1.02 * TRUTH * 4 / 3)  # JKR
+        self.assertFalse(any("may be out" in line for line in found.statements))
+
+    def test_a_sphere_that_is_so_soft_that_its_force_is_doubted_is_told(self):
+        radius = 10e-6
+        force = 1.5 * math.pi * radius * TRUTH  # JKR
+        soft = {"youngs_modulus": 1e8}
+        found = calibrated(
+            [
+                {
+                    "kind": "pull_off_force",
+                    "value": force,
+                    "uncertainty": 0.01 * force,
+                    "radius": radius,
+                    "name": "bead",
+                }
+            ],
+            lower=soft,
+            upper=soft,
+        )
+        told = [line for line in found.statements if "may be out by more than 1.3" in line]
+        self.assertEqual(len(told), 1, found.statements)
+        self.assertIn("bead", told[0])
 
     def test_a_sphere_on_a_rough_surface_scatters_from_place_to_place(self):
         found = calibrated([measured(2e-8, SURFACES[0], 0.01, radius=0.5e-6)])

@@ -148,7 +148,7 @@ TEST(Plausibility, WhatNoMaterialOrDeviceHasIsRefusedUnlessItIsMeant) {
         "lower/hamaker_constant 261 J is implausible (1e-24 to 1e-16 J are taken): probably 261 zJ",
         "interface/retardation_length 20 m is implausible (1e-10 to 1e-05 m are taken): probably "
         "20 nm",
-        "interface/water_film 0.8 m is implausible (1e-11 to 1e-05 m are taken): probably 0.8 "
+        "interface/water_film 0.8 m is implausible (1e-11 to 2e-07 m are taken): probably 0.8 "
         "nm"}) {
     EXPECT_NE(lines.find(meant), std::string::npos) << lines;
   }
@@ -204,6 +204,18 @@ TEST(Plausibility, WhatSettingsSayOfEachOtherIsNamed) {
   EXPECT_NE(onlyWarning(configuration)
                 .find("lower/hardness 1.2e+07 Pa beside lower/youngs_modulus 1.69e+11 Pa"),
             std::string::npos);
+  configuration = Configuration();
+  configuration.model.interface.work_of_adhesion = 5.0;
+  EXPECT_NE(onlyWarning(configuration).find("z0 = 1.608e-11 m"), std::string::npos)
+      << onlyWarning(configuration);
+  configuration.model.interface.work_of_adhesion = 1e-4;
+  EXPECT_NE(onlyWarning(configuration).find("is an attraction of the range"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.capillary.relative_humidity = 0.5;
+  configuration.model.capillary.water_film = 0.8e-9;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.model.capillary.contact_angle = 1.5;
+  EXPECT_NE(onlyWarning(configuration).find("hardly wets"), std::string::npos);
   configuration = Configuration();
   DeviceOptions& device = configuration.device;
   device.beam_type = BeamType::kDoublyClamped;
