@@ -88,6 +88,26 @@ class FullDiskTest(unittest.TestCase):
         kept = written[: written.rfind("\n") + 1]
         self.assertTrue(whole.startswith(kept), kept)
 
+    def test_an_output_that_the_caller_closed_is_not_written_into_the_rows(self):
+        device = self.folder / "device.yaml"
+        device.write_text(
+            self.config.read_text()
+            + "device: {spring_stiffness: 10.0, travel: 1.0e-6, contact_area: 1.0e-11}\n"
+        )
+        for number, closed in enumerate((">&-", "2>&-", "<&- 2>&-")):
+            rows = self.folder / ("rows_%d.csv" % number)
+            subprocess.run(
+                ["sh", "-c", 'exec "$@" ' + closed, "sh"]
+                + [find_node("mems_stiction", "stiction_batch")[0], "--no-device-force"]
+                + ["--config", device, "-o", rows, *self.scans[:2]],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                timeout=120,
+            )
+            lines = rows.read_text().splitlines()
+            self.assertEqual(len(lines), 3, lines)
+            self.assertEqual([line.split(",")[0] for line in lines[1:]], ["1", "2"], closed)
+
     def test_a_curve_is_whole_or_absent(self):
         self.leave(4096)
         done = self.run_program(

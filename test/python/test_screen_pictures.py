@@ -137,6 +137,10 @@ class CurvesTest(unittest.TestCase):
             "pixels are too coarse", texts_of(half_space_curve_picture(solution(is_resolved=False)))
         )
 
+    def test_names_of_any_length_are_drawn(self):
+        long = {name: 1000 * "W" for name in ("scan_name", "part_id", "serial_id", "lot_id")}
+        pixels_of(force_curve_picture(prediction(**long)))
+
     def test_all_say_where_they_come_from(self):
         origin = dict(scan_name="wafer 3", version="1.2.3")
         for figure in (

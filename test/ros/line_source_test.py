@@ -228,7 +228,7 @@ class LinesTest(unittest.TestCase):
         scanner.counts.wait(lines_refused=1)
         scanner.send(lines_of(5))
         self.check(scanner, lines_of(5))
-        scanner.counts.wait(found=2, published=1, refused=1, waiting=0)
+        scanner.counts.wait(found=2, published=1, refused=1, waiting=0, lines_lost_by_sequence=0)
 
     def test_5_the_lines_of_a_scan_that_does_not_end_are_discarded_aloud(self):
         scanner = Scanner(self, "open", motion="count", line_pitch=LINE_PITCH)

@@ -12,6 +12,8 @@ import dynamic_reconfigure.client
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalID, GoalStatus
+from dynamic_reconfigure.msg import Config, DoubleParameter, IntParameter
+from dynamic_reconfigure.srv import Reconfigure
 from mems_stiction.msg import (
     CycleContactAction,
     CycleContactGoal,
@@ -180,6 +182,25 @@ class StationTest(unittest.TestCase):
             )
             self.assertEqual(answer, before, refused)
             self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
+        # So does a name that is none, one of another type, and one that comes twice: no client of
+        # dynamic_reconfigure sends these.
+        raw = rospy.ServiceProxy("stiction_node/set_parameters", Reconfigure)
+        for doubles, ints, reason in (
+            ({"nosuch": 1.0}, {}, "'nosuch' is no setting"),
+            ({}, {"travel": 5}, "'travel' is given as an int"),
+        ):
+            del log.messages[:]
+            wanted = Config()
+            wanted.doubles = [DoubleParameter(*item) for item in doubles.items()]
+            wanted.doubles.append(DoubleParameter("voltage", 12.0))
+            wanted.ints = [IntParameter(*item) for item in ints.items()]
+            raw(wanted)
+            wait_until(
+                lambda reason=reason: any(reason in message.msg for message in log.messages),
+                "a warning with '%s'" % reason,
+            )
+            self.assertEqual(self.settings.get_configuration()["voltage"], 3.0)
+            self.assertFalse(any("__fromMessage__" in message.msg for message in log.messages))
         load = self.get_load()
         self.assertEqual((load.voltage, load.mechanical_load), (3.0, LOAD))
         self.assertTrue(self.set_load(0.0, LOAD).success)
