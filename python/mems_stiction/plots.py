@@ -317,9 +317,14 @@ def draw_contacts(axes, picture, section=None, title="Contact by regime", legend
         picture.prediction.elasto_plastic_count,
         picture.prediction.plastic_count,
     )
+    # surfaces that have flowed place by place: cells are elastic or at the hardness
+    is_by_cell = counts[1] > 0 and not (picture.contact_map == 2).any()
     handles = [
-        Patch(color=colour, label="%s (%d)" % (label, count))
-        for (_, label, colour), count in zip(REGIMES, counts)
+        Patch(
+            color=colour,
+            label="%s (%d%s)" % (label, count, ", red in part" * (is_by_cell and value == 2)),
+        )
+        for (value, label, colour), count in zip(REGIMES, counts)
     ]
     if section is not None:
         handles.append(plt.Line2D([], [], color="black", linewidth=1.6, label="cross-section"))
