@@ -142,7 +142,7 @@ class PredictionFigures:
     flattening_energy: float
     """[J/m^2] that pressing the surfaces flat would store, per area"""
     flattening_ratio: float
-    """flattening_energy/work of adhesion"""
+    """flattening_energy over what adhesion and water give"""
     adhesion_exponent: float
     """d ln(pull_off_force)/d ln(work of adhesion)"""
     modulus_exponent: float

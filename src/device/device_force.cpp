@@ -294,14 +294,6 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
   force.apparent_work_of_adhesion *= std::exp(of_work.shift());
   force.force_deviation = std::hypot(force.force_deviation, of_force.shiftDeviation());
   force.work_deviation = std::hypot(force.work_deviation, of_work.shiftDeviation());
-  if (of_force.fails() || of_work.fails()) {
-    force.missing_scan =
-        "scans of surfaces that are made by the spectrum and the heights of these hold " +
-        shortNumber(std::exp(-(of_force.fails() ? of_force : of_work).difference), 2) +
-        " times as much, since their summits are of another kind: how a larger contact holds is "
-        "not "
-        "known; scan a whole contact with these pixels";
-  }
   if (std::abs(of_force.shift()) < std::log(kToldMisfit)) return;
   force.warnings.push_back(
       "the scans hold " + shortNumber(std::exp(of_force.difference), 2) +
@@ -725,9 +717,9 @@ std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const Devi
       forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     DeviceForce& force = forces[i];
-    std::string missing = missingShortWaves(usable.surfaces, models[i]);
-    if (missing.empty()) missing = missingPixels(area, madePitch(usable.surfaces, options));
-    if (!missing.empty()) force.missing_scan = missing;
+    force.missing_scan = missingShortWaves(usable.surfaces, models[i]);
+    if (force.missing_scan.empty())
+      force.missing_scan = missingPixels(area, madePitch(usable.surfaces, options));
     if (!force.missing_scan.empty())
       force.warnings.insert(force.warnings.begin(), force.missing_scan);
     force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());

@@ -41,7 +41,7 @@ struct LawMisfit {
   /// and how sure that is: standard deviation.
   double shiftDeviation() const;
   /// Whether surfaces of the law are none as the scans: what the misfit becomes on a larger area is
-  /// not known.
+  /// not known, and all of it widens the interval.
   bool fails() const;
 };
 

@@ -83,7 +83,7 @@ class Example:
         settings = settings_of(
             STATION,
             preprocessing=dict(level="plane"),
-            device=dict(spring_stiffness=100.0, travel=1e-6, contact_area=scanned_area),
+            device=dict(spring_stiffness=1000.0, travel=1e-6, contact_area=scanned_area),
             device_force=dict(realisations=3, max_cells=10000),
         )
         (self.top / "device.yaml").write_text(yaml.safe_dump(settings))

@@ -150,7 +150,8 @@ class StationScriptsTest(unittest.TestCase):
         self.assertEqual(
             [line.split()[0] for line in output.splitlines()[2:6]], ["1", "2", "3", "4"]
         )
-        self.assertIn("From contact 1 to contact 4 the pull-off force goes from", output)
+        self.assertIn("From contact 1 to contact 4 the pull-off force stays at", output)
+        self.assertIn("From contact 2 on nothing flows any more", output)
         self.assertIn("the lowest margin is", output)
         rows = self.rows("cycles.csv")
         self.assertEqual([row["cycle"] for row in rows], ["1", "2", "3", "4"])
