@@ -153,6 +153,10 @@ double ContactPath::curvatureErrorOf(const ForcePoint& next) const {
   return scale > 0.0 ? parabola.curvatureError() / scale : 0.0;
 }
 
+bool ContactPath::isSmoothTo(const ForcePoint& next) const {
+  return curvatureErrorOf(next) <= kJumpError;
+}
+
 double ContactPath::kinkOf(const ForcePoint& next) const {
   const double scale = std::max(strongest_, next.force);
   if (last_move_ == 0.0 || !(scale > 0.0)) return 0.0;
@@ -244,7 +248,7 @@ void ContactPath::record(const ForcePoint& next, bool is_jump, ForceCurve& curve
     const std::optional<PressedStep> pressed =
         is_heavy ? std::make_optional<PressedStep>(parabola) : std::nullopt;
     // energies that do not belong to the forces tell of several branches, not of a parabola
-    const bool is_smooth = is_heavy || curvatureErrorOf(next) <= kJumpError;
+    const bool is_smooth = is_heavy || isSmoothTo(next);
     std::vector<double> shares;  // of the step, where points are
     for (int piece = 1; is_smooth && piece < pieces; ++piece)
       shares.push_back(static_cast<double>(piece) / pieces);

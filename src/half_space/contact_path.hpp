@@ -257,6 +257,8 @@ class ContactPath {
   /// Whether the bodies are pressed so much that attraction hardly counts.
   bool isHeavy(const ForcePoint& point) const;
   double curvatureErrorOf(const ForcePoint& next) const;
+  /// Whether no jump lies between the present state and that one, by its energy.
+  bool isSmoothTo(const ForcePoint& next) const;
   /// How far the slope at the begin of the step to `next` lies from that at the end of the last
   /// one, over the step and of the force; 0 where there is none to go on from.
   double kinkOf(const ForcePoint& next) const;

@@ -85,7 +85,7 @@ bool ContactPath::measureStiffness() {
   ForcePoint next;
   ContactState state;
   const bool is_solved = attempt(present_.height + way, kExact, next, state) == PathStatus::kDone;
-  const bool is_smooth = is_solved && curvatureErrorOf(next) <= kJumpError;
+  const bool is_smooth = is_solved && isSmoothTo(next);
   minimiser_.takeBack();
   if (!is_smooth) return false;
   // forces of pressed bodies are powers of the way

@@ -138,10 +138,11 @@ double largestPitch(const HalfSpaceProblem& problem) {
 /// What to do about a path of too many states.
 std::string adviceOn(const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
                      const SolvedHalfSpace& solution) {
-  if (!options.attraction)
+  if (!options.attraction) {
     return "the repulsion is too steep for states as exact as these: state a smaller "
            "half_space/tolerance, or a longer half_space/range than " +
            numberText(solution.range) + " m";
+  }
   if (solution.is_resolved) return "raise it";
   return "pixels of " + shortNumber(largestPitch(problem)) +
          " m do not resolve the edges of the contacts, which jump from pixel to pixel: scan a "

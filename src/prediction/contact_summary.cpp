@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/traction_law.hpp"
 #include "numeric/median.hpp"
 
 namespace mems_stiction {

@@ -96,7 +96,7 @@ void checkNames(const dynamic_reconfigure::Config& wanted, const dynamic_reconfi
 }
 
 /// @throw OptionsError
-void checkNames(const dynamic_reconfigure::Config& wanted, StictionConfig config) {
+void checkNames(const dynamic_reconfigure::Config& wanted, const StictionConfig& config) {
   dynamic_reconfigure::Config known;
   config.__toMessage__(known);
   std::vector<std::string> violations;
