@@ -598,8 +598,10 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area,
       addOthers(ofParts(other_lower, other_upper, seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
+      // a single scan is of one place of the wide one, and where it lies is not known
+      const bool are_several = runs.front()->check->scanCount() > 1;
       const Surfaces::MadeScans of_device =
-          known.haveOwnWaves() ? known.scansOfDevice(number, seed + 8) : scans;
+          are_several && known.haveOwnWaves() ? known.scansOfDevice(number, seed + 8) : scans;
       const bool has_upper = !scans.upper.empty();
       const std::vector<HeightMap> from_above = turned(scans.upper);
       for (ModelRun* run : runs) {

@@ -13,6 +13,7 @@
 ///     check.add(made_scans, made_counter_surface);  // of each realisation
 ///     const LawMisfit misfit = check.force();
 
+#include <cstddef>
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
@@ -56,6 +57,8 @@ class LawCheck {
   /// - @p made like the scans, in their order
   void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
 
+  /// How many scans are looked at.
+  std::size_t scanCount() const { return checked_.size(); }
   /// By how much the scan that holds most holds more than those that were made like it, of ln F and
   /// ln w; >= 0 [-].
   double largestForceExcess() const { return largestExcess(&Logs::force); }
