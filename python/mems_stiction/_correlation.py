@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from statistics import NormalDist
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -12,8 +11,8 @@ from mems_stiction._arrays import Pitch, ReadOnly, array_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, SurfaceError
 from mems_stiction._types import Heights, Upper
+from mems_stiction.quantities import NORMAL_95
 
-NORMAL_95 = NormalDist().inv_cdf(0.975)
 FIELDS = "wavelength shortest longest correlation correlation_lower correlation_upper".split()
 FIELDS += ["rms_lower", "rms_upper", "waves"]
 

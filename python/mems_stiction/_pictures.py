@@ -96,7 +96,7 @@ def prediction_html(prediction: Any) -> str:
             ),
         ),
         ("rms height", plots.with_unit(prediction.rms_height, "m")),
-        ("flattening energy / work of adhesion", ratio(prediction.flattening_ratio)),
+        ("flattening energy / gained by adhesion and water", ratio(prediction.flattening_ratio)),
     ]
     if prediction.verdict is not None:
         rows.append(("does the device stick?", prediction.verdict.summary))

@@ -8,11 +8,10 @@ in theirs.
 from __future__ import annotations
 
 import math
-from statistics import NormalDist
 from typing import Any, Dict, Mapping, Optional, Tuple
 
 from mems_stiction.calibration_fit import Interval
-from mems_stiction.quantities import ratio, with_interval, with_unit
+from mems_stiction.quantities import NORMAL_95, ratio, with_interval, with_unit
 
 WORK, HAMAKER, ANGLE, POTENTIAL, FILM = (
     "interface/work_of_adhesion",
@@ -38,7 +37,6 @@ TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
 TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
 TELLING_POTENTIAL = 0.6  # width of an interval of the potential over the largest voltage
-NORMAL_95 = NormalDist().inv_cdf(0.975)
 
 
 def word_of(name: str) -> str:

@@ -362,7 +362,7 @@ def _probe_alone(radius: float, stated: Dict[str, Any]) -> Tuple[np.ndarray, flo
     work = stated["interface/work_of_adhesion"]
     contact_radius = (6.0 * math.pi * work * radius**2 * compliance) ** (1.0 / 3.0)
     half = max(math.sqrt(2.0 * radius * PROBE_DEPTH), PROBE_CONTACTS * contact_radius)
-    half = min(half, radius)  # a paraboloid is no sphere beyond: what is softer is doubted
+    half = min(half, radius)  # a paraboloid is no sphere beyond: softer bodies are doubted
     x = (np.arange(PROBE_PIXELS) + 0.5) / PROBE_PIXELS * 2.0 * half - half
     return -(x[:, None] ** 2 + x[None, :] ** 2) / (2.0 * radius), 2.0 * half / PROBE_PIXELS
 

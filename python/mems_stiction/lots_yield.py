@@ -13,15 +13,14 @@ wafer are alike. Where none sticks, or all do, there is a bound.
 from __future__ import annotations
 
 import math
-from statistics import NormalDist
 from typing import NamedTuple, Sequence, Tuple
 
 import numpy as np
 
 from mems_stiction.lots_data import Place
 from mems_stiction.lots_variance import DRAWS, SEED, Components, Hierarchy, components_of
+from mems_stiction.quantities import NORMAL_95
 
-NORMAL_95 = NormalDist().inv_cdf(0.975)
 FEWEST_FOR_SHAPE = 20  # places: fewer do not show whether their distribution is normal
 MOST_FOR_SHAPE = 5000  # beyond, the test is none
 LEAST_CHANCE = 0.05  # of a shape as odd as this, if the distribution is normal

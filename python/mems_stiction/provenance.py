@@ -3,7 +3,7 @@ version."""
 
 from mems_stiction.quantities import literal, shortened
 
-LONGEST_NAME = 70  # letters of one in a line of them
+LONGEST_NAME = 70  # letters of one in a picture
 
 # of every result, as the messages name them
 FIELDS = (
@@ -32,9 +32,9 @@ _WORDS = (
 )
 
 
-def provenance_words(source, leave_out=()):
+def provenance_words(source, leave_out=(), longest=None):
     """What is known of these; source: a message, a record or a row with the fields, or with some of
-    them."""
+    them. longest: letters of one, the rest of which is cut."""
 
     def value_of(name):
         return source.get(name, "") if isinstance(source, dict) else getattr(source, name, "")
@@ -42,16 +42,16 @@ def provenance_words(source, leave_out=()):
     known = [
         (word, value_of(name)) for word, name in _WORDS if name not in leave_out and value_of(name)
     ]
-    return ", ".join(
-        shortened(value if value.startswith(word) else "%s %s" % (word, value), LONGEST_NAME)
-        for word, value in known
-    )  # "scan_7" says what it is
+    words = [
+        value if value.startswith(word) else "%s %s" % (word, value) for word, value in known
+    ]  # "scan_7" says what it is
+    return ", ".join(shortened(one, longest) if longest else one for one in words)
 
 
 def sign(figure, source, colour="#666666", leave_out=()):
     """Writes it into the lower right corner of a picture of matplotlib. Returns whether there was
     anything to write."""
-    text = provenance_words(source, leave_out)
+    text = provenance_words(source, leave_out, LONGEST_NAME)
     if text:
         figure.text(
             1 - 0.05 / figure.get_figwidth(),

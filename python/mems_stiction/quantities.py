@@ -2,9 +2,11 @@
 
 import math
 import re
+from statistics import NormalDist
 
 BEYOND_PREFIXES = 1e15  # from there on, and below the smallest prefix: an exponent
 LONGEST_DRAWN = 400  # letters of a line of a picture
+NORMAL_95 = NormalDist().inv_cdf(0.975)  # standard deviations to either side that contain 95 %
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {
     -21: "z",

@@ -66,7 +66,7 @@ FIGURES = (
     ("margin, 95 % to", "margin_upper"),
     ("pull-in voltage", "pull_in_voltage"),
     ("stiffness of the contact", "contact_stiffness"),
-    ("flattening energy / work of adhesion", "flattening_ratio"),
+    ("flattening energy / gained by adhesion and water", "flattening_ratio"),
     ("apparent work of adhesion", "apparent_work_of_adhesion"),
     ("apparent work of adhesion, device", "device_apparent_work_of_adhesion"),
     ("peel number", "peel_number"),

@@ -1,5 +1,7 @@
 #include "mems_stiction/contact/contact_settings.hpp"
 
+#include "mechanics/traction_law.hpp"
+
 namespace mems_stiction {
 
 void ApproachOptions::describe(OptionVisitor& visitor) {
@@ -23,6 +25,10 @@ void OutputOptions::describe(OptionVisitor& visitor) {
                "compute the ISO 25178 figures of the scanned surface");
   visitor.flag("output/energy_curve", energy_curve,
                "keep the energies at every step of the approach");
+}
+
+double ContactSettings::gainedWork() const {
+  return interface.work_of_adhesion + capillary.law().energy(0.0);
 }
 
 }  // namespace mems_stiction

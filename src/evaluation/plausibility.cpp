@@ -80,7 +80,7 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
                     fourDigits(kLongestRange) + " m: are both units right?");
   }
   const DeviceOptions& device = configuration.device;
-  const double of_flat = interface.work_of_adhesion + water.law().energy(0.0);
+  const double of_flat = configuration.model.gainedWork();
   if (isUsual("device/apparent_work_of_adhesion", device.apparent_work_of_adhesion) &&
       exceeds(device.apparent_work_of_adhesion, of_flat)) {
     lines.push_back("device/apparent_work_of_adhesion " +

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/traction_law.hpp"
 #include "numeric/median.hpp"
 
 namespace mems_stiction {
@@ -113,7 +112,7 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution,
   prediction.flattening_energy = solution.flattening_energy;
   prediction.pull_off_exponents = solution.pull_off_exponents;
   prediction.work_exponents = solution.work_exponents;
-  const double gained = work_of_adhesion + settings.capillary.law().energy(0.0);
+  const double gained = settings.gainedWork();
   prediction.flattening_ratio = gained > 0.0 ? solution.flattening_energy / gained : kUnknown;
   prediction.is_conforming = solution.is_conforming;
   prediction.is_bonded_by_load = solution.is_bonded_by_load;

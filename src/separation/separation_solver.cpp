@@ -58,9 +58,9 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   doubtFlow(solution);
   if (solution.model.doubt == nullptr && settings.guidance != Guidance::kGuided && tilt_.isTipped())
     solution.model.doubt = "the loads tip the plate further than the relief is high";
-  solution.model = CurveStatement::of(
-      solution, settings.interface.work_of_adhesion + settings.capillary.law().energy(0.0),
-      areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
+  solution.model =
+      CurveStatement::of(solution, settings.gainedWork(),
+                         areThin(at_rest, WaveStiffness(settings.lower, settings.upper)));
 }
 
 const GapField& SeparationSolver::comeToRest(const ContactProblem& problem,
@@ -88,7 +88,7 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
   const WaterLaw water = problem.settings.capillary.law();
-  const double gained = law.workOfAdhesion() + water.energy(0.0);
+  const double gained = problem.settings.gainedWork();
   if (!(solution.flattening_energy / gained < chosen::kConformingRatio)) return std::nullopt;
   const FieldLaw lasting_field =
       fieldLaw(problem.settings.load.contact_potential, problem.settings.interface);

@@ -11,17 +11,17 @@ namespace mems_stiction {
 
 namespace {
 
-/// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow.
-/// Where an end of a range is not stated, they are its end.
+/// A size that no length, force, stress or ratio has: beyond it powers and products overflow.
+/// Where an end of a range is not stated, it and Range::kSmallest are its end.
 constexpr double kLargest = 1e30;
-constexpr double kSmallest = 1e-30;
 
 /// What to say beside a range of a value that only its size excludes.
 std::string sizeText(double value) {
   const double size = std::abs(value);
   const bool is_sane =
-      value == 0.0 || !std::isfinite(value) || (size >= kSmallest && size <= kLargest);
-  return is_sane ? "" : ", " + numberText(kSmallest) + " to " + numberText(kLargest) + " in size";
+      value == 0.0 || !std::isfinite(value) || (size >= Range::kSmallest && size <= kLargest);
+  return is_sane ? ""
+                 : ", " + numberText(Range::kSmallest) + " to " + numberText(kLargest) + " in size";
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ bool Range::contains(double value) const {
   if (!nan_means_none) {
     if (!std::isfinite(lower) && value < -kLargest) return false;
     if (!std::isfinite(upper) && value > kLargest) return false;
-    if (lower == 0.0 && value > 0.0 && value < kSmallest) return false;
+    if (lower == 0.0 && value > 0.0 && value < Range::kSmallest) return false;
   }
   const bool above = lower_open ? value > lower : value >= lower;
   const bool below = upper_open ? value < upper : value <= upper;

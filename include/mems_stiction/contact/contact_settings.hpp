@@ -85,6 +85,9 @@ struct ContactSettings {
   Guidance guidance = Guidance::kGuided;
   SolverSettings solver;
   OutputOptions output;
+
+  /// Gamma and the energy of condensed water, which flat surfaces gain in full contact [J/m^2].
+  double gainedWork() const;
 };
 
 }  // namespace mems_stiction

@@ -71,10 +71,9 @@ struct LoadOptions {
     mechanical_load = newtons;
     pressure = device_force = 0.0;
   }
-  /// A share of a stated load; what is smaller than any that may be stated is none.
+  /// A share of a stated load; one below every load that may be stated is none.
   void setShareOfLoad(double newtons) {
-    constexpr double kLeastLoad = 1e-30;
-    setMechanicalLoad(newtons < kLeastLoad ? 0.0 : newtons);
+    setMechanicalLoad(newtons < Range::kSmallest ? 0.0 : newtons);
   }
 };
 

@@ -25,6 +25,9 @@ namespace mems_stiction {
 /// The closed or half-open interval that a number must lie in. Infinities never do; NaN only where
 /// it means "none".
 struct Range {
+  /// Smaller positive numbers are no length, force, stress or ratio: their products may vanish.
+  static constexpr double kSmallest = 1e-30;
+
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool lower_open = false;
