@@ -59,6 +59,11 @@ class Surface(NamedTuple):
         return None if array is None else self.back(array)
 
 
+def name_of(path: Union[str, "os.PathLike[str]"]) -> str:
+    """A path as text, with what of it is no UTF-8 written out."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
+
+
 def surface_of(
     heights: Any, pitch: Optional[Pitch], settings: Settings, what: str = "heights"
 ) -> Surface:
@@ -72,9 +77,9 @@ def surface_of(
     if isinstance(heights, (str, os.PathLike)):
         x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
         core, channel, notes, identity = _core.read(
-            os.fspath(heights), settings._configuration, x, y, "", False
+            os.fsencode(heights), settings._configuration, x, y, "", False
         )
-        return Surface(core, os.fspath(heights), False, channel, tuple(notes), identity)
+        return Surface(core, name_of(heights), False, channel, tuple(notes), identity)
     own = getattr(heights, "_surface", None)
     if isinstance(own, Surface):
         if pitch is not None:

@@ -9,7 +9,16 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, pitch_of, pixels_of
+from mems_stiction._arrays import (
+    Pitch,
+    ReadOnly,
+    Surface,
+    array_of,
+    explained,
+    name_of,
+    pitch_of,
+    pixels_of,
+)
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction._types import Heights
@@ -166,14 +175,14 @@ def read(
     """
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
     core, chosen, notes, identity = _core.read(
-        os.fspath(path),
+        os.fsencode(path),
         Settings(config, **settings)._configuration,
         x,
         y,
         str(channel),
         ignore_mask,
     )
-    surface = Surface(core, os.fspath(path), False, chosen, tuple(notes), identity)
+    surface = Surface(core, name_of(path), False, chosen, tuple(notes), identity)
     warn_about(surface, odd_in(surface))
     return Scan(surface, chosen)
 
@@ -183,7 +192,7 @@ def channels(
 ) -> List[Dict[str, Any]]:
     """Every channel of a file, heights or not: name, shape, pitch, unit_xy, unit_z, is_chosen (by
     read())."""
-    return _core.channels(os.fspath(path), Settings(config, **settings)._configuration)
+    return _core.channels(os.fsencode(path), Settings(config, **settings)._configuration)
 
 
 def clean(

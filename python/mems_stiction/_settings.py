@@ -69,7 +69,7 @@ def _configuration_of(config: Optional[Config], settings: Dict[str, Any]) -> _co
     if isinstance(config, Mapping):
         return _core.Configuration().changed(_plain(config), over)
     if isinstance(config, (str, os.PathLike)):
-        return _core.Configuration().loaded(os.fspath(config), over)
+        return _core.Configuration().loaded(os.fsencode(config), over)
     raise OptionsError(
         "config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings"
         % (config,)

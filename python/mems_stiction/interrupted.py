@@ -19,6 +19,9 @@ that a shell gives one that SIGPIPE ends. That signal itself would also end it f
 Where the output cannot be written for another reason (a full disk), one line says so. Python keeps
 what is printed in a buffer, and drops what its own flush at the end of a script raises: here that
 is remembered.
+
+Names of files and texts in them may contain control characters, which would move a terminal's
+cursor: there they are written out.
 """
 
 import atexit
@@ -31,6 +34,8 @@ import shutil
 import signal
 import sys
 import tempfile
+
+from mems_stiction.terminal import visible
 
 AGAIN_AFTER = 0.02  # [s]
 STATUS = 130  # after TERM and HUP
@@ -128,6 +133,23 @@ class _Printed(io.FileIO):
             raise CannotPrint(error.errno, error.strerror) from None
 
 
+class _Terminal(io.TextIOWrapper):
+    def write(self, text):
+        return super().write(visible(text))
+
+
+def _onto(raw, before):
+    """A stream of text in place of another one."""
+    kind = _Terminal if before.isatty() else io.TextIOWrapper
+    return kind(
+        raw if before.write_through else io.BufferedWriter(raw),
+        before.encoding,
+        "backslashreplace" if before.errors == "strict" else before.errors,
+        line_buffering=before.line_buffering,
+        write_through=before.write_through,
+    )
+
+
 def _print_the_rest():
     """At the end of a program."""
     if _has_come:
@@ -165,15 +187,7 @@ def _end_with_the_reader():
     if not isinstance(before, io.TextIOWrapper) or before is not sys.__stdout__:
         return
     before.flush()
-    raw = _Printed(before.fileno(), "wb", closefd=False)
-    sys.stdout = io.TextIOWrapper(
-        raw if before.write_through else io.BufferedWriter(raw),
-        before.encoding,
-        before.errors,
-        line_buffering=before.line_buffering,
-        write_through=before.write_through,
-    )
-    _output = sys.stdout
+    sys.stdout = _output = _onto(_Printed(before.fileno(), "wb", closefd=False), before)
 
 
 class Closed:
@@ -211,6 +225,8 @@ def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
     _hold_standard_streams()
     _end_with_the_reader()
+    if isinstance(sys.stderr, io.TextIOWrapper) and sys.stderr is sys.__stderr__:
+        sys.stderr = _onto(io.FileIO(sys.stderr.fileno(), "wb", closefd=False), sys.stderr)
     for number in (signal.SIGINT,) + OTHERS:
         if signal.getsignal(number) in (signal.SIG_DFL, _end_now):
             signal.signal(number, _raise)

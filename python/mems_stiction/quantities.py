@@ -4,6 +4,8 @@ import math
 import re
 from statistics import NormalDist
 
+from mems_stiction.terminal import visible
+
 BEYOND_PREFIXES = 1e15  # from there on, and below the smallest prefix: an exponent
 LONGEST_DRAWN = 400  # letters of a line of a picture
 NORMAL_95 = NormalDist().inv_cdf(0.975)  # standard deviations to either side that contain 95 %
@@ -109,8 +111,9 @@ def shortened(text, most):
 
 def literal(text):
     """A text that came from outside, as it stands, for a picture of matplotlib, which takes what is
-    between two dollar signs for a formula, and cannot draw some thousand letters in a line."""
-    return shortened(text, LONGEST_DRAWN).replace("$", r"\$")
+    between two dollar signs for a formula, has no glyph of a control character, and cannot draw
+    some thousand letters in a line."""
+    return visible(shortened(text, LONGEST_DRAWN)).replace("$", r"\$")
 
 
 _UNITS = r"(?:[afpnuµmkMG]?(?:m|N|V|J|Pa|s|Hz|K)(?:\^?[2²3³])?(?:/(?:m|s)(?:\^?[2²3³])?)?|%)"

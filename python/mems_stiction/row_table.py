@@ -164,7 +164,7 @@ def _check_levels(lines):
 
 def converted(path, units, kinds, is_text):
     """The rows of a CSV or of JSON lines as a table of pyarrow. A figure has the same type in every
-    file, known or not.
+    file, known or not. pyarrow gets open files, since its own names of them are UTF-8.
 
     kinds: {name: "float", "int", "bool" or "str"} of what is declared; what else has a unit is a
     number. is_text: whether another column is a text, whatever it looks like (a part 0012, a hash
@@ -195,14 +195,16 @@ def converted(path, units, kinds, is_text):
         options = pyarrow.csv.ConvertOptions(
             column_types=declared, strings_can_be_null=True, null_values=[""]
         )
-        table = pyarrow.csv.read_csv(
-            str(path),
-            parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True),
-            convert_options=options,
-        )
+        with open(str(path), "rb") as stream:
+            table = pyarrow.csv.read_csv(
+                stream,
+                parse_options=pyarrow.csv.ParseOptions(newlines_in_values=True),
+                convert_options=options,
+            )
     else:
         options = pyarrow.json.ParseOptions(explicit_schema=pyarrow.schema(list(declared.items())))
-        table = pyarrow.json.read_json(str(path), parse_options=options)
+        with open(str(path), "rb") as stream:
+            table = pyarrow.json.read_json(stream, parse_options=options)
     columns = []
     for name, column in zip(table.column_names, table.columns):
         if pyarrow.types.is_null(column.type):

@@ -1,9 +1,17 @@
 """What programs say beside their answer, on the standard error: how far they are, and what looks
-wrong."""
+wrong; and texts as a terminal may have them."""
 
 import contextlib
+import re
 import sys
 import warnings
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # all but tab and line ends
+
+
+def visible(text):
+    r"""The text with its control characters written out: "\x1b[31m"."""
+    return _CONTROL.sub(lambda found: "\\x%02x" % ord(found[0]), text)
 
 
 def progress_of(program):

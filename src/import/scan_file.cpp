@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "errors/one_line.hpp"
 #include "files/input_file.hpp"
 #include "height_map/unmeasured.hpp"
 #include "height_map/validity.hpp"
@@ -265,7 +266,7 @@ ImportOptions withTextOptions(const std::string& path, const ScanOptions& given,
 /// What the file says of itself, and before it what its sidecar says.
 ScanIdentity identityOf(const std::string& path, const FileChannel& channel) {
   ScanIdentity stated = channel.identity;
-  stated.scan_name = fs::path(path).stem().string();
+  stated.scan_name = oneLine(fs::path(path).stem().string());
   return withSidecar(path, {}, stated).identity;
 }
 

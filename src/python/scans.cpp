@@ -47,22 +47,24 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
 }
 
 std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(
-    const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
+    const py::bytes& path, const Configuration& configuration, double pitch_x, double pitch_y,
     const std::string& channel, bool ignore_mask) {
   ScanFile file;
   const ScanFileOptions options = fileOptions(pitch_x, pitch_y, channel, ignore_mask);
+  const std::string name = path;
   {
     const WithoutLock unlocked;
-    file = openScanFile(path, configuration.scan, options);
+    file = openScanFile(name, configuration.scan, options);
   }
   return {file.surface, file.channel, file.notes, file.identity};
 }
 
-py::list channelsOf(const std::string& path, const Configuration& configuration) {
+py::list channelsOf(const py::bytes& path, const Configuration& configuration) {
   std::vector<ScanChannel> channels;
+  const std::string name = path;
   {
     const WithoutLock unlocked;
-    channels = listScanChannels(path, configuration.scan);
+    channels = listScanChannels(name, configuration.scan);
   }
   py::list list;
   for (const ScanChannel& channel : channels) {

@@ -55,6 +55,14 @@ YAML::Node nodeOf(const py::handle& value) {
   return YAML::Node(std::string(py::str(value)));
 }
 
+/// Raises an error whose text may name a file, whose name may be no UTF-8.
+void raise(PyObject* kind, const std::string& text) {
+  const auto size = static_cast<Py_ssize_t>(text.size());
+  const py::object message = py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), size, "backslashreplace"));
+  if (message) PyErr_SetObject(kind, message.ptr());
+}
+
 }  // namespace
 
 void bindErrors(py::module& module) {
@@ -77,16 +85,16 @@ void bindErrors(py::module& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const OptionsError& caught) {
-      PyErr_SetString(options_error, caught.what());
+      raise(options_error, caught.what());
     } catch (const SurfaceError& caught) {
-      PyErr_SetString(surface_error, caught.what());
+      raise(surface_error, caught.what());
     } catch (const FileError& caught) {
-      PyErr_SetString(file_error, caught.what());
+      raise(file_error, caught.what());
     } catch (const Error& caught) {
-      PyErr_SetString(error, caught.what());
+      raise(error, caught.what());
     } catch (const cv::Exception& caught) {
       if (caught.code != cv::Error::StsNoMem) throw;
-      PyErr_SetString(PyExc_MemoryError, caught.err.c_str());
+      raise(PyExc_MemoryError, caught.err);
     }
   });
 }
@@ -119,7 +127,7 @@ void bindSettings(py::module& module) {
           "tree"_a, "over"_a)
       .def(
           "loaded",
-          [](const Configuration& configuration, const std::string& path, const py::dict& over) {
+          [](const Configuration& configuration, const py::bytes& path, const py::dict& over) {
             return loadConfiguration(path, nodeOf(over), configuration);
           },
           "path"_a, "over"_a)

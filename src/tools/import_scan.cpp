@@ -15,6 +15,7 @@
 
 #include "busy_line.hpp"
 #include "command_line.hpp"
+#include "errors/one_line.hpp"
 #include "errors/plain_format.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "height_map/validity.hpp"
@@ -147,7 +148,8 @@ class Importer {
     }
     const std::string of_channel = scan.channel.empty() ? "" : ", channel " + scan.channel;
     ScanIdentity identity = scan.identity;
-    if (identity.scan_name == target.stem()) identity.scan_name.clear();  // the target's, too
+    const std::string target_name = oneLine(target.stem().string());
+    if (identity.scan_name == target_name) identity.scan_name.clear();  // the target's, too
     writeScan(target.string(), scan.surface,
               fs::path(path).filename().string() + of_channel + ", " + scan.identity.checksum,
               identity);

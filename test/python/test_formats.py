@@ -61,6 +61,7 @@ def run(name, *arguments):
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
         universal_newlines=True,
+        errors="backslashreplace",
         timeout=120,
     )
 
@@ -164,6 +165,22 @@ class ParquetTest(InFolder):
             self.assertEqual(
                 tables["jsonl"].schema.field(name).type, tables["csv"].schema.field(name).type, name
             )
+
+    def test_the_name_of_a_table_may_be_no_utf_8(self):
+        for ending in ("csv", "jsonl"):
+            expected = self.rows_of_batch(ending)
+            rows = self.folder / ("rows." + ending)
+            for path in (rows, rows.with_name(rows.name + ".settings.yaml")):
+                path.rename(str(path).replace("rows.", "rows\udcff."))
+            self.done(
+                "rows_to_parquet",
+                "-o",
+                self.folder / "odd\udcff.parquet",
+                self.folder / ("rows\udcff." + ending),
+            )
+            (self.folder / "odd\udcff.parquet").rename(self.folder / "even.parquet")
+            even = self.table("even.parquet")  # as text, in which NaN equals itself
+            self.assertEqual(str(even.to_pydict()), str(expected.to_pydict()))
 
     def test_a_text_that_looks_like_a_number_or_a_formula_stays_what_it_is(self):
         (self.folder / "rows.csv").write_text(

@@ -1,9 +1,11 @@
 """Ctrl-C in the middle of each program: no traceback, the status of a signal, no file that only
 looks whole, what was there before stays."""
 
+import contextlib
 import importlib.util
 import os
 import pathlib
+import pty
 import signal
 import subprocess
 import sys
@@ -151,6 +153,20 @@ class InterruptedTest(unittest.TestCase):
                         errors,
                         name + ": what is printed cannot be written: No space left on device\n",
                     )
+
+    def test_control_characters_of_a_name_do_not_reach_a_terminal(self):
+        ours, theirs = pty.openpty()
+        name = "none\x1b[2J\x9b.csv"
+        command = [program("plot_curve"), name]
+        subprocess.run(command, stdout=theirs, stderr=theirs, timeout=120)
+        os.close(theirs)
+        said = b""
+        with os.fdopen(ours, "rb", buffering=0) as stream, contextlib.suppress(OSError):
+            while True:  # a terminal that nobody holds any more ends with an error
+                said += stream.read(4096)
+        self.assertRegex(said.decode(), r"plot_curve: none\\x1b\[2J\\x9b.csv: [^\x1b\x9b]*$")
+        errors = subprocess.run(command, stderr=subprocess.PIPE, timeout=120).stderr
+        self.assertIn(name.encode(), errors)  # a file takes the name as it is
 
     def lines_of(self, name):
         """Of a file that may not be there yet."""

@@ -113,6 +113,28 @@ class SlipTest(unittest.TestCase):
             ):
                 mems_stiction.Settings(folder / "empty.yaml")
 
+    def test_names_that_are_no_utf_8(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            scan = folder / "a\udcff\x1b.npy"
+            np.save(str(scan), rough(32, 32))
+            shown = str(folder) + "/a\\xff\x1b.npy"
+            (folder / "c\udcff.yaml").write_text("device: {contact_area: 1.0e-12}\n")
+            settings = mems_stiction.Settings(folder / "c\udcff.yaml")
+            self.assertEqual(len(mems_stiction.channels(scan)), 1)
+            self.assertIn(shown, str(mems_stiction.read(scan, PITCH)))
+            prediction = mems_stiction.predict(scan, PITCH, settings, half_space=True)
+            self.assertEqual(prediction.scan_name, "a\\xff\\x1b")
+            self.assertEqual(json.loads(prediction.json())["file"], shown)
+            prediction.save_picture(folder / "picture.png")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of the surface
+                device = mems_stiction.predict_device([scan], PITCH, settings)
+            self.assertIn("a\\xff", json.dumps(json.loads(device.json())))
+            for call in (mems_stiction.read, mems_stiction.channels, mems_stiction.Settings):
+                with self.assertRaisesRegex(mems_stiction.FileError, r"none\\xff: "):
+                    call(folder / "none\udcff")
+
     def test_settings_that_contain_themselves(self):
         loop = {}
         loop["lower"] = loop
