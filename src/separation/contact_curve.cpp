@@ -74,16 +74,10 @@ double rmsSlope(const GapField& field) {
 /// it. Or where the surfaces may have come to another rest, or what is out in the load of the
 /// contacts decides how near to it they part.
 /// - @p exponent of the force with all that attracts: 1 where nothing is subtracted
-/// - @p is_drawn_past as isDrawnPastARest()
-const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest,
-                    bool is_drawn_past) {
+const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
   if (force_from_next_rest > chosen::kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a "
            "larger force";
-  }
-  if (is_drawn_past) {
-    return "water hardly draws the surfaces past a farther rest, from which they part with a "
-           "smaller force";
   }
   const SeparationState& strongest = curve.states[curve.strongest];
   if (!(strongest.adhesion > 0.0)) return nullptr;
@@ -277,8 +271,7 @@ void ContactCurve::part(double force_from_next_rest) {
   const double by_attraction =  // a lasting field pulls as adhesion does
       exponents.pull_off.adhesion + 0.5 * exponents.pull_off.contact_potential;
   const LoadOptions& load = frame_.load();
-  by_contacts_.doubt = doubtOf(curve, by_attraction, force_from_next_rest,
-                               isDrawnPastARest(loading_, load.mechanical_load));
+  by_contacts_.doubt = doubtOf(curve, by_attraction, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   const bool has_voltage = load.voltage != 0.0;

@@ -64,6 +64,8 @@ class FrameSums {
   double lastingFieldEnergy(double approach);
   /// That presses the surfaces together, and whose field acts between them.
   const LoadOptions& load() const { return settings_->load; }
+  /// That fills narrow gaps.
+  const WaterLaw& water() const { return water_; }
   /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger
   /// one widens the law's range, which pulls more over wide gaps and less near contacts.
   double hamakerExponentOfForce(double approach, double hold);

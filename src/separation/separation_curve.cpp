@@ -10,6 +10,8 @@
 namespace mems_stiction {
 namespace {
 
+/// A search for the maximum that has not ended then takes the strongest state.
+constexpr int kMostSearches = 8;
 /// JKR's displacement at the pull-off over mu z0, 0.77 [-].
 const double kHoldPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
 
@@ -40,9 +42,9 @@ void spreadEdges(std::vector<SeparationState>& states) {
   }
 }
 
-/// The vertex of the parabola through three points of the curve, if it lies between them; else the
-/// middle one.
-void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
+/// The strongest state, and the vertex of the parabola through it and the states beside it, if it
+/// lies between them.
+void takeVertex(const std::vector<SeparationState>& states, SeparationCurve& curve) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
     if (states[i].partingForce() > states[best].partingForce()) best = i;
@@ -108,13 +110,6 @@ void takeWork(const FrameSums& frame, const EnergiesApart& apart, SeparationCurv
   curve.work -= std::max(0.0, adhesion - mostAdhesion(frame));
 }
 
-/// What a curve says once all of its states are there.
-void takeFigures(const FrameSums& frame, const EnergiesApart& apart, SeparationCurve& curve) {
-  spreadEdges(curve.states);
-  takeMaximum(curve.states, curve);
-  takeWork(frame, apart, curve);
-}
-
 /// The parts of a force or a work.
 struct Parts {
   double adhesion = 0.0;
@@ -133,26 +128,51 @@ Exponents exponentsOf(double figure, const Parts& parts, double hamaker_exponent
 }
 
 /// Steps before first touch. What is left of the work where they begin is that of bodies which do
-/// not bend: bending takes a quarter at most of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces
-/// have left there.
-int stepsApart() {
-  static const int steps = static_cast<int>(
-      std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + chosen::kStep))));
-  return steps;
+/// not bend, of adhesion and field alone: water reaches no further. Bending takes a quarter at most
+/// of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces have left there.
+int stepsApart(const FrameSums& frame) {
+  const double left = 0.5 * std::log(1.0 / (3.0 * chosen::kAccuracy));
+  const double reached = std::log(1.0 + frame.water().gapLimit() / frame.law().range());
+  return static_cast<int>(std::ceil(std::max(left, reached) / std::log(1.0 + chosen::kStep)));
 }
 
-/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share
-/// each time.
-double approachAfter(int steps, double range) {
-  if (steps < 0) return range * (1.0 - std::pow(1.0 + chosen::kStep, -steps));
-  return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
+/// Approach some steps before first touch [m]. |D| + z0 grows by the same share each time.
+double approachBefore(int steps, double range) {
+  return range * (1.0 - std::pow(1.0 + chosen::kStep, steps));
 }
 
-/// The approach of a step of the loading branch, which ends at the contact limit.
-double loadingAfter(FrameSums& frame, int step) {
-  const double approach = approachAfter(step, frame.law().range());
-  return approach < frame.approachBeforeLimit() ? approach
-                                                : std::min(approach, frame.limitApproach());
+/// Whether most of the cells with gaps between two ones lie nearly at one height.
+/// - @p window of gaps that counts as one [m]
+bool areOfOneHeight(const FrameSums& frame, double from, double to, double window) {
+  double before = frame.cellsBelow(from);
+  double middle = frame.cellsBelow(from + 0.5 * window);
+  const double most = chosen::kAtOnce * (frame.cellsBelow(to) - before);
+  for (double end = from + window; end < to + window; end += 0.5 * window) {
+    const double below = frame.cellsBelow(end);
+    if (below - before > most) return true;
+    before = middle;
+    middle = below;
+  }
+  return false;
+}
+
+/// The approach of the next state, whose D + z0 is larger by a share; nearer where many cells come
+/// in reach at once, since their attraction rises and falls within z0.
+/// - @p first_touch of the surfaces [m]
+/// - @p hold by which the attraction may be that of nearer surfaces [m]
+double approachAfter(const FrameSums& frame, double approach, double first_touch, double hold) {
+  const double range = frame.law().range();
+  const double step = chosen::kStep * (range + approach - first_touch);
+  const double fine = chosen::kFineStep * range;
+  const bool is_fine = step > 2.0 * fine &&
+                       areOfOneHeight(frame, approach, approach + step + range + hold, 0.5 * range);
+  return approach + (is_fine ? fine : step);
+}
+
+/// The next approach of the loading branch, which ends at the contact limit.
+double loadingAfter(FrameSums& frame, double approach) {
+  const double next = approachAfter(frame, approach, 0.0, 0.0);
+  return next < frame.approachBeforeLimit() ? next : std::min(next, frame.limitApproach());
 }
 
 /// Where the force of the last two states comes down to -load if it goes on as it does: it falls
@@ -225,6 +245,36 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   return state;
 }
 
+namespace {
+
+/// The largest force. A parabola whose vertex rises far above the strongest state passes over a
+/// bend of the curve: the state at its vertex takes part, until none does.
+void takeMaximum(FrameSums& frame, SeparationCurve& curve) {
+  std::vector<SeparationState>& states = curve.states;
+  for (int search = 0;; ++search) {
+    takeVertex(states, curve);
+    const double most = (1.0 + chosen::kVertexRise) * states[curve.strongest].partingForce();
+    if (!(curve.pull_off_force > most)) return;
+    if (search == kMostSearches) break;
+    const auto place = std::find_if(
+        states.begin(), states.end(),
+        [&](const SeparationState& state) { return state.approach >= curve.pull_off_approach; });
+    if (place->approach == curve.pull_off_approach) break;
+    states.insert(place, stateAt(frame, curve.pull_off_approach, curve.way));
+  }
+  curve.pull_off_force = states[curve.strongest].partingForce();
+  curve.pull_off_approach = states[curve.strongest].approach;
+}
+
+/// What a curve says once all of its states are there.
+void takeFigures(FrameSums& frame, const EnergiesApart& apart, SeparationCurve& curve) {
+  spreadEdges(curve.states);
+  takeMaximum(frame, curve);
+  takeWork(frame, apart, curve);
+}
+
+}  // namespace
+
 std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() const {
   return std::find_if(states.begin(), states.end(),
                       [](const auto& state) { return state.givenForce() < 0.0; });
@@ -235,16 +285,17 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   const double load = settings.load.mechanical_load;
   curve.way = {};
   curve.states.clear();
-  for (int step = -stepsApart(); step < 0; ++step) {
-    curve.states.push_back(stateAt(frame, approachAfter(step, range), curve.way));
+  for (int steps = stepsApart(frame); steps > 0; --steps) {
+    curve.states.push_back(stateAt(frame, approachBefore(steps, range), curve.way));
   }
   const EnergiesApart apart = energiesApart(frame, curve);
   curve.status = Status::kNoEquilibrium;
+  double approach = 0.0;
   for (int step = 0; step < settings.approach.max_steps; ++step) {
-    const double approach = loadingAfter(frame, step);
     const double expected_rest = expectedRest(curve.states, load);
     // the force falls ever more steeply: rest may come a step before
-    if (expected_rest > 0.0 && expected_rest < loadingAfter(frame, step + 1)) frame.mark();
+    const double next = loadingAfter(frame, approach);
+    if (expected_rest > 0.0 && expected_rest < next) frame.mark();
     curve.states.push_back(stateAt(frame, approach, curve.way, expected_rest));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
@@ -255,6 +306,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
       curve.status = Status::kBonded;
       break;
     }
+    approach = next;
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
   takeFigures(frame, apart, curve);
@@ -280,9 +332,10 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
   double before = loading.beyond_rest.approach;
-  for (int step = static_cast<int>(loading.states.size()) - stepsApart();
+  const int steps_apart = stepsApart(frame);
+  for (int step = static_cast<int>(loading.states.size()) - steps_apart;
        step < settings.approach.max_steps; ++step) {
-    const double approach = loadingAfter(frame, step);
+    const double approach = loadingAfter(frame, before);
     if (!(approach > before)) break;
     const SeparationState state = stateAt(frame, approach, loading.way);
     is_past = is_past || excess(state) > 0.0;
@@ -293,14 +346,13 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
   return largest;
 }
 
-bool isDrawnPastARest(const SeparationCurve& loading, double load) {
+bool isDrawnPastARest(const SeparationCurve& loading, double load, double force) {
   double before = 0.0;
   return std::any_of(loading.states.begin(), loading.states.end(),
                      [&](const SeparationState& state) {
                        before = std::max(before, state.partingForce());
-                       return state.capillary > 0.0 &&
-                              state.force() + load < chosen::kHardlyPast * state.carried &&
-                              loading.pull_off_force > chosen::kDoubtedFactor * before;
+                       return state.force() + load < chosen::kHardlyPast * state.carried &&
+                              force > chosen::kDoubtedFactor * before;
                      });
 }
 
@@ -321,11 +373,16 @@ void followUnloading(FrameSums& frame, double first_touch, const Way& way, Separ
   const double range = frame.law().range();
   curve.way = way;
   curve.states.clear();
-  int step = -stepsApart();
-  do {
-    const double approach = first_touch + approachAfter(step++, range);
+  for (int steps = stepsApart(frame); steps > 0; --steps) {
+    const double approach = first_touch + approachBefore(steps, range);
     curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
-  } while (curve.states.back().approach < way.rest);
+    if (approach >= way.rest) break;
+  }
+  double approach = first_touch;
+  while (curve.states.back().approach < way.rest) {
+    curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
+    approach = approachAfter(frame, approach, first_touch, way.longest_hold);
+  }
   const EnergiesApart apart = energiesApart(frame, curve);
   takeFigures(frame, apart, curve);
 }

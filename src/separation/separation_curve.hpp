@@ -100,10 +100,11 @@ SeparationState restIfElastic(const GapField& field, const ContactSettings& sett
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
                          const SeparationCurve& loading);
 
-/// Whether water draws the surfaces past a place at which a little more carried by the contacts
-/// would have let them rest, and they part with a larger force for it.
+/// Whether the surfaces are drawn past a place at which a little more carried by the contacts would
+/// have let them rest, and part with a larger force for it.
 /// - @p load that presses them [N]
-bool isDrawnPastARest(const SeparationCurve& loading, double load);
+/// - @p force with which they part [N]
+bool isDrawnPastARest(const SeparationCurve& loading, double load, double force);
 
 /// Whether the pull-off force would be larger by more than the error with which the curve knows
 /// what the contacts carry if they carried less by that error: on the unloading branch, up to the

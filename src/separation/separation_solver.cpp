@@ -54,6 +54,12 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   takeDecision(bonded.has_value(), solution);
   takeUnloading(bonded ? *bonded : curve_.byContacts(), solution);
   listPullOffContacts(standing, solution);
+  if (solution.model.doubt == nullptr &&
+      isDrawnPastARest(curve_.loading(), settings.load.mechanical_load, solution.pull_off_force)) {
+    solution.model.doubt =
+        "the surfaces are hardly drawn past a farther rest, from which they part with a smaller "
+        "force";
+  }
   doubtPlaces(at_rest, solution);
   doubtFlow(solution);
   if (solution.model.doubt == nullptr && settings.guidance != Guidance::kGuided && tilt_.isTipped())

@@ -241,5 +241,24 @@ TEST(WaterFilm, flatPlatesAreHeldUpToTheKelvinGapAndBothFilms) {
   }
 }
 
+TEST(Water, givesItsWholeEnergyHoweverFarItReaches) {
+  const HeightMap surface = samples::gaussian(96, 96, 2e-9, 2e-9, 1.5e-9, 24e-9, 7);
+  double highest = 0.0;
+  cv::minMaxLoc(surface.heights(), nullptr, &highest);
+  for (const double humidity : {0.8, 0.95, 0.99, 0.999}) {
+    Options options = elastic(1e13);  // which hardly bends: each cell parts from its own gap
+    options.capillary.relative_humidity = humidity;
+    const WaterLaw water = options.capillary.law();
+    const ContactTraction dry(options.interface);
+    double expected = 0.0;
+    for (const double height : cv::Mat1d(surface.heights())) {
+      expected += dry.energy(highest - height) + water.energy(highest - height);
+    }
+    expected /= static_cast<double>(surface.heights().total());
+    const double work = AdhesionModel(options).predict(surface).apparent_work_of_adhesion;
+    EXPECT_NEAR(work / expected, 1.0, 0.05) << humidity;
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -9,6 +9,7 @@
 
 #include "numeric/constants.hpp"
 #include "separation/chosen_constants.hpp"
+#include "separation/contact_traction.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
 #include "surface/gaussian_surface.hpp"
@@ -135,6 +136,37 @@ HeightMap punch(double radius, int pixels, double pitch) {
   return {heights, pitch, pitch};
 }
 
+/// A bump on a flat film, Gaussian.
+HeightMap bumpOnFilm(double height, double width, int side, double pitch) {
+  cv::Mat1d heights(side, side);
+  for (int row = 0; row < side; ++row) {
+    for (int col = 0; col < side; ++col) {
+      const double r = pitch * std::hypot(row - side / 2, col - side / 2);
+      heights(row, col) = height * std::exp(-r * r / (width * width));
+    }
+  }
+  return {heights, pitch, pitch};
+}
+
+TEST(FlatFilm, holdsNoMoreThanItsAreaBesideABumpOfAnyHeight) {
+  constexpr int kSide = 96;
+  constexpr double kPitch = 2e-9;
+  const double area = kSide * kPitch * kSide * kPitch;
+  const Options options = elastic(1.2e11, 80e6 * area);
+  const double strength = ContactTraction(options.interface).strength();
+  const auto forceOf = [&](double height) {
+    return AdhesionModel(options).predict(bumpOnFilm(height, 16e-9, kSide, kPitch)).pull_off_force;
+  };
+  double before = forceOf(1.7e-9);
+  // z0 is 0.2 nm: the film comes and goes within less than a step of the bump's displacement
+  for (double height = 1.73e-9; height < 2.0e-9; height += 0.03e-9) {
+    const double force = forceOf(height);
+    EXPECT_LT(force, strength * area) << height;
+    EXPECT_NEAR(force / before, 1.0, 0.1) << height;
+    before = force;
+  }
+}
+
 class FlatPunch : public testing::TestWithParam<double> {};
 
 TEST_P(FlatPunch, letsGoFromItsEdge) {
@@ -205,6 +237,17 @@ TEST(Decision, aTallSummitKeepsSurfacesApartThatWouldHoldIfTheyMet) {
   EXPECT_FALSE(prediction.is_conforming);
   const Ratios ratios = againstHalfSpace(surface, options);
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.15);
+}
+
+TEST(Decision, aFilmIsDoubtedThatIsHardlyDrawnPastTheRestOnItsBump) {
+  // the half-space rests on the bump, with 0.2 uN
+  const Prediction closed = AdhesionModel(Options()).predict(bumpOnFilm(1.0e-9, 24e-9, 112, 2e-9));
+  ASSERT_TRUE(closed.is_conforming);
+  ASSERT_NE(closed.model.doubt, nullptr);
+  EXPECT_NE(std::string(closed.model.doubt).find("farther rest"), std::string::npos);
+  const Prediction low = AdhesionModel(Options()).predict(bumpOnFilm(0.3e-9, 24e-9, 112, 2e-9));
+  EXPECT_TRUE(low.is_conforming);
+  EXPECT_EQ(low.model.doubt, nullptr) << low.model.doubt;
 }
 
 TEST(Decision, candidatesMeetWhereItFalls) {
