@@ -312,8 +312,7 @@ bool FlowingPlaces::press(const GapField& field, const ContactTraction& law, con
   if (block > 1) {
     by_cells_.start(field, 1);
     raise(by_cells_);
-    // the moves are small by now: what blocks say of them is near enough
-    stiffness = follow(by_blocks_, 1, stiffness);
+    stiffness = follow(by_cells_, chosen::kFlowSteps, stiffness);
   }
   return takeFlowed(field, displacement(stiffness));
 }

@@ -21,8 +21,8 @@
 /// carry at Ha, all flow until the surfaces are flat.
 ///
 /// Found by projected gradients whose steps follow Barzilai and Borwein (IMA J. Numer. Anal. 8
-/// (1988) 141, recalled), with C on blocks of cells, and by cells once before the last step:
-/// pressures that hardness bounds leave little to find, and a few steps suffice.
+/// (1988) 141, recalled), with C on blocks of cells, then by cells: pressures that hardness bounds
+/// leave little to find, and a few steps suffice.
 ///
 ///     FlowingPlaces places;
 ///     if (places.press(field, law, {contact_modulus, hardness, load, approach}))
