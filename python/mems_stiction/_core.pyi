@@ -44,9 +44,9 @@ class HalfSpaceFigures:
     mean_gap: float
     """[m] at rest, over the valid cells"""
     apparent_work_of_adhesion: float
-    """[J/m^2] from zero force to apart, per area of the frame"""
+    """[J/m^2] from zero force to apart, per area of the valid cells"""
     adhesion_hysteresis: float
-    """[J/m^2] what a whole cycle costs, by jumps and by flow, per area of the frame"""
+    """[J/m^2] what a whole cycle costs, by jumps and by flow, per area of the valid cells"""
     is_converged: bool
     """status is SOLVED: the path came to its end, and every state of it is an equilibrium, to half_space/tolerance where it counts"""
     is_resolved: bool

@@ -462,6 +462,16 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
       "the scans' surfaces conform and bond all over: force and work go with area");
 }
 
+/// The contacts that hold in any of the scans: the more scans, the surer is what another place has.
+std::vector<Asperity> contactsOfAll(const std::vector<Prediction>& predictions) {
+  std::vector<Asperity> contacts;
+  for (const Prediction& prediction : predictions) {
+    const std::vector<Asperity>& holding = prediction.holdingContacts();
+    contacts.insert(contacts.end(), holding.begin(), holding.end());
+  }
+  return contacts;
+}
+
 /// Medians and intervals of all realisations.
 /// - @p contacts that share the area
 void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, int contacts,
@@ -497,6 +507,7 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, i
   Prediction like = run.predictions.back();
   like.pull_off_exponents = run.solver->lastForceExponents();
   like.work_exponents = run.solver->lastWorkExponents();
+  like.pull_off_contacts = contactsOfAll(run.predictions);
   takeIntervals(like, run.level, constants, student, upper, force);
   force.made_surface = run.solver->madeSurface();
   for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);

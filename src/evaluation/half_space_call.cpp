@@ -47,6 +47,7 @@ std::string tooLong(std::int64_t pixels, const HalfSpaceOptions& options) {
 std::string objectionTo(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const HeightMap& frame = problem.surfaces.lower;
   if (options.path == HalfSpacePath::kRest) return kRestAlone;
+  if (problem.may_tilt) return kMayTilt;
   if (pixelsOf(frame) > options.max_flagged_pixels)
     return tooLarge(frame, options.max_flagged_pixels);
   try {

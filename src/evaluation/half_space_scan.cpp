@@ -24,6 +24,7 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
   problem.interface = options.interface;
   problem.capillary = options.capillary;
   problem.load = options.load;
+  problem.may_tilt = options.guidance != Guidance::kGuided;
   return problem;
 }
 

@@ -43,10 +43,11 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
   visit({"contact_fraction", "", "contact_area over the area of the valid cells"},
         solution.contact_fraction);
   visit({"mean_gap", "m", "at rest, over the valid cells"}, solution.mean_gap);
-  visit({"apparent_work_of_adhesion", "J/m^2", "from zero force to apart, per area of the frame"},
+  visit({"apparent_work_of_adhesion", "J/m^2",
+         "from zero force to apart, per area of the valid cells"},
         solution.work_of_adhesion);
   visit({"adhesion_hysteresis", "J/m^2",
-         "what a whole cycle costs, by jumps and by flow, per area of the frame"},
+         "what a whole cycle costs, by jumps and by flow, per area of the valid cells"},
         solution.hysteresis);
   visit({"is_converged", "",
          "status is SOLVED: the path came to its end, and every state of it is an equilibrium, to "

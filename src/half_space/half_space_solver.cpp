@@ -241,7 +241,7 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser,
   solution.contact_stiffness = path.stiffness();
   flowed = minimiser.flowed();
   if (status != PathStatus::kDone) return status;
-  takePath(path, minimiser.grid().frameArea(), solution);
+  takePath(path, minimiser.validArea(), solution);
   solution.pull_off_force_under_voltage = solution.pull_off_force;
   if (!has_voltage) return status;
   ForceCurve under_voltage;
@@ -348,6 +348,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem,
 
   SolvedHalfSpace solution;
   solution.range = law.range();
+  solution.may_tilt = problem.may_tilt;
   solution.cohesive_length = cohesiveLength(problem, law);
   solution.is_resolved = !law.attracts() || solution.cohesive_length >=
                                                 kPixelsPerCohesiveLength * largestPitch(problem);

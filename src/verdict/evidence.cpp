@@ -19,6 +19,7 @@ SolvedHalfSpace unsolvedHalfSpace(const std::string& reason) {
 std::string whyNotJudging(const SolvedHalfSpace& solution) {
   if (solution.status != HalfSpaceStatus::kSolved) return solution.message;
   if (solution.path == HalfSpacePath::kRest) return kRestAlone;
+  if (solution.may_tilt) return kMayTilt;
   if (!solution.is_resolved) return kPixelsTooLarge;
   if (!solution.is_step_converged)
     return "its steps are too large for the pull-off force: lower half_space/step";

@@ -99,7 +99,9 @@ double normalQuantile(double share) {
 AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
                          const UncertaintyOptions& uncertainty, const ModelError& error) {
   AdhesionSpread spread;
-  if (!prediction.listsContacts()) return spread;
+  const bool are_known = prediction.listsContacts() || (prediction.model.respond == nullptr &&
+                                                        !prediction.pull_off_contacts.empty());
+  if (!are_known) return spread;
   const std::unique_ptr<ContactResponse> response = responseOf(prediction, options);
   if (!response && !(prediction.pull_off_force > 0.0)) return spread;
   const bool is_local = uncertainty.scan_sampling && !prediction.is_conforming;

@@ -32,8 +32,8 @@ namespace mems_stiction {
 constexpr double kLowerShare = 0.025;
 constexpr double kUpperShare = 0.975;
 
-/// Samples in ascending order; empty when the prediction does not list its contacts
-/// (Prediction::listsContacts()).
+/// Samples in ascending order; empty when the prediction lists neither the contacts that hold nor,
+/// where its formulation responds by them, all of them (Prediction::listsContacts()).
 struct AdhesionSpread {
   std::vector<double> pull_off;  ///< pull-off force over the prediction's [-]
   std::vector<double>

@@ -57,7 +57,7 @@ struct SolvedHalfSpace {
   double pull_off_uncertainty = kNone;  ///< by which finer steps may exceed it [N]
   double pull_off_height = kNone;       ///< where the upper body is then, over first touch [m]
   double work_of_adhesion =
-      kNone;  ///< apparent: from zero force to apart, per area of the frame [J/m^2]
+      kNone;  ///< apparent: from zero force to apart, per area of the valid cells [J/m^2]
   double hysteresis =
       kNone;  ///< work of the retraction less that of the approach, per area [J/m^2]
   double rest_height = kNone;       ///< of the upper body at rest under the mechanical load [m]
@@ -74,6 +74,7 @@ struct SolvedHalfSpace {
   double cohesive_length = kNone;  ///< E z0^2/Gamma: over which contacts part [m]
   bool is_converged =
       false;  ///< kSolved: all of the path, each state to half_space/tolerance where it counts
+  bool may_tilt = false;           ///< HalfSpaceProblem::may_tilt: another plane would be its rest
   bool is_resolved = false;        ///< pixels are small enough for the cohesive length
   bool is_step_converged = false;  ///< finer steps change the pull-off force by less than 2 %
   double residual = kNone;         ///< the largest at rest and near the largest force [-]

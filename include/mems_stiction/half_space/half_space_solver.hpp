@@ -40,6 +40,7 @@ struct HalfSpaceProblem {
   InterfaceOptions interface;
   CapillaryOptions capillary;
   LoadOptions load;
+  bool may_tilt = false;  ///< the plate of its own; solved as it lies in the frame nevertheless
 };
 
 /// How a caller watches and stops a solution.

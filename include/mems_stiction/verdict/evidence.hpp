@@ -101,12 +101,17 @@ SolvedHalfSpace unsolvedHalfSpace(const std::string& reason);
 /// Why a half-space of which only rest was solved cannot judge.
 inline constexpr const char* kRestAlone = "half_space/path is rest, which knows no pull-off force";
 
+/// Why a half-space of a plate that may tilt cannot judge.
+inline constexpr const char* kMayTilt =
+    "with device/guidance free the plate tilts, and a half-space leaves it as the scan shows it";
+
 /// What a half-space that cannot judge for its pixels asks for.
 inline constexpr const char* kPixelsTooLarge =
     "its pixels are too large for the edges of the contacts: scan a smaller area with finer pixels";
 
-/// Why a half-space cannot judge, in words: it is not solved, not converged, its pixels are too
-/// large for the edges of the contacts, or its steps for the pull-off force. Empty if it can.
+/// Why a half-space cannot judge, in words: it is not solved, not converged, its plate may tilt,
+/// its pixels are too large for the edges of the contacts, or its steps for the pull-off force.
+/// Empty if it can.
 std::string whyNotJudging(const SolvedHalfSpace& solution);
 
 /// The prediction with the half-space's pull-off force and apparent work of adhesion in the place

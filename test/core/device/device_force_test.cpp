@@ -231,6 +231,22 @@ TEST_F(DeviceForceTest, AScanWithoutItsSurroundingsIsUsed) {
   EXPECT_TRUE(isTold(found, "first: ")) << found.warnings.front();
 }
 
+TEST_F(DeviceForceTest, MoreScansAreSurerOfContactsThatAreCutFromThem) {
+  // 192 pixels hold a few contacts, of which another place may have others
+  const auto widthOf = [&](int per_side) {
+    surfaces_.scans.clear();
+    for (int i = 0; i < per_side * per_side; ++i) {
+      surfaces_.scans.push_back(
+          part("scan " + std::to_string(i), large_, i / per_side * 192, i % per_side * 192, 192));
+    }
+    const DeviceForce found = force(areaOfPixels(128));
+    EXPECT_TRUE(found.is_cut_from_scans);
+    return std::log(found.pull_off_force_upper / found.pull_off_force_lower);
+  };
+  options_.realisations = 8;
+  EXPECT_LT(widthOf(4), 0.9 * widthOf(2));
+}
+
 TEST_F(DeviceForceTest, ContactsAreCutWhereTheScansWereMeasured) {
   for (NamedScan& scan : surfaces_.scans) {
     cv::Mat heights = scan.surface.heights().clone();

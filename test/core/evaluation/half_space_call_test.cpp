@@ -163,6 +163,15 @@ TEST(HalfSpaceCall, WhatCouldNotJudgeIsNotBegun) {
   const Case unresolved(soft, kRough);
   ASSERT_TRUE(unresolved.call().is_made);
   EXPECT_EQ(unresolved.call().objection, kPixelsTooLarge);
+  Configuration tilting = withDevice();
+  tilting.model.guidance = Guidance::kFree;
+  const Case level(tilting, kSmooth);
+  ASSERT_TRUE(level.call().is_made);
+  EXPECT_EQ(level.call().objection, kMayTilt);
+  SolvedHalfSpace as_it_lies;
+  as_it_lies.status = HalfSpaceStatus::kSolved;
+  as_it_lies.is_resolved = as_it_lies.is_step_converged = as_it_lies.may_tilt = true;
+  EXPECT_EQ(whyNotJudging(as_it_lies), kMayTilt);
   Configuration free_plate = withDevice();
   free_plate.model.lower.thickness = 1e-6;
   free_plate.half_space.boundary = HalfSpaceBoundary::kFree;

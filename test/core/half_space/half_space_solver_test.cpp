@@ -272,6 +272,8 @@ TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {
   // the others pull as before but for the few picometres by which the surface gives way around the
   // hole
   EXPECT_NEAR(solution.pull_off_force / whole.pull_off_force, 29.0 / 30.0, 0.01);
+  // per area of what was measured
+  EXPECT_NEAR(solution.work_of_adhesion / whole.work_of_adhesion, 1.0, 0.01);
 }
 
 TEST(HalfSpaceSolver, MechanicalLoadIsReachedAndLeavesElasticSurfacesAsTheyWere) {

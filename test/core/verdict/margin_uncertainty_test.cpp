@@ -362,5 +362,25 @@ TEST(UncertaintyOptions, defaultsAreAllowedAndViolationsNamed) {
   EXPECT_NE(wrong.violations()[0].find("uncertainty/hardness: 1.5"), std::string::npos);
 }
 
+TEST(AdhesionSpread, doesNotDependOnWhetherContactsAreListed) {
+  GaussianSurfaceOptions rough;
+  rough.rows = rough.cols = 64;
+  rough.pitch_x = rough.pitch_y = 2e-9;
+  rough.correlation_length_x = rough.correlation_length_y = 16e-9;
+  rough.rms_height = 1e-9;
+  const HeightMap surface = gaussianSurface(rough);
+  Options options;
+  const Prediction listed = AdhesionModel(options).predict(surface);
+  options.output.asperities = false;
+  const Prediction bare = AdhesionModel(options).predict(surface);
+  ASSERT_TRUE(bare.asperities.empty());
+  const AdhesionSpread expected = adhesionSpread(listed, options, UncertaintyOptions());
+  ASSERT_FALSE(expected.pull_off.empty());
+  const AdhesionSpread found = adhesionSpread(bare, options, UncertaintyOptions());
+  EXPECT_EQ(found.pull_off, expected.pull_off);
+  EXPECT_EQ(found.apparent_work, expected.apparent_work);
+  EXPECT_EQ(found.place_deviation, expected.place_deviation);
+}
+
 }  // namespace
 }  // namespace mems_stiction
