@@ -76,7 +76,7 @@ class HalfSpaceFigures:
     range: float
     """[m] z0, the gap at which the traction changes its sign"""
     cohesive_length: float
-    """[m] E z0^2/Gamma, over which the edge of a contact parts"""
+    """[m] E z0^2/Gamma, or E d/p of water, over which the edge of a contact parts"""
     is_step_converged: bool
     """finer steps change pull_off_force by less than 2 %"""
     residual: float

@@ -84,7 +84,8 @@ void visitHalfSpaceDetails(const SolvedHalfSpace& solution, Visitor&& visit) {
   visit({"flowed_volume", "m^3", "that both surfaces have lost for good, after the whole path"},
         solution.flowed_volume);
   visit({"range", "m", "z0, the gap at which the traction changes its sign"}, solution.range);
-  visit({"cohesive_length", "m", "E z0^2/Gamma, over which the edge of a contact parts"},
+  visit({"cohesive_length", "m",
+         "E z0^2/Gamma, or E d/p of water, over which the edge of a contact parts"},
         solution.cohesive_length);
   visit({"is_step_converged", "", "finer steps change pull_off_force by less than 2 %"},
         solution.is_step_converged);

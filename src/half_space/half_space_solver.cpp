@@ -100,10 +100,13 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
   return law;
 }
 
-/// E z0^2/Gamma [m].
+/// E z0^2/Gamma, or that of water, which pulls with p over d: E d/p [m].
 double cohesiveLength(const HalfSpaceProblem& problem, const TractionLaw& law) {
   const ContactPair pair(problem.lower_material, problem.upper_material);
-  return pair.contact_modulus * law.range() * law.range() / problem.interface.work_of_adhesion;
+  const WaterLaw water = problem.capillary.law();
+  const double dry = law.range() * law.range() / problem.interface.work_of_adhesion;
+  const double wet = water.isOn() ? water.gapLimit() / water.pressure() : dry;
+  return pair.contact_modulus * std::min(dry, wet);
 }
 
 /// The composite gap at first touch, infinite where it is not known.

@@ -69,9 +69,10 @@ struct SolvedHalfSpace {
   /// By which the force changes with the height as the bodies leave rest; NaN where the first step
   /// from there jumps or finds no equilibrium, too [N/m].
   double contact_stiffness = kNone;
-  double flowed_volume = kNone;    ///< that both surfaces have lost [m^3]
-  double range = kNone;            ///< z0 [m]
-  double cohesive_length = kNone;  ///< E z0^2/Gamma: over which contacts part [m]
+  double flowed_volume = kNone;  ///< that both surfaces have lost [m^3]
+  double range = kNone;          ///< z0 [m]
+  double cohesive_length =
+      kNone;  ///< E z0^2/Gamma, or E d/p of water: over which contacts part [m]
   bool is_converged =
       false;  ///< kSolved: all of the path, each state to half_space/tolerance where it counts
   bool may_tilt = false;           ///< HalfSpaceProblem::may_tilt: another plane would be its rest

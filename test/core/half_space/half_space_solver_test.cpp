@@ -493,6 +493,12 @@ TEST(HalfSpaceSolver, NoPointOfTheCurveExceedsTheStrengthOfTheLaw) {
 TEST(HalfSpaceSolver, UnresolvedCohesiveZonesAreSaid) {
   EXPECT_TRUE(solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9))).is_resolved);  // 46 nm
   EXPECT_FALSE(solve(problemOf(waves(16, 16, 30e-9, 5e-9, 1e-9))).is_resolved);
+  // water pulls with 206 MPa over 0.7 nm: soft edges of contacts part over a few nanometres
+  HalfSpaceProblem humid = problemOf(waves(16, 16, 2e-9, 2e-9, 1e-9), 1e9);
+  humid.interface.work_of_adhesion = 0.01;
+  EXPECT_TRUE(isResolved(humid, HalfSpaceOptions()));
+  humid.capillary.relative_humidity = 0.22;
+  EXPECT_FALSE(isResolved(humid, HalfSpaceOptions()));
 }
 
 TEST(HalfSpaceSolver, LoadBeyondTheHardnessIsNotReached) {
