@@ -160,8 +160,8 @@ constexpr int kFlowRounds = 2;
 /// Share of a cell's own stiffness with which the search for places that flow begins, (S15). It
 /// takes so many steps on blocks of cells and as many by cells, or so many by cells where a frame
 /// has no more of them along its sides than this. Blocks have sides of so many cells at most. With
-/// one step on blocks in place of those by cells, frames of 512 to 2048 cells under 100 MPa and more
-/// held 0.15 to 0.75 of what they hold after many steps; they take up to 1.4 times as long.
+/// one step on blocks in place of those by cells, frames of 512 to 2048 cells under 100 MPa and
+/// more held 0.15 to 0.75 of what they hold after many steps; they take up to 1.4 times as long.
 constexpr double kFirstStiffness = 0.3;
 constexpr int kFlowSteps = 4;
 constexpr int kFlowStepsByCells = 8;

@@ -256,9 +256,9 @@ void ContactCurve::appendLoading(std::vector<SeparationCurvePoint>& points) cons
 }
 
 void ContactCurve::part(double force_from_next_rest) {
-  const Way way = unloadingOf(loading_, frame_.law().range());
-  has_unloading_ = has_flowed_ || way.longest_hold > 0.0;
-  if (has_unloading_) followChanged(way);
+  const Branch branch = unloadingOf(loading_, frame_.law().range());
+  has_unloading_ = has_flowed_ || branch.largest_hysteresis > 0.0;
+  if (has_unloading_) followChanged(branch);
   const SeparationCurve& curve = unloading();
   const CurveExponents exponents = exponentsOf(frame_, curve);
   by_contacts_.force = curve.pull_off_force;
@@ -282,23 +282,23 @@ void ContactCurve::part(double force_from_next_rest) {
   }
 }
 
-void ContactCurve::followChanged(const Way& way) {
+void ContactCurve::followChanged(const Branch& branch) {
   double first_touch = 0.0;
   if (has_flowed_) {
-    first_touch = way.rest;
-    const OverlapSweep& sweep = frame_.contactsAt(way.rest);
-    frame_.change(way.rest, [&](const OrderedCell& ordered) {
+    first_touch = branch.rest;
+    const OverlapSweep& sweep = frame_.contactsAt(branch.rest);
+    frame_.change(branch.rest, [&](const OrderedCell& ordered) {
       const Contact& contact =
           contacts_[static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)))];
       const auto dale = static_cast<std::size_t>(ordered.tag.dale());
       if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
       regime_of_dale_[dale] = contact.regime;
-      const double gap = way.rest - contact.remaining.of(way.rest - ordered.gap);
+      const double gap = branch.rest - contact.remaining.of(branch.rest - ordered.gap);
       first_touch = std::min(first_touch, gap);
       return gap;
     });
   }
-  followUnloading(frame_, first_touch, way, unloading_);
+  followUnloading(frame_, first_touch, branch, unloading_);
 }
 
 }  // namespace mems_stiction

@@ -81,7 +81,7 @@ class ContactCurve {
   const SeparationCurve& unloading() const { return has_unloading_ ? unloading_ : loading_; }
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   const OverlapSweep& inReachAtPullOff() {
-    return frame_.inReachAt(unloading().pull_off_approach, unloading().way.longest_hold);
+    return frame_.inReachAt(unloading().pull_off_approach, unloading().branch.largest_hysteresis);
   }
   /// By dale, at rest; of the dales that were in contact where surfaces have flowed.
   const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
@@ -103,7 +103,7 @@ class ContactCurve {
   void growTo(double load, double gaps);
   /// Where the unloading branch is another than the loading branch: of surfaces that have flowed,
   /// or with soft summits, which let go later (adhesive hysteresis).
-  void followChanged(const Way& way);
+  void followChanged(const Branch& branch);
 
   FrameSums frame_;
   double cell_area_ = 0.0;  ///< [m^2]

@@ -278,8 +278,8 @@ void FlowingPlaces::readRow(int row, double* flowed, double* pressures) const {
   const auto cols = static_cast<std::size_t>(changed_.cols());
   std::fill_n(flowed, cols, 0.0);
   std::fill_n(pressures, cols, 0.0);
-  visitRow(row, [&](int col, double way, double pressure) {
-    flowed[col] = way;
+  visitRow(row, [&](int col, double lost, double pressure) {
+    flowed[col] = lost;
     pressures[col] = pressure;
   });
 }

@@ -105,8 +105,8 @@ OverlapSweep& FrameSums::contactsAt(double approach) {
   return contacts_;
 }
 
-const OverlapSweep& FrameSums::inReachAt(double approach, double hold) {
-  const double reach = approach + law().range() + hold;
+const OverlapSweep& FrameSums::inReachAt(double approach, double hysteresis) {
+  const double reach = approach + law().range() + hysteresis;
   orderUpTo(reach, reach);
   if (law().attracts()) sweepTo(reach, in_reach_, marked_in_reach_, nullptr);
   return in_reach_;
@@ -146,20 +146,21 @@ double FrameSums::limitApproach() {
                         GapField::kInvalidGap);
 }
 
-PlaceSums FrameSums::reach(double approach, double hold, double expected_end) {
+PlaceSums FrameSums::reach(double approach, double hysteresis, double expected_end) {
   TimeLimit::check();
   PlaceSums sums;
-  const double range = law().range() + hold;
+  const double range = law().range() + hysteresis;
   orderUpTo(approach + range, expected_end + range);
-  if (law().attracts()) patch_forces_->addReach(inReachAt(approach, hold), approach + hold, sums);
+  if (law().attracts())
+    patch_forces_->addReach(inReachAt(approach, hysteresis), approach + hysteresis, sums);
   return sums;
 }
 
-void FrameSums::add(double approach, double hold, PlaceSums& sums) {
+void FrameSums::add(double approach, double hysteresis, PlaceSums& sums) {
   const OverlapSweep& contacts = contactsAt(approach);
   sums.contact_count += contacts.cellCount();
   patch_forces_->addContacts(contacts, approach, sums);
-  const Attraction attraction = attractionAt(law(), approach, hold);
+  const Attraction attraction = attractionAt(law(), approach, hysteresis);
   sums.adhesion += attraction.adhesion;
   sums.electrostatic += attraction.electrostatic;
   sums.capillary +=
@@ -216,10 +217,10 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
 }
 
 FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double approach,
-                                              double hold) {
+                                              double hysteresis) {
   Attraction attraction = attractionOver(law, approach, overlappingAt(approach));
-  if (hold > 0.0) {
-    const double longest = approach + hold;
+  if (hysteresis > 0.0) {
+    const double longest = approach + hysteresis;
     attraction.adhesion = std::max(attraction.adhesion,
                                    attractionOver(law, longest, overlappingAt(longest)).adhesion);
   }
@@ -278,9 +279,9 @@ double FrameSums::lastingFieldEnergy(double approach) {
   return share * field_->cellArea() * (sum + contact_count * field.energy(0.0));
 }
 
-double FrameSums::hamakerExponentOfForce(double approach, double hold) {
-  return exponentOf(attractionAt(*wider_law_, approach, hold).adhesion,
-                    attractionAt(law(), approach, hold).adhesion);
+double FrameSums::hamakerExponentOfForce(double approach, double hysteresis) {
+  return exponentOf(attractionAt(*wider_law_, approach, hysteresis).adhesion,
+                    attractionAt(law(), approach, hysteresis).adhesion);
 }
 
 double FrameSums::hamakerExponentOfEnergy(double approach) {

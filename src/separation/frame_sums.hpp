@@ -49,14 +49,15 @@ class FrameSums {
   void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr,
              bool flows = true, double fraction = 0.0);
 
-  /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
+  /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a
+  /// hysteresis [m].
   /// - @p expected_end where the displacements will probably end [m]: so many cells are put in
   /// order at once when there are
   ///   not enough
-  PlaceSums reach(double approach, double hold, double expected_end = 0.0);
+  PlaceSums reach(double approach, double hysteresis, double expected_end = 0.0);
   /// Adds the sums over cells and patches that overlap. Attraction counts as if the surfaces were
-  /// `hold` [m] closer where that is more.
-  void add(double approach, double hold, PlaceSums& sums);
+  /// `hysteresis` [m] closer where that is more.
+  void add(double approach, double hysteresis, PlaceSums& sums);
   /// What taking the surfaces apart would cost if they only attracted each other, w summed over the
   /// cells [J].
   double energy(double approach) { return energyAt(law(), approach); }
@@ -66,14 +67,14 @@ class FrameSums {
   const LoadOptions& load() const { return settings_->load; }
   /// That fills narrow gaps.
   const WaterLaw& water() const { return water_; }
-  /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger
-  /// one widens the law's range, which pulls more over wide gaps and less near contacts.
-  double hamakerExponentOfForce(double approach, double hold);
+  /// d ln/d ln(Hamaker constant) of the attraction [-], with its hysteresis, and of the energy: a
+  /// larger one widens the law's range, which pulls more over wide gaps and less near contacts.
+  double hamakerExponentOfForce(double approach, double hysteresis);
   double hamakerExponentOfEnergy(double approach);
 
   /// The patches that overlap, and those in reach.
   OverlapSweep& contactsAt(double approach);
-  const OverlapSweep& inReachAt(double approach, double hold);
+  const OverlapSweep& inReachAt(double approach, double hysteresis);
   /// Cells of the order that overlap come first.
   const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
 
@@ -134,7 +135,7 @@ class FrameSums {
                 double approach, Attraction& sum) const;
   /// Over the cells, the first `contact_count` ordered ones of which overlap.
   Attraction attractionOver(const ContactTraction& law, double approach, int contact_count) const;
-  Attraction attractionAt(const ContactTraction& law, double approach, double hold);
+  Attraction attractionAt(const ContactTraction& law, double approach, double hysteresis);
   double energyAt(const ContactTraction& law, double approach);
   /// Sums an energy over the cells apart [J/m^2 times their number].
   /// - @p add_cells(cells, count, sum) one by one; @p of_moments of several, by their gaps and mean

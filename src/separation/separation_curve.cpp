@@ -13,15 +13,15 @@ namespace {
 /// A search for the maximum that has not ended then takes the strongest state.
 constexpr int kMostSearches = 8;
 /// JKR's displacement at the pull-off over mu z0, 0.77 [-].
-const double kHoldPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
+const double kHysteresisPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
 
 /// 95 % of what the curve says without a doubt lie this near to the half-space, of it [-].
 constexpr double kError = kNormal95 * chosen::kSureError.pull_off;
 
 /// b of summits with this Tabor parameter, (S8a) [m].
-double holdOf(double tabor_parameter, double range) {
+double hysteresisOf(double tabor_parameter, double range) {
   if (!(tabor_parameter > chosen::kStiffTabor)) return 0.0;  // nor if it is not known
-  return range * kHoldPerTabor * (tabor_parameter - chosen::kStiffTabor);
+  return range * kHysteresisPerTabor * (tabor_parameter - chosen::kStiffTabor);
 }
 
 /// B, (S7) [-].
@@ -159,13 +159,15 @@ bool areOfOneHeight(const FrameSums& frame, double from, double to, double windo
 /// The approach of the next state, whose D + z0 is larger by a share; nearer where many cells come
 /// in reach at once, since their attraction rises and falls within z0.
 /// - @p first_touch of the surfaces [m]
-/// - @p hold by which the attraction may be that of nearer surfaces [m]
-double approachAfter(const FrameSums& frame, double approach, double first_touch, double hold) {
+/// - @p hysteresis by which the attraction may be that of nearer surfaces [m]
+double approachAfter(const FrameSums& frame, double approach, double first_touch,
+                     double hysteresis) {
   const double range = frame.law().range();
   const double step = chosen::kStep * (range + approach - first_touch);
   const double fine = chosen::kFineStep * range;
-  const bool is_fine = step > 2.0 * fine &&
-                       areOfOneHeight(frame, approach, approach + step + range + hold, 0.5 * range);
+  const bool is_fine =
+      step > 2.0 * fine &&
+      areOfOneHeight(frame, approach, approach + step + range + hysteresis, 0.5 * range);
   return approach + (is_fine ? fine : step);
 }
 
@@ -199,7 +201,7 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   SeparationState below = states.back();
   states.pop_back();
   SeparationState above = states.back();
-  stateAt(frame, above.approach, curve.way);
+  stateAt(frame, above.approach, curve.branch);
   frame.mark();
   SeparationState found = below;
   curve.beyond_rest = below;
@@ -209,7 +211,7 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
     if (!(above.approach < middle && middle < below.approach)) break;  // no number lies between
     // every third time the middle: where one side is a wall, the line hardly moves the other
     const double place = search % 3 == 2 ? middle : crossing(above, below, load);
-    found = stateAt(frame, place, curve.way);
+    found = stateAt(frame, place, curve.branch);
     const double excess = found.force() + load;
     if (std::abs(excess) <= chosen::kAccuracy * std::max(found.carried, load)) break;
     (excess >= 0.0 ? above : below) = found;
@@ -220,16 +222,17 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
 }  // namespace
 
 // (S11), but for the loads
-SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end) {
-  PlaceSums sums = frame.reach(approach, way.longest_hold, expected_end);
+SeparationState stateAt(FrameSums& frame, double approach, const Branch& branch,
+                        double expected_end) {
+  PlaceSums sums = frame.reach(approach, branch.largest_hysteresis, expected_end);
   SeparationState state;
   state.approach = approach;
   state.tabor_parameter = sums.taborParameter();
   // what has not been nearer than at rest holds nothing
-  const double hold =
-      std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
-  state.hold = std::clamp(way.rest - approach, 0.0, hold);
-  frame.add(approach, state.hold, sums);
+  const double hysteresis =
+      std::min(hysteresisOf(state.tabor_parameter, frame.law().range()), branch.largest_hysteresis);
+  state.hysteresis = std::clamp(branch.rest - approach, 0.0, hysteresis);
+  frame.add(approach, state.hysteresis, sums);
   state.contact_count = sums.contact_count;
   state.carried = sums.carried;
   state.electrostatic = sums.electrostatic;
@@ -260,7 +263,7 @@ void takeMaximum(FrameSums& frame, SeparationCurve& curve) {
         states.begin(), states.end(),
         [&](const SeparationState& state) { return state.approach >= curve.pull_off_approach; });
     if (place->approach == curve.pull_off_approach) break;
-    states.insert(place, stateAt(frame, curve.pull_off_approach, curve.way));
+    states.insert(place, stateAt(frame, curve.pull_off_approach, curve.branch));
   }
   curve.pull_off_force = states[curve.strongest].partingForce();
   curve.pull_off_approach = states[curve.strongest].approach;
@@ -283,10 +286,10 @@ std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() con
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve) {
   const double range = frame.law().range();
   const double load = settings.load.mechanical_load;
-  curve.way = {};
+  curve.branch = {};
   curve.states.clear();
   for (int steps = stepsApart(frame); steps > 0; --steps) {
-    curve.states.push_back(stateAt(frame, approachBefore(steps, range), curve.way));
+    curve.states.push_back(stateAt(frame, approachBefore(steps, range), curve.branch));
   }
   const EnergiesApart apart = energiesApart(frame, curve);
   curve.status = Status::kNoEquilibrium;
@@ -296,7 +299,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
     // the force falls ever more steeply: rest may come a step before
     const double next = loadingAfter(frame, approach);
     if (expected_rest > 0.0 && expected_rest < next) frame.mark();
-    curve.states.push_back(stateAt(frame, approach, curve.way, expected_rest));
+    curve.states.push_back(stateAt(frame, approach, curve.branch, expected_rest));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
@@ -337,7 +340,7 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings,
        step < settings.approach.max_steps; ++step) {
     const double approach = loadingAfter(frame, before);
     if (!(approach > before)) break;
-    const SeparationState state = stateAt(frame, approach, loading.way);
+    const SeparationState state = stateAt(frame, approach, loading.branch);
     is_past = is_past || excess(state) > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     if (isPushedBack(state)) break;
@@ -362,26 +365,27 @@ bool hangsOnWhatIsCarried(const SeparationCurve& curve) {
   });
 }
 
-Way unloadingOf(const SeparationCurve& loading, double range) {
+Branch unloadingOf(const SeparationCurve& loading, double range) {
   double softest = 0.0;
   for (const SeparationState& state : loading.states)
     softest = std::max(softest, state.tabor_parameter);
-  return {loading.rest().approach, holdOf(softest, range)};
+  return {loading.rest().approach, hysteresisOf(softest, range)};
 }
 
-void followUnloading(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve) {
+void followUnloading(FrameSums& frame, double first_touch, const Branch& branch,
+                     SeparationCurve& curve) {
   const double range = frame.law().range();
-  curve.way = way;
+  curve.branch = branch;
   curve.states.clear();
   for (int steps = stepsApart(frame); steps > 0; --steps) {
     const double approach = first_touch + approachBefore(steps, range);
-    curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
-    if (approach >= way.rest) break;
+    curve.states.push_back(stateAt(frame, std::min(approach, branch.rest), branch));
+    if (approach >= branch.rest) break;
   }
   double approach = first_touch;
-  while (curve.states.back().approach < way.rest) {
-    curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
-    approach = approachAfter(frame, approach, first_touch, way.longest_hold);
+  while (curve.states.back().approach < branch.rest) {
+    curve.states.push_back(stateAt(frame, std::min(approach, branch.rest), branch));
+    approach = approachAfter(frame, approach, first_touch, branch.largest_hysteresis);
   }
   const EnergiesApart apart = energiesApart(frame, curve);
   takeFigures(frame, apart, curve);
@@ -410,7 +414,7 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   const double attraction = strongest.edge_share * strongest.adhesion;
   Exponents pull_off =
       exponentsOf(curve.pull_off_force, {attraction, strongest.carried, strongest.lasting_field},
-                  frame.hamakerExponentOfForce(strongest.approach, strongest.hold));
+                  frame.hamakerExponentOfForce(strongest.approach, strongest.hysteresis));
   if (curve.pull_off_force > 0.0) {  // a0 goes with E z0^2/Gamma, E H/Gamma^2
     const double by_edges = strongest.edge_slope * attraction / curve.pull_off_force;
     pull_off.adhesion -= 2.0 * by_edges;

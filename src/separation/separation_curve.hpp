@@ -30,7 +30,7 @@ struct SeparationState {
   double capillary = 0.0;        ///< of condensed water
   double carried = 0.0;          ///< by all patches
   double tabor_parameter = 0.0;  ///< of the summits in reach [-]
-  double hold = 0.0;             ///< b, how far beyond its place apart a summit still holds [m]
+  double hysteresis = 0.0;       ///< b, how far beyond its place apart a summit still holds [m]
   double edge_share =
       1.0;  ///< what the edges of flat tops leave of the attraction's force, (S8c) [-]
   double edge_slope = 0.0;  ///< d ln(edge_share)/d ln E [-]
@@ -42,21 +42,21 @@ struct SeparationState {
   /// The same when the loads that brought the surfaces together, voltage too, have been taken away:
   /// what bodies give that are drawn apart, whatever the way takes. Its integral is the work.
   double givenForce() const { return adhesion + capillary + lasting_field - carried; }
-  /// What it takes to draw them apart: edges let go at less, and over a longer way.
+  /// What it takes to draw them apart: edges let go at less, and over a longer path.
   double partingForce() const {
     return edge_share * adhesion + capillary + lasting_field - carried;
   }
 };
 
-/// On which way the surfaces are.
-struct Way {
-  double rest = 0.0;          ///< from which they part [m]
-  double longest_hold = 0.0;  ///< what no b exceeds [m]: nothing holds on the loading branch
+/// On which branch the surfaces are, and with what hysteresis.
+struct Branch {
+  double rest = 0.0;                ///< from which they part [m]
+  double largest_hysteresis = 0.0;  ///< what no b exceeds [m]: nothing holds on the loading branch
 };
 
 /// From apart to rest.
 struct SeparationCurve {
-  Way way;
+  Branch branch;
   std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
   /// Of a loading branch that has found its rest: the next step, pushed back from there.
   SeparationState beyond_rest;
@@ -82,7 +82,7 @@ struct SeparationCurve {
 
 /// The state at one approach.
 /// - @p expected_end as in FrameSums::reach()
-SeparationState stateAt(FrameSums& frame, double approach, const Way& way,
+SeparationState stateAt(FrameSums& frame, double approach, const Branch& branch,
                         double expected_end = 0.0);
 
 /// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the
@@ -112,10 +112,11 @@ bool isDrawnPastARest(const SeparationCurve& loading, double load, double force)
 bool hangsOnWhatIsCarried(const SeparationCurve& curve);
 
 /// The unloading branch from the rest of a loading branch, with adhesive hysteresis, (S8a).
-Way unloadingOf(const SeparationCurve& loading, double range);
+Branch unloadingOf(const SeparationCurve& loading, double range);
 /// Follows the curve outwards: states by ascending approach up to rest.
 /// - @p first_touch approach at which the surfaces touch [m]
-void followUnloading(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve);
+void followUnloading(FrameSums& frame, double first_touch, const Branch& branch,
+                     SeparationCurve& curve);
 
 /// With which powers force and work of a curve go with the constants.
 struct CurveExponents {

@@ -91,7 +91,7 @@ std::optional<Unloading> SeparationSolver::bondedUnloading(const ContactProblem&
                                                            double joined_share,
                                                            const ContactSolution& solution) {
   const ContactTraction& law = curve_.frame().law();
-  // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
+  // tall summits may hold surfaces apart whose energy would bond them
   if (!(joined_share > chosen::kJoinedShare)) return std::nullopt;
   const WaterLaw water = problem.settings.capillary.law();
   const double gained = problem.settings.gainedWork();

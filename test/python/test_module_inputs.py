@@ -130,7 +130,7 @@ class SlipTest(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # of the surface
                 device = mems_stiction.predict_device([scan], PITCH, settings)
-            self.assertIn("a\\xff", json.dumps(json.loads(device.json())))
+            self.assertIn("a\\\\xff", device.json())
             for call in (mems_stiction.read, mems_stiction.channels, mems_stiction.Settings):
                 with self.assertRaisesRegex(mems_stiction.FileError, r"none\\xff: "):
                     call(folder / "none\udcff")
