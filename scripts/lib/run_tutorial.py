@@ -7,9 +7,9 @@ must be on the PATH
 
 Blocks marked ```console hold commands ("$ ...") with their output below; blocks marked ```yaml
 whose first line is a comment with a file's name, as in "# device.yaml", are files that are written
-before the commands that follow. All commands of a page run in one shell, in order. Numbers may
-differ by one percent: other compilers and libraries round otherwise. --write puts what the commands
-said into the page.
+before the commands that follow. All commands of a page run in one shell, in order. Numbers agree to
+the last digit that is printed: a stale one would pass any tolerance that is wider. --write puts
+what the commands said into the page.
 """
 
 import argparse
@@ -22,9 +22,8 @@ import subprocess
 import sys
 import tempfile
 
-TOLERANCE = 0.01
 TIMEOUT = 900  # of the whole page [s]
-PROGRESS = re.compile(r"\d+ of \d+ scans\b.*")  # of a batch, each half minute on busy machines
+PROGRESS = re.compile(r"\d+ of \d+ scans?\b.*")  # of a batch, each half minute on busy machines
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 END = "-----end of command"
 
@@ -121,13 +120,19 @@ def run(actions, folder):
     return failed
 
 
+def last_digit(number):
+    """What one more in the last printed digit is worth: 0.01 of "14.58", 1e-08 of "1.58e-06"."""
+    digits, _, exponent = number.partition("e")
+    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+
+
 def agree(shown, said):
-    """The same text, with numbers that differ by the tolerance at most."""
+    """The same text, with numbers that round to each other at the digits that both have."""
     if NUMBER.sub("#", shown) != NUMBER.sub("#", said):
         return False
     for first, second in zip(NUMBER.findall(shown), NUMBER.findall(said)):
-        first, second = float(first), float(second)
-        if abs(first - second) > TOLERANCE * max(abs(first), abs(second)):
+        unit = max(last_digit(first), last_digit(second))
+        if abs(float(first) - float(second)) > 0.501 * unit:  # by round-off not above a half
             return False
     return True
 

@@ -42,14 +42,16 @@ class TutorialTest(unittest.TestCase):
     def test_the_comparison_sees_what_rots(self):
         good = (
             "```yaml\n# a.yaml\nkey: 1\n```\n\n```console\n$ cat a.yaml | tail -n 1\nkey: 1\n$ "
-            "echo 2.00e-06\n2.01e-06\n```\n"
+            "echo 14.58, 2.014e-06 and 7\n14.58, 2.01e-06 and 7\n```\n"
         )
         for page, status in (
             (good, 0),
             (good.replace("key: 1\n$", "key: 2\n$"), 1),
-            (good.replace("2.01e-06", "2.1e-06"), 1),
+            (good.replace("\n14.58", "\n14.59"), 1),
+            (good.replace("2.01e-06", "2.02e-06"), 1),
+            (good.replace("7\n`", "8\n`"), 1),
             (good.replace("$ echo", "$ ecko"), 1),
-            (good.replace("2.01e-06\n", ""), 1),
+            (good.replace("14.58, 2.01e-06 and 7\n", ""), 1),
             ("no command", 1),
         ):
             path = self.folder / "page.md"
