@@ -59,11 +59,17 @@ std::string whatIsMissing(const ShortWaves& found, const std::string& who) {
   const std::string waves =
       is_by_tip ? "than " + inUnits(found.waves.shortest_shown) + ", which are the tip's,"
                 : "than two pixels of " + inUnits(found.waves.pitch);
+  const std::string what = " what holds: waves shorter " + waves + " have an rms height of some " +
+                           shortNumber(found.waves.rms_height * 1e9, 2) +
+                           " nm, and adhesion bridges " + shortNumber(found.limit * 1e9, 2) +
+                           " nm; ";
+  constexpr double kRoundOff = 1e-9;
+  if (!is_by_tip && found.waves.pitch <= (1.0 + kRoundOff) * kSmallestPixel) {
+    return who + what + "no scan resolves them: they need pixels below " + inUnits(kSmallestPixel) +
+           "; are these heights noise?";
+  }
   const std::string instrument = found.needed_pitch <= kPixelOfLight ? "AFM" : "a scan";
-  return who + " what holds: waves shorter " + waves + " have an rms height of some " +
-         shortNumber(found.waves.rms_height * 1e9, 2) + " nm, and adhesion bridges " +
-         shortNumber(found.limit * 1e9, 2) + " nm; missing is " + instrument +
-         (is_by_tip ? " with a sharper tip" : "") + ", " +
+  return who + what + "missing is " + instrument + (is_by_tip ? " with a sharper tip" : "") + ", " +
          inUnits(kFewPixels * found.needed_pitch) + " to " +
          inUnits(kManyPixels * found.needed_pitch) + " wide, pixels of " +
          inUnits(found.needed_pitch) + " or less, beside which coarser scans serve as wide ones";

@@ -38,8 +38,8 @@ inline constexpr char kTheScan[] = "the scan does not show";
 inline constexpr char kNoScan[] = "no scan shows";
 
 /// "the scan does not show what holds: waves shorter than two pixels of 197 nm have an rms height
-/// of 0.76 nm, ... Missing: AFM, 2 to 10 um wide, pixels of 20 nm or less"; empty if they are
-/// resolved.
+/// of 0.76 nm, ...; missing is AFM, 2 um to 10 um wide, pixels of 20 nm or less"; empty if they are
+/// resolved. No scan is named where the pixels are as small as those of any tip.
 /// - @p who begins the sentence
 std::string whatIsMissing(const ShortWaves& found, const std::string& who);
 

@@ -98,6 +98,23 @@ TEST(MissingScan, isNamedWithItsWidthAndPixels) {
   EXPECT_EQ(whatIsMissing(shortWaves(wavesOf(0.01e-9), options), kTheScan), "");
 }
 
+TEST(MissingScan, isNoneWhereThePixelsAreAsSmallAsThoseOfAnyTip) {
+  const Options options;
+  for (const double pitch : {0.5e-9, 1e-9}) {
+    const std::string noise = whatIsMissing(shortWaves(wavesOf(5e-9, pitch), options), kTheScan);
+    EXPECT_NE(noise.find("no scan resolves them: they need pixels below 1 nm"), std::string::npos)
+        << noise;
+    EXPECT_EQ(noise.find("missing is"), std::string::npos) << noise;
+  }
+  EXPECT_NE(whatIsMissing(shortWaves(wavesOf(5e-9, 2e-9), options), kTheScan)
+                .find("missing is AFM, 100 nm to 500 nm wide, pixels of 1 nm or less"),
+            std::string::npos);
+  UnresolvedWaves blunt = wavesOf(5e-9, 1e-9);
+  blunt.shortest_shown = 80e-9;
+  EXPECT_NE(whatIsMissing(shortWaves(blunt, options), kTheScan).find("AFM with a sharper tip"),
+            std::string::npos);
+}
+
 /// A contact with a spring that holds it open, by far.
 struct StatedDevice {
   Prediction prediction;
