@@ -52,7 +52,7 @@ const std::map<std::string, Usual>& usualValues() {
   static const Usual film{1e-10, 1e-6, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"um", 1e-6}}};
   static const Usual hamaker{1e-23, 1e-17, {{"zJ", 1e-21}, {"aJ", 1e-18}}};
   static const Usual retardation{1e-9, 1e-6, {{"nm", 1e-9}, {"um", 1e-6}}};
-  static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}};
+  static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}, 0.0, 1e-3};
   static const Usual travel{1e-9, 1e-3, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const std::vector<Unit> areas{{"um^2", 1e-12}, {"um^2", 1e-12, 1e6}, {"mm^2", 1e-6}};
   static const Usual contact_area{1e-14, 1e-6, areas, 1e-20, 1e-4};  // 0.1 nm square to 1 cm^2
@@ -133,7 +133,8 @@ constexpr const char* kChosen[] = {"paper/", "device_force/", "output/", "prepro
                                    "half_space/"};
 
 bool isChosen(const std::string& key) {
-  return std::any_of(std::begin(kChosen), std::end(kChosen),
+  return key != "preprocessing/tip/radius" &&
+         std::any_of(std::begin(kChosen), std::end(kChosen),
                      [&](const char* section) { return startsWith(key, section); });
 }
 

@@ -152,6 +152,16 @@ TEST(Plausibility, WhatNoMaterialOrDeviceHasIsRefusedUnlessItIsMeant) {
         "nm"}) {
     EXPECT_NE(lines.find(meant), std::string::npos) << lines;
   }
+  Configuration blunt;  // 8 nm
+  blunt.resolution.tip_radius = blunt.preprocessing.tip.radius = 8.0;
+  EXPECT_EQ(blunt.validate().size(), 2U);
+  for (const std::string& line : blunt.validate()) {
+    EXPECT_NE(line.find(" 8 m is implausible (1e-11 to 0.001 m are taken): probably 8 nm"),
+              std::string::npos)
+        << line;
+  }
+  blunt.resolution.tip_radius = blunt.preprocessing.tip.radius = 1e-3;
+  EXPECT_TRUE(blunt.validate().empty());
   Configuration rubber;
   rubber.model.upper.youngs_modulus = 1.5e6;
   EXPECT_TRUE(rubber.validate().empty());
