@@ -158,8 +158,8 @@ def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -
     said += hierarchy.merged
     if left_out:
         said.append(
-            "the %d bad places are left out of these differences, not of the share that sticks"
-            % left_out
+            "%s left out of these differences, not of the share that sticks"
+            % ("the bad place is" if left_out == 1 else "the %d bad places are" % left_out)
         )
     if components.why_squares:
         said.append("differences are estimated by mean squares: %s" % components.why_squares)
@@ -190,7 +190,7 @@ def _of_steep(trends: Sequence[Trend], figure: str) -> List[str]:
     for trend in steep[:MOST_NAMED]:
         low, high = max(trend.factor_lower, 1.0), trend.factor_upper
         said.append(
-            "%s: %s grows by a factor of %s (%s to %s) over %s, towards %.0f deg from x"
+            "%s: %s grows by a factor of %s (%s to %s) over %s, towards %d deg from x"
             % (
                 wafer_word(trend.lot, trend.wafer) or "the wafer",
                 WORDS[figure],
@@ -198,7 +198,7 @@ def _of_steep(trends: Sequence[Trend], figure: str) -> List[str]:
                 ratio(low),
                 ratio(high),
                 with_unit(trend.extent, "m"),
-                math.degrees(trend.direction),
+                round(math.degrees(trend.direction)),  # a float would keep the sign of -0
             )
         )
     if len(steep) > MOST_NAMED:

@@ -421,9 +421,11 @@ def source_of(entry):
     """What a scan_source does by its entry of diagnostics_of(), in sentences: what came last, what
     waits and for what, what was refused and why."""
     values = dict(entry["values"])
-    told = "Source: %s of %s scans published" % (
+    found = values.get("found", "?")
+    told = "Source: %s of %s scan%s published" % (
         values.get("published", "?"),
-        values.get("found", "?"),
+        found,
+        "" if found == "1" else "s",
     )
     if values.get("last_published"):
         told += ", the last: " + values["last_published"]

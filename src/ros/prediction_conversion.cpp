@@ -2,6 +2,7 @@
 
 #include "errors/one_line.hpp"
 #include "errors/short_number.hpp"
+#include "numeric/words.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_parts.hpp"
@@ -117,7 +118,7 @@ std::string summaryOf(const PredictedScan& scan) {
                      verdict.reason + "); pull-off force " +
                      shortNumber(prediction.pull_off_force) + " N";
   if (prediction.has_asperities)
-    line += "; " + std::to_string(prediction.asperity_count) + " contacts";
+    line += "; " + countText(static_cast<std::size_t>(prediction.asperity_count), "contact");
   for (const std::string& flag : regimeFlagList(verdict.regime_flags)) line += "; " + flag;
   for (const std::string& warning : scan.warnings) line += "; warning: " + warning;
   return oneLine(line);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <string>
 
+#include "numeric/words.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {
@@ -52,7 +53,7 @@ class ProgressBar {
     const double wait = line_.onTerminal() ? 0.1 : 30.0;
     if (std::chrono::duration<double>(now - shown_).count() < wait) return;
     shown_ = now;
-    std::string text = std::to_string(done) + " of " + std::to_string(total_) + " scans";
+    std::string text = std::to_string(done) + " of " + countText(total_, "scan");
     if (failed > 0) text += ", " + std::to_string(failed) + " failed";
     if (rest >= 1.0) text += ", " + clock(rest) + " left";
     if (!doing.empty()) text += "; " + doing;

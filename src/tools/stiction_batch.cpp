@@ -216,7 +216,7 @@ int run(const BatchArguments& arguments) {
   rows.settle();
   std::cout << oneLine(arguments.output) << ": " << countText(rows.done(), "row") << ", " << before
             << " of them from before, " << countText(failed_count, "scan") << " failed in this run";
-  if (arguments.half_space || unsolved_count > 0) {
+  if (unsolved_count > 0) {
     std::cout << ", half-space not solved for " << countText(unsolved_count, "other");
   }
   std::cout << "\n";

@@ -142,7 +142,8 @@ class HalfSpaceBatchTest(unittest.TestCase):
 
     def test_a_path_that_is_given_up_is_nan_never_a_number(self):
         self.config.write_text(CONFIG + "half_space: {max_states: 10}\n")
-        self.batch("rows.csv", "--half-space", inputs=[self.small])
+        done = self.batch("rows.csv", "--half-space", inputs=[self.small])
+        self.assertIn("half-space not solved for 1 other\n", done.stdout)
         row = self.rows("rows.csv")[0]
         self.assertEqual(
             (row["half_space_status"], row["half_space_is_converged"]), ("TOO_MANY_STATES", "false")
@@ -151,7 +152,8 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.assertIn("half_space/max_states = 10", row["half_space_message"])
 
     def test_rows_with_and_without_it_do_not_mix_and_shards_join(self):
-        self.batch("one.csv", "--half-space")
+        done = self.batch("one.csv", "--half-space")
+        self.assertIn("0 scans failed in this run\n", done.stdout)  # all others are solved
         self.assertIn("other inputs, settings", self.batch("one.csv", status=2).stderr)
         for index in (1, 2):
             self.batch("part%d.csv" % index, "--half-space", "--shard", "%d/2" % index)

@@ -782,6 +782,31 @@ class SentencesTest(unittest.TestCase):
             said,
         )
 
+    def test_a_trend_along_x_is_towards_0_deg(self):
+        """A gradient along x that turns by a tenth of a degree towards -y."""
+        for turn in (1e-3, -1e-3):
+            rows = [
+                row(site=site, margin=3.0 * math.exp(9.0 * (site[0] + turn * site[1])))
+                for site in SITES
+            ]
+            said = " ".join(mems_stiction.compare_lots(rows).statements)
+            self.assertIn("towards 0 deg from x", said)
+
+    def test_one_bad_place_is_one(self):
+        random = np.random.RandomState(1)
+        rows = [
+            row(wafer=wafer, site=site, margin=3.0 * math.exp(0.02 * random.standard_normal()))
+            for wafer in "12"
+            for site in SITES
+        ]
+        for count, words in (
+            (1, "the bad place is left out of these differences"),
+            (2, "the 2 bad places are left out of these differences"),
+        ):
+            rows[count]["margin"] = 0.3
+            said = " ".join(mems_stiction.compare_lots(rows).statements)
+            self.assertIn(words, said)
+
     def test_sites_are_numbers_in_metres(self):
         rows = [row(site=site) for site in SITES]
         with self.assertRaisesRegex(

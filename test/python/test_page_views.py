@@ -378,6 +378,7 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(
             self.cells(1), ["0012", "0011", "0009", "0010"]
         )  # the one heard of last first
+        self.assertEqual(self.page.text("#part-count"), "4")  # behind the heading "Parts"
         self.assertEqual(self.cells(3)[0], "says nothing yet")
         self.assertEqual(self.cells(3)[1], "1.2 (95 %: 0.6 to 2.4)")
         self.page.click("#parts-head th:nth-child(2) button")
@@ -624,6 +625,8 @@ class OneMessageTest(unittest.TestCase):
             self.page.wait(
                 "document.querySelector('#scan-name').textContent.endsWith('good %d')" % number
             )
+            if number == 0:
+                self.assertEqual(self.page.text("#counts"), "1 scan")
             self.assertEqual(
                 self.page.value("Object.values(broken).concat(state.broken)"), [], number
             )

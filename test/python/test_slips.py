@@ -784,6 +784,15 @@ class SlipTest(unittest.TestCase):
         )
         self.assertEqual(sentence.count(b"\n"), 1)
 
+    def test_on_a_terminal_a_batch_of_one_scan_counts_one(self):
+        self.long_work(256, limits={"max_time": 1.0})
+        (self.folder / "large.npy.yaml").write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        with Terminal(
+            self.folder, "stiction_batch", "-c", "long.yaml", "-o", "rows.csv", "large.npy"
+        ) as terminal:
+            terminal.until(b"0 of 1 scan")
+            self.assertNotIn(b"1 scans", terminal.until_it_ends(1))
+
     def test_on_a_terminal_ctrl_c_wipes_what_a_long_work_says(self):
         with Terminal(
             self.folder, "predict_scan", "--cleanings", *self.long_work(64, steps=2000000)

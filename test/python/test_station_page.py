@@ -591,6 +591,8 @@ class StateTest(unittest.TestCase):
 
         (source,) = tell(found="0", published="0", refused="0", waiting="0")
         self.assertEqual(source["text"], "Source: 0 of 0 scans published.")
+        (source,) = tell(found="1", published="0", refused="0", waiting="0")
+        self.assertEqual(source["text"], "Source: 0 of 1 scan published.")
         now[0] = 1.0
         (source,) = tell(
             1,

@@ -107,6 +107,18 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
   EXPECT_EQ(message.preprocessing, recordLines(scan.preprocessing));
 }
 
+TEST(Summary, CountsContactsInWords) {
+  PredictedScan scan;
+  scan.prediction.has_asperities = true;
+  for (const auto& [count, words] : {std::make_pair(1, "; 1 contact"), {2, "; 2 contacts"}}) {
+    scan.prediction.asperity_count = count;
+    const std::string line = summaryOf(scan);
+    const std::size_t place = line.find("; " + std::to_string(count) + " contact");
+    ASSERT_NE(place, std::string::npos) << line;
+    EXPECT_EQ(line.substr(place, line.find(';', place + 1) - place), words);
+  }
+}
+
 TEST(AsperityMessage, HoldsEveryFieldOfTheTable) {
   Prediction prediction;
   prediction.asperities.resize(3);

@@ -43,7 +43,7 @@ function show() {
   attempt("part", showPart);
   attempt("source", showSources);
   say("origin", state.scan ? state.scan.origin : "");
-  say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
+  say("counts", state.count ? `${state.count} scan${state.count === 1 ? "" : "s"}` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showDownloads();
   showTab();
 }

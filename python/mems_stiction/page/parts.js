@@ -8,7 +8,7 @@ const ORDER = ["sticks", "marginal", "unknown", "releases", "none"]; // worst fi
 let sorting = {column: 6, sign: -1};  // those heard of last first
 
 function showParts() {
-  say("part-count", state.parts.length ? `${state.parts.length} part${state.parts.length === 1 ? "" : "s"}` : "None yet: scans with a part_id or serial_id make some.");
+  say("part-count", state.parts.length ? state.parts.length : "None yet: scans with a part_id or serial_id make some.");
   const head = byId("parts-head");
   if (!head.children.length) {
     head.append(...PART_COLUMNS.map(([name], column) => {
