@@ -34,6 +34,26 @@ def add_version(parser):
     parser.add_argument("--version", action=PrintVersion)
 
 
+def add_plausibility(parser):
+    """--accept-implausible and --strict, as the other programs have them."""
+    parser.add_argument(
+        "--accept-implausible",
+        action="store_true",
+        help="take scans and constants that no instrument, material or device has "
+        "(limits/accept_implausible)",
+    )
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="exit with 1 where there is a warning and nothing worse",
+    )
+
+
+def plausibility_of(arguments):
+    """The settings that --accept-implausible states."""
+    return {"limits/accept_implausible": True} if arguments.accept_implausible else {}
+
+
 def number(text):
     """A finite number."""
     try:

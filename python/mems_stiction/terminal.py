@@ -6,6 +6,7 @@ import re
 import sys
 import warnings
 
+STRICT = 1  # exit status
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # all but tab and line ends
 
 
@@ -32,9 +33,25 @@ def progress_of(program):
 
 @contextlib.contextmanager
 def warnings_said_once(program):
-    """Warnings of what runs within are lines, each once, when it ends well."""
+    """Warnings of what runs within are lines, each once, when it ends well. Gives the list that
+    they are in then."""
+    said = []
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        yield
-    for text in dict.fromkeys(str(warning.message) for warning in told):
+        yield said
+    said += dict.fromkeys(str(warning.message) for warning in told)
+    for text in said:
         print("%s: warning: %s" % (program, text), file=sys.stderr)
+
+
+def strict_status(program, is_strict, said):
+    """The exit status of a program that has ended well: with --strict and a warning STRICT."""
+    from mems_stiction.quantities import counted  # which takes visible() from here
+
+    if not is_strict or not said:
+        return 0
+    print(
+        "%s: %s, and --strict takes none" % (program, counted(len(said), "warning")),
+        file=sys.stderr,
+    )
+    return STRICT

@@ -866,6 +866,19 @@ class FacesTest(unittest.TestCase):
         self.assertIn("do not tell the work of adhesion", run.stdout)
         self.assertFalse((self.path / "process.yaml").exists())
 
+    def test_the_program_takes_what_is_implausible_if_told_to_and_counts_warnings_if_strict(self):
+        (self.path / "odd.yaml").write_text("device: {beam_length: 1000.0}\n")
+        call = ("--config", self.path / "odd.yaml", self.write_list())
+        refused = self.run_program(*call)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--accept-implausible", refused.stderr)
+        accepted = self.run_program("--accept-implausible", *call)
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertIn("calibrate: warning: device/beam_length 1000", accepted.stderr)
+        strict = self.run_program("--accept-implausible", "--strict", *call)
+        self.assertEqual(strict.returncode, 1)
+        self.assertRegex(strict.stderr, "\ncalibrate: [0-9]+ warnings?, and --strict takes none\n$")
+
     def test_the_program_names_what_is_wrong(self):
         run = self.run_program(self.path / "none.yaml")
         self.assertEqual(run.returncode, 2)

@@ -765,6 +765,24 @@ class ProgramTest(unittest.TestCase):
         )
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
+    def test_it_takes_what_is_implausible_if_told_to_and_counts_warnings_if_strict(self):
+        axis = ("--axis", STIFFNESS + "=1", "--workers", 1)
+        self.assertEqual(self.run_program("--strict", *axis).returncode, 0)
+        (self.path / "part.yaml").write_text(
+            json.dumps(dict(PART, device=dict(PART["device"], beam_length=1000.0)))
+        )
+        refused = self.run_program(*axis)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--accept-implausible", refused.stderr)
+        accepted = self.run_program("--accept-implausible", *axis)
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertIn("design_sweep: warning: device/beam_length 1000", accepted.stderr)
+        strict = self.run_program("--accept-implausible", "--strict", *axis)
+        self.assertEqual(strict.returncode, 1)
+        self.assertRegex(
+            strict.stderr, "\ndesign_sweep: [0-9]+ warnings?, and --strict takes none\n$"
+        )
+
     def test_workers_of_dask_find_the_same_rows(self):
         try:
             import distributed  # noqa: F401
