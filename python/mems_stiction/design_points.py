@@ -40,6 +40,12 @@ from mems_stiction.design_axes import (
 
 GAP, POTENTIAL = "device/electrode_gap", "load/contact_potential"
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"
+OF_BEAMS = (
+    "device/beam_",
+    "device/electrode_start",
+    "device/electrode_length",
+    "device/apparent_work_of_adhesion",
+)  # settings that only the verdict on a beam reads
 NO_EFFECT = " has no effect: "  # of a warning
 MOST_AXES = 2
 MOST_VALUES = 10000  # of an axis
@@ -110,6 +116,12 @@ def axes_of(given: Any, settings: Settings) -> List[Axis]:
     known = values_of(settings)
     comments = _comments_of(settings)
     axes = []
+    for name in given:
+        if isinstance(name, str) and name in known and name.startswith(OF_BEAMS):
+            raise OptionsError(
+                "axes: %s is not allowed: a sweep judges springs, not beams; call "
+                "predict_device() for each design of a beam" % name
+            )
     for name, values in given.items():
         setting = settings_named(name)[0] if isinstance(name, str) else name
         if name not in OF_THE_SURFACE and setting not in known:

@@ -656,6 +656,13 @@ class AxesTest(unittest.TestCase):
             ),
             ({"spring_stiffness": [1]}, "(did you mean device/spring_stiffness?)"),
             ({"device/guidance": [1]}, "device/guidance is no number"),
+            (
+                {"device/beam_length": [1e-4, 2e-4]},
+                "axes: device/beam_length is not allowed: a sweep judges springs, not beams; call "
+                "predict_device() for each design of a beam",
+            ),
+            ({WORK: [0.1], "device/electrode_length": [1e-4]}, "device/electrode_length is not"),
+            ({"device/apparent_work_of_adhesion": [1e-3]}, "judges springs, not beams"),
             ({STIFFNESS: "1"}, "must be numbers"),
             ({STIFFNESS: []}, "must be numbers"),
             ({STIFFNESS: (3, 1, 5)}, "with from < to"),
