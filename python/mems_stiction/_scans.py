@@ -20,10 +20,15 @@ from mems_stiction._arrays import (
     pixels_of,
 )
 from mems_stiction._inputs import odd_in, scan_of, warn_about
-from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._settings import Config, Settings, SurfaceError, changed_lines
 from mems_stiction._types import Heights
-from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction._warnings import ScanWarning, SettingsWarning, warn
 from mems_stiction.quantities import with_unit
+
+NOT_CLEANED = (
+    "preprocessing has no effect: roughness() takes the heights as they are, and clean() cleans "
+    "them"
+)
 
 
 @explained
@@ -279,10 +284,13 @@ def roughness(
 
     spatial: also those that reach sideways (sal to hurst), which take twice as long as a
     prediction. They wrap around a topography that is_periodic. Spectra fill missing pixels
-    (doc/theory.md, 13), with a ScanWarning.
+    (doc/theory.md, 13), with a ScanWarning. A cleaning that the settings state is not done, with a
+    SettingsWarning.
     Raises SurfaceError without a valid pixel.
     """
     checked = Settings(config, **settings)
+    if any(line.startswith("preprocessing/") for line in changed_lines(checked)):
+        warn([NOT_CLEANED], SettingsWarning)
     surface = scan_of(heights, pitch, checked)
     figures, warnings = _core.roughness(
         surface.core, checked._configuration, spatial, surface.is_periodic

@@ -53,8 +53,7 @@ class Settings:
         return self._configuration.yaml()
 
     def __repr__(self) -> str:
-        changed = sorted(set(_lines(self.yaml())) - set(_lines(_core.Configuration().yaml())))
-        return "Settings(%s)" % (", ".join(changed) or "defaults")
+        return "Settings(%s)" % (", ".join(changed_lines(self)) or "defaults")
 
     def __reduce__(self) -> Any:
         return _settings_of_text, (self.yaml(),)
@@ -155,6 +154,11 @@ def _lines(text: str) -> Any:
                 if line.startswith(" ")
                 else setting
             )
+
+
+def changed_lines(settings: Settings) -> List[str]:
+    """ "section/key: value" of each setting that is not its default."""
+    return sorted(set(_lines(settings.yaml())) - set(_lines(_core.Configuration().yaml())))
 
 
 def values_of(settings: Settings) -> Dict[str, Any]:

@@ -306,6 +306,26 @@ class WarningTest(unittest.TestCase):
         self.assertIn("probably 15 mJ/m^2", repr(prediction))
         self.assertEqual(list(prediction.warnings), prediction.to_dict()["warnings"])
 
+    def test_roughness_says_that_it_does_not_clean(self):
+        heights = rough(24, 30)
+        for how in (
+            {"preprocessing": {"level": "plane"}},
+            {"config": {"preprocessing": {"spikes/enabled": True}}},
+            {"config": mems_stiction.Settings(**{"preprocessing/level": "plane"})},
+        ):
+            figures, found = self.caught(lambda: mems_stiction.roughness(heights, PITCH, **how))
+            self.assertEqual(
+                [(one.category, one.filename) for one in found],
+                [(mems_stiction.SettingsWarning, __file__)],
+            )
+            self.assertIn("roughness() takes the heights as they are", str(found[0].message))
+            self.assertIn("clean()", str(found[0].message))
+            self.assertEqual(figures.sq, mems_stiction.roughness(heights, PITCH).sq)
+        _, found = self.caught(
+            lambda: mems_stiction.roughness(heights, PITCH, interface={"work_of_adhesion": 0.03})
+        )
+        self.assertEqual(found, [])
+
     def test_scans_warn_at_the_callers_line(self):
         for call in (
             lambda: mems_stiction.predict(rough(20, 30), 20e-6),
