@@ -208,7 +208,11 @@ int run(const BatchArguments& arguments) {
       } else {
         rows.append(line);
       }
-      if (!row.is_predicted && ++failed_count == 1) first_message = row.message;
+      if (!row.is_predicted && ++failed_count == 1) {
+        const std::string& file = scans.file(wanted_numbers[made]);
+        const bool names_it = row.message.find(file) != std::string::npos;
+        first_message = (names_it ? "" : file + ": ") + row.message;
+      }
       if (row.is_unsolved) ++unsolved_count;
       if (row.is_warned) ++warningCount();
     }

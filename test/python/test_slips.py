@@ -248,6 +248,25 @@ class SlipTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("stiction_batch: the first of 2: nowhere.bag: no such file\n", done.stderr)
 
+    def test_a_refused_scan_is_named(self):
+        np.save(str(self.folder / "high.npy"), 1e9 * rough())
+        (self.folder / "high.npy.yaml").write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        for name in ("stiction_batch -o rows.csv", "predict_scan"):
+            program, *options = name.split()
+            done = self.run_it(program, *options, "high.npy")
+            self.assertRegex(
+                done.stderr, "^%s: high.npy: implausible: heights range [^\n]*\n$" % program
+            )
+        done = self.run_it("stiction_report", "-o", "page.html", "high.npy", "scan.npy", "high.npy")
+        self.assertIn("stiction_report: not predicted: high.npy: implausible", done.stderr)
+        for options, status in (((), 0), (("--strict",), 1)):
+            done = self.run_it(
+                *("stiction_report", "--accept-implausible", "--steps", "0", *options),
+                *("-o", "page.html", "high.npy"),
+            )
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertTrue((self.folder / "page.html").exists())
+
     def test_batch_refuses_what_it_cannot_write(self):
         (self.folder / "folder.csv").mkdir()
         self.assert_refused("--output is required", "stiction_batch", "scan.npy")
