@@ -52,9 +52,22 @@ def positive(text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("inputs", nargs="+", metavar="BAG|SCAN")
-    parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv|ROWS.jsonl")
-    parser.add_argument("-c", "--config", metavar="FILE.yaml")
+    parser.add_argument(
+        "inputs",
+        nargs="+",
+        metavar="BAG|SCAN",
+        help="bags, and files of every kind that predict_scan reads",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="ROWS.csv|ROWS.jsonl",
+        help="the rows of all shards, those of one run",
+    )
+    parser.add_argument(
+        "-c", "--config", metavar="FILE.yaml", help="materials, interface, device, cleaning"
+    )
     parser.add_argument("--workers", type=positive, default=2, help="on this machine (2)")
     parser.add_argument("--scheduler", metavar="HOST:PORT", help="of a cluster that runs already")
     parser.add_argument("--shards", type=positive, help="four for each worker if not given")

@@ -37,18 +37,33 @@ def show_progress(share):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("scans", nargs="+", metavar="SCAN")
+    parser.add_argument(
+        "scans",
+        nargs="+",
+        metavar="SCAN",
+        help="of the device's surface, as predict_device takes them",
+    )
     parser.add_argument(
         "--axis",
         action="append",
         type=axis,
         required=True,
         metavar="NAME=FROM:TO:COUNT",
-        help="once or twice",
+        help="a setting and its values; once or twice",
     )
-    parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv")
-    parser.add_argument("--picture", metavar="OUT.png")
-    parser.add_argument("-c", "--config", metavar="FILE.yaml")
+    parser.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="ROWS.csv",
+        help="the rows, as they come; goes on after those of the same sweep",
+    )
+    parser.add_argument(
+        "--picture", metavar="OUT.png", help="the margin over the axes, .png, .pdf or .svg"
+    )
+    parser.add_argument(
+        "-c", "--config", metavar="FILE.yaml", help="materials, interface, device, cleaning"
+    )
     parser.add_argument(
         "-p", "--pitch", type=float, metavar="M", help="of scans that do not say it"
     )

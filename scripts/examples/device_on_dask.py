@@ -40,7 +40,12 @@ def arrived(futures):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("scans", nargs="+", metavar="SCAN")
+    parser.add_argument(
+        "scans",
+        nargs="+",
+        metavar="SCAN",
+        help="of the device's surface, as predict_device takes them",
+    )
     parser.add_argument(
         "-a",
         "--area",
@@ -51,7 +56,9 @@ def main():
     parser.add_argument(
         "--contacts", type=positive, metavar="N", help="that share it; else device/contacts"
     )
-    parser.add_argument("-c", "--config", metavar="FILE.yaml")
+    parser.add_argument(
+        "-c", "--config", metavar="FILE.yaml", help="materials, interface, device, cleaning"
+    )
     parser.add_argument(
         "-p", "--pitch", type=float, metavar="M", help="of scans that do not say it"
     )

@@ -61,7 +61,7 @@ int run(int argc, char** argv, const NodeProgram& program) {
   // decimal point.
   std::setlocale(LC_CTYPE, "C.UTF-8");
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // whenever it ends, what was said is written
-  CLI::App app(program.description);
+  CLI::App app(program.description, program.name);
   bool takes_over = false;
   if (program.may_take_over) {
     app.add_flag("--take-over", takes_over,
