@@ -92,6 +92,7 @@ class Trend:
         for name in TAKEN:
             setattr(prediction, name, getattr(device, name))
         prediction.reason, prediction.device_pull_off_force = (device.reason, device.pull_off_force)
+        prediction.device_apparent_work_of_adhesion = device.apparent_work_of_adhesion
 
     def _lose(self, scans):
         """A later one is predicted already."""

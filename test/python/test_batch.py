@@ -920,6 +920,7 @@ class BatchTest(unittest.TestCase):
                     reason="margin",
                     margin=margin,
                     pull_off_force=2e-7,
+                    apparent_work_of_adhesion=3e-5,
                     part_id=part,
                     status=status,
                 )
@@ -933,6 +934,7 @@ class BatchTest(unittest.TestCase):
             [("0", 5.0, "1"), ("1", 0.8, "0"), ("1", 0.8, "0")],
         )
         self.assertEqual(float(rows[0]["device_pull_off_force"]), 2e-7)
+        self.assertEqual(float(rows[0]["device_apparent_work_of_adhesion"]), 3e-5)
         self.assertEqual(float(rows[0]["pull_off_force"]), 0.0)
 
     def test_a_disk_that_is_full_is_one_line(self):

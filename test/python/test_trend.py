@@ -45,6 +45,7 @@ def device(margin, sticks=1, **changes):
         sticks=sticks,
         reason="of the device",
         pull_off_force=2e-6 / margin,
+        apparent_work_of_adhesion=1e-4,
         restoring_force=2e-6,
         margin=margin,
         margin_lower=0.5 * margin,
@@ -124,6 +125,7 @@ class TrendTest(unittest.TestCase):
             (0.5, 0.25, 2, "of the device"),
         )
         self.assertEqual((first.device_pull_off_force, first.restoring_force), (4e-6, 2e-6))
+        self.assertEqual(first.device_apparent_work_of_adhesion, 1e-4)
         self.assertTrue(math.isnan(second.margin))
         self.trend.judge(
             1, device(margin=2.0, sticks=0)
