@@ -37,14 +37,13 @@ using namespace mems_stiction;
 namespace fs = std::filesystem;
 
 /// Stamp of the first scan [s]: fixed, so that the same call gives the same bag.
-constexpr double kFirstStamp = 1.0e9;
-
 struct Arguments {
   std::string bag;
   std::vector<std::string> scans;
   int count = 0;
   ScanIdentity identity;  ///< of all scans, before what their files say
   double rate = 10.0;
+  double first_stamp = 1e9;  ///< [s]
   double pitch = 0.0;
   double correlation_length = 80e-9;
   std::vector<double> rms_heights{1e-9, 20e-9};
@@ -94,6 +93,12 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--rate", arguments.rate, "scans per second [Hz]")
       ->check(positive)
       ->capture_default_str();
+  app.add_option("--first-stamp", arguments.first_stamp,
+                 "of the first scan [s]: one node takes scans of one stamp for the same, so bags "
+                 "that it is to hear need stamps of their own")
+      ->check(CLI::Range(1.0, 4e9))
+      ->type_name("S")
+      ->capture_default_str();
   app.footer(
       "Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still "
       "written).");
@@ -120,7 +125,10 @@ std::string newFileBeside(const std::string& path) {
 class ScanBag {
  public:
   explicit ScanBag(const Arguments& arguments)
-      : path_(arguments.bag), period_(1.0 / arguments.rate), given_(arguments.identity) {
+      : path_(arguments.bag),
+        first_stamp_(arguments.first_stamp),
+        period_(1.0 / arguments.rate),
+        given_(arguments.identity) {
     const std::string& path = path_;
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
@@ -151,7 +159,7 @@ class ScanBag {
   void write(const HeightMap& surface, const std::string& frame, const ScanIdentity& stated = {}) {
     std_msgs::Header header;
     header.seq = count_;
-    header.stamp = ros::Time(kFirstStamp) + ros::Duration(count_ * period_);
+    header.stamp = ros::Time(first_stamp_) + ros::Duration(count_ * period_);
     header.frame_id = frame;
     ++count_;
     for (const std::string& warning : scanWarnings(surface)) warn(frame, warning);
@@ -214,6 +222,7 @@ class ScanBag {
   std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
   std::optional<ScratchPath> partial_;
   bool is_whole_ = false;
+  double first_stamp_;
   double period_;
   ScanIdentity given_;
   std::uint32_t count_ = 0;

@@ -937,6 +937,15 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(float(rows[0]["device_apparent_work_of_adhesion"]), 3e-5)
         self.assertEqual(float(rows[0]["pull_off_force"]), 0.0)
 
+    def test_scans_of_a_bag_have_the_stamps_that_were_asked_for(self):
+        path = self.folder / "late.bag"
+        options = ["--first-stamp", "2e9", "--rate", "2", "--count", "2", "--rows", "16"]
+        done = run([program("make_scan_bag"), "-o", path] + options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with rosbag.Bag(str(path)) as bag:
+            stamps = [scan.header.stamp.to_sec() for _, scan, _ in bag.read_messages(["/height"])]
+        self.assertEqual(stamps, [2e9, 2e9 + 0.5])
+
     def test_a_disk_that_is_full_is_one_line(self):
         for call in (
             [program("make_scan_bag"), "-o", "/dev/full"],
