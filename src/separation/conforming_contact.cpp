@@ -108,12 +108,16 @@ Unloading ConformingContact::unloading(const Unloading& by_contacts, double pres
 bool ConformingContact::mayTear(double flattening_energy) const {
   const double rms_height = gap_->rmsGap();
   if (!(flattening_energy > 0.0 && rms_height > 0.0)) return false;
-  const double strength = law_->strength();
   const double wave_number = 4.0 * flattening_energy / (contact_modulus_ * rms_height * rms_height);
-  const double crack_radius =
-      0.5 * kPi * contact_modulus_ * law_->workOfAdhesion() / (strength * strength);
   const double tension = 2.0 * flattening_energy / rms_height;
-  return kPi / wave_number > crack_radius && tension > chosen::kHardlyTense * strength;
+  const auto mayTearUnder = [&](double work, double strength) {
+    const double crack_radius = 0.5 * kPi * contact_modulus_ * work / (strength * strength);
+    return kPi / wave_number > crack_radius && tension > chosen::kHardlyTense * strength;
+  };
+  // water that has left the crack holds it no more
+  return mayTearUnder(law_->workOfAdhesion(), law_->strength()) ||
+         mayTearUnder(law_->workOfAdhesion() + water_.energy(0.0),
+                      law_->strength() + water_.pressure(law_->strongestGap()));
 }
 
 // (S10a)

@@ -359,6 +359,21 @@ TEST(ChangingTexture, framesOfAnyShapeAndWithHolesArePredicted) {
   }
 }
 
+TEST(LongWaves, ofSurfacesThatOnlyWaterBondsMayTearThemToo) {
+  // waves of 502 nm; sawn ones, as dunes, hold half as much by the half-space at 30 %
+  const HeightMap waves = analytic::sine(64, 128, 7.84e-9, 7.84e-9, 0.825e-9, 2);
+  Options options = elastic(45.6e9);
+  options.interface.work_of_adhesion = 0.01327;
+  options.interface.hamaker_constant = 4.02e-20;
+  EXPECT_FALSE(AdhesionModel(options).predict(waves).is_conforming);
+  for (const double humidity : {0.3, 0.7}) {
+    options.capillary.relative_humidity = humidity;
+    const Prediction prediction = AdhesionModel(options).predict(waves);
+    EXPECT_TRUE(prediction.is_conforming) << humidity;
+    EXPECT_EQ(prediction.model.doubt != nullptr, humidity < 0.5) << humidity;
+  }
+}
+
 TEST(LongWaves, thatMayTearBondedSurfacesAreDoubted) {
   // spheres side by side: it tears at the cusps between them
   const Options options = elastic(25e9);
