@@ -24,14 +24,18 @@ bool haveSamePixels(const SurfacePair& left, const SurfacePair& right) {
 std::size_t bytesOf(const PreparedScan& scan) {
   const SurfacePair& model = scan.model_surfaces;
   return bytesOf(scan.surfaces.lower) + bytesOf(scan.surfaces.upper) +
-         (haveSamePixels(scan.surfaces, model) ? 0 : bytesOf(model.lower) + bytesOf(model.upper));
+         (haveSamePixels(scan.surfaces, model) ? 0 : bytesOf(model.lower) + bytesOf(model.upper)) +
+         scan.outside.total() * scan.outside.elemSize();
 }
 
-/// And what they do not show.
+/// And what a prediction of them needs for its flags.
 PreparedScan surfacesAlone(const PreparedScan& scan) {
   PreparedScan alone;
   alone.surfaces = scan.surfaces;
   alone.model_surfaces = scan.model_surfaces;
+  alone.refinement = scan.refinement;
+  alone.outside = scan.outside;
+  alone.tip_limit = scan.tip_limit;
   alone.short_waves = scan.short_waves;
   return alone;
 }

@@ -41,7 +41,7 @@ struct ScannedSurface {
   std::uint64_t number = 0;  ///< no two surfaces have the same
   ScanStatement
       statement;      ///< what it says by itself, newest; no two scans of a part have the same name
-  PreparedScan scan;  ///< its surfaces alone
+  PreparedScan scan;  ///< its surfaces alone, which can be predicted again
 };
 
 /// What is kept of one part.

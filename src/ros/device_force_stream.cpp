@@ -1,6 +1,7 @@
 #include "ros/device_force_stream.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -9,6 +10,9 @@
 #include "errors/error_text.hpp"
 #include "errors/short_number.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "prediction/asked_output.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
@@ -23,7 +27,7 @@ struct Stopped {};
 /// Parts that wait; the one that has waited longest goes.
 constexpr std::size_t kMostWaiting = 100;
 /// Scans that wait for a half-space (HalfSpaceStream), and so half-spaces whose device may still be
-/// at hand.
+/// at hand, and devices that may be judged again.
 constexpr std::size_t kMostHalfSpaces = 8;
 
 Prediction withoutMaps(Prediction prediction) {
@@ -32,6 +36,18 @@ Prediction withoutMaps(Prediction prediction) {
   prediction.contact_map.release();
   prediction.pressure.release();
   return prediction;
+}
+
+bool haveSamePixels(const PreparedScan& one, const PreparedScan& other) {
+  return one.surfaces.lower.heights().data == other.surfaces.lower.heights().data;
+}
+
+/// Of surfaces that are under their counter-surface, for a verdict.
+Prediction predictionOf(const PreparedScan& prepared, const Configuration& settings) {
+  Configuration asked = settings;
+  asked.counter_surface = {};
+  asked.model.output = figuresAlone();
+  return withoutMaps(ScanPredictor(asked).predict(prepared));
 }
 
 /// Of the settings that bear on a device's force.
@@ -75,8 +91,7 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
             {scan.header, provenance, predicted.pool_settings_hash, predicted.scan_id},
             settings,
             scan.scan,
-            withoutMaps(predicted.prediction),
-            predicted.half_space};
+            withoutMaps(predicted.prediction)};
   const ScanStatement statement =
       statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
   std::vector<Task> gone;
@@ -112,8 +127,7 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
 
 bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other,
                                               const std::string& other_hash) const {
-  return scan.surfaces.lower.heights().data == other.surfaces.lower.heights().data &&
-         hash == other_hash;
+  return haveSamePixels(scan, other) && hash == other_hash;
 }
 
 void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
@@ -130,16 +144,29 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
     half_spaces_.erase(std::remove_if(half_spaces_.begin(), half_spaces_.end(), is_older),
                        half_spaces_.end());
     half_spaces_.push_front(std::move(taken));
-    if (half_spaces_.size() > kMostHalfSpaces) half_spaces_.pop_back();
-    const bool is_of_last =
-        last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings));
-    if (!is_of_last || !is_judged_ || !parts_.of(last_->part)) return;
-    const auto is_newer = [this](const Task& waiting) { return waiting.part == last_->part; };
+    forgetHalfSpace();
+    const auto judged =
+        std::find_if(judged_tasks_.begin(), judged_tasks_.end(), [this](const JudgedTask& other) {
+          return half_spaces_.front().isOf(other.finest, other.hash);
+        });
+    if (judged == judged_tasks_.end() || !parts_.of(judged->task.part)) return;
+    const auto is_newer = [&](const Task& waiting) { return waiting.part == judged->task.part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
     ++counts_.offered;
-    waiting_.push_back(*last_);
+    waiting_.push_back(judged->task);
   }
   changed_.notify_all();
+}
+
+void DeviceForceStream::forgetHalfSpace() {
+  if (half_spaces_.size() <= kMostHalfSpaces) return;
+  const auto judges_none = [this](const HalfSpaceOfScan& half_space) {
+    return std::none_of(judged_tasks_.begin(), judged_tasks_.end(), [&](const JudgedTask& judged) {
+      return half_space.isOf(judged.finest, judged.hash);
+    });
+  };
+  const auto oldest = std::find_if(half_spaces_.rbegin(), half_spaces_.rend(), judges_none);
+  if (oldest != half_spaces_.rend()) half_spaces_.erase(std::next(oldest).base());
 }
 
 void DeviceForceStream::loop() {
@@ -156,9 +183,12 @@ void DeviceForceStream::loop() {
       part = parts_.of(
           task->part);  // there as long as its scan waits, but for one that is to be judged again
       if (part) {
-        last_ = task;
         at_hand_ = task->scan.id;
-        is_judged_ = false;
+        const auto is_of_part = [&](const JudgedTask& judged) {
+          return judged.task.part == task->part;
+        };
+        judged_tasks_.erase(std::remove_if(judged_tasks_.begin(), judged_tasks_.end(), is_of_part),
+                            judged_tasks_.end());
       } else {
         ++counts_.skipped;
       }
@@ -219,17 +249,26 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   if (!is_known) {
     const Clock::time_point begin = Clock::now();
     DeviceScans scans = part.together(settings);
+    PreparedScan finest = part.scans[scans.finest()].scan;
+    Prediction of_finest =
+        haveSamePixels(finest, task.newest) ? task.prediction : predictionOf(finest, settings);
     DeviceForce force = make(scans);
     Found found{task.newest,
                 numbers,
                 hash,
                 std::move(scans),
+                std::move(finest),
+                std::move(of_finest),
                 std::move(force),
                 std::chrono::duration<double>(Clock::now() - begin).count()};
     const std::lock_guard<std::mutex> lock(mutex_);
     found_ = std::move(found);
   }
   DeviceForce force = found_->force;
+  const PreparedScan& finest = found_->finest;
+  const Prediction& of_finest = found_->of_finest;
+  const Options on_finest = onFrame(settings.model, settings.device, finest.surfaces);
+  const HalfSpaceCall call = halfSpaceCall(of_finest, finest, on_finest, settings);
   Evidence evidence;
   evidence.device = deviceEvidence(force);
   std::optional<HalfSpaceOfScan> half_space;
@@ -238,28 +277,29 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto known =
         std::find_if(half_spaces_.begin(), half_spaces_.end(),
-                     [&](const HalfSpaceOfScan& other) { return other.isOf(task.newest, hash); });
+                     [&](const HalfSpaceOfScan& other) { return other.isOf(finest, hash); });
     if (known != half_spaces_.end()) half_space = *known;
-    is_judged_ = true;
+    judged_tasks_.push_front({task, finest, hash});
+    if (judged_tasks_.size() > kMostHalfSpaces) judged_tasks_.pop_back();
   }
   if (half_space) {
     evidence.half_space = &half_space->solution;
     evidence.why_half_space = half_space->why;
-  } else if (!task.half_space.objection.empty()) {
-    unsolved = unsolvedHalfSpace(task.half_space.objection);
+  } else if (!call.objection.empty()) {
+    unsolved = unsolvedHalfSpace(call.objection);
     evidence.half_space = &unsolved;
-    evidence.why_half_space = task.half_space.why;
+    evidence.why_half_space = call.why;
   }
   if (part.taken > part.scans.size()) {
     force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " +
                              std::to_string(part.taken) +
                              " scans are kept (max_part_scans and max_part_memory)");
   }
-  verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model,
-                      task.newest.surfaces.lower.cellArea(), evidence);
+  verdict = verdictOf(of_finest, settings.device, settings.uncertainty, on_finest,
+                      finest.surfaces.lower.cellArea(), evidence);
   if (verdict->judge == Judge::kHalfSpace) {
     force =
-        judgedByHalfSpace(std::move(force), task.prediction, model, settings.uncertainty, evidence);
+        judgedByHalfSpace(std::move(force), of_finest, on_finest, settings.uncertainty, evidence);
   }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;
@@ -287,8 +327,7 @@ DeviceForce DeviceForceStream::make(const DeviceScans& scans) {
 }
 
 bool DeviceForceStream::isFoundWith(const StationCase& scan) const {
-  return found_ &&
-         found_->newest.surfaces.lower.heights().data == scan.scan.surfaces.lower.heights().data &&
+  return found_ && haveSamePixels(found_->newest, scan.scan) &&
          found_->hash == forceHash(*scan.settings);
 }
 

@@ -7,9 +7,10 @@
 ///
 /// What is at hand is brought to its end, whatever comes: an answer belongs to the scan of its
 /// stamp and the settings of its prediction. Of each part its newest scan waits; those before are
-/// in its surfaces. A scan without a part waits until the next one comes. Where the same scans come
-/// again with another spring, or a half-space of the newest one comes, the verdict is found anew by
-/// the force that is there.
+/// in its surfaces. A scan without a part waits until the next one comes. The verdict takes the
+/// flags and the half-space of the finest scan, in whatever order the scans came, as programs do
+/// (device_prediction.hpp). Where the same scans come again with another spring, or a half-space of
+/// the finest one comes, the verdict is found anew by the force that is there.
 
 #include <atomic>
 #include <chrono>
@@ -27,7 +28,6 @@
 #include <ros/node_handle.h>
 
 #include "evaluation/device_scans.hpp"
-#include "evaluation/half_space_call.hpp"
 #include "evaluation/part_surfaces.hpp"
 #include "half_space/solution_pause.hpp"
 #include "ros/device_force_conversion.hpp"
@@ -87,9 +87,8 @@ class DeviceForceStream {
     PartName part;
     ScanOfPart scan;
     SettingsOwner::Snapshot settings;
-    PreparedScan newest;       ///< its surfaces
-    Prediction prediction;     ///< of it, without maps
-    HalfSpaceCall half_space;  ///< that was asked for
+    PreparedScan newest;    ///< its surfaces
+    Prediction prediction;  ///< of it, without maps
   };
   /// What was found last, to judge by it again.
   struct Found {
@@ -97,6 +96,8 @@ class DeviceForceStream {
     std::vector<std::uint64_t> numbers;  ///< of the surfaces of the scans
     std::string hash;                    ///< of the settings that bear on the force
     DeviceScans scans;
+    PreparedScan finest;   ///< of the scans
+    Prediction of_finest;  ///< without maps
     DeviceForce force;
     double time = 0.0;  ///< that it took [s]
   };
@@ -119,7 +120,15 @@ class DeviceForceStream {
 
     bool isOf(const PreparedScan& other, const std::string& other_hash) const;
   };
+  /// A part's newest task, once its verdict has looked for a half-space.
+  struct JudgedTask {
+    Task task;
+    PreparedScan finest;  ///< of its scans
+    std::string hash;     ///< as of HalfSpaceOfScan
+  };
 
+  /// With the mutex held: the oldest that judges no device, if there are too many.
+  void forgetHalfSpace();
   void loop();
   /// @return without a verdict if it could not be judged
   DeviceAnswer work(const Task& task, const ScannedPart& part);
@@ -138,10 +147,10 @@ class DeviceForceStream {
   mutable std::mutex mutex_;
   std::optional<Found> found_;  ///< changed by the stream's thread only
   std::deque<HalfSpaceOfScan>
-      half_spaces_;           ///< the newest first; a few, since several scans wait for theirs
-  std::optional<Task> last_;  ///< that is at hand, or was
+      half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
+  /// The newest first, one of each part: a half-space that comes now is too late for these.
+  std::deque<JudgedTask> judged_tasks_;
   std::optional<std::uint64_t> at_hand_;  ///< ScanOfPart::id
-  bool is_judged_ = false;                ///< a half-space that comes now is too late for it
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

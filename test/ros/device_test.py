@@ -165,11 +165,9 @@ class DeviceTest(unittest.TestCase):
         )
         for name in FIGURES:
             self.assertEqual(getattr(device, name), expected[name], name)
-        # by several scans the verdict is of the newest frame's doubts, by one the two are the same
-        if len(surfaces) == 1:
-            for name in ("margin", "margin_lower", "margin_upper", "restoring_force"):
-                self.assertEqual(getattr(device, name), expected[name], name)
-            self.assertEqual(device.sticks, STICKS[expected["sticks"]])
+        for name in ("margin", "margin_lower", "margin_upper", "restoring_force"):
+            self.assertEqual(getattr(device, name), expected[name], name)
+        self.assertEqual(device.sticks, STICKS[expected["sticks"]], device.reason)
         self.assertTrue(
             device.pull_off_force_lower < device.pull_off_force < device.pull_off_force_upper
         )
@@ -391,6 +389,18 @@ class DeviceTest(unittest.TestCase):
         self.assertNotEqual(
             self.verdicts_until_the_final_one(prediction.header.stamp)[-1].word, "unknown"
         )
+
+    def test_5c_the_order_of_the_scans_does_not_change_the_word(self):
+        fine = surface(9, 4e-9)
+        coarse = np.random.RandomState(8).normal(scale=2e-9, size=(32, 32)).astype(np.float32)
+        for serial, scans in enumerate(([coarse, fine], [fine, coarse])):
+            for scan in scans:
+                prediction, device = self.send(scan, ("order", str(serial)))
+            flags = prediction.regime_flags & StictionPrediction.FLAG_ONE_PIXEL
+            self.assertEqual(flags != 0, scan is coarse)
+            self.assert_is_force_of(device, scans)
+            last = self.verdicts_until_the_final_one(prediction.header.stamp)[-1]
+            self.assertEqual((last.word, last.by_device_force), ("no", True), last.reason)
 
     def test_6_without_a_contact_area_nothing_is_made(self):
         self.settings.update_configuration({"contact_area": 0.0})

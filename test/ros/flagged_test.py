@@ -121,6 +121,27 @@ class FlaggedTest(unittest.TestCase):
         first = next(message for message in self.verdicts.messages if message.header.stamp == stamp)
         self.assertEqual((first.is_final, first.waits_for), (False, "device_force half_space"))
 
+    def test_1b_the_half_space_of_the_finest_scan_judges_whichever_came_last(self):
+        """Of scans with the same pixels the largest comes first; the small one has no flag."""
+        scans = {"smooth": smooth(11), "rough": rough(11)[: SMALL // 2, : SMALL // 2].copy()}
+        found = {}
+        for order in (("smooth", "rough"), ("rough", "smooth")):
+            stamps = {name: self.send(scans[name], " then ".join(order))[0] for name in order}
+            self.of(self.solutions, stamps["smooth"], "the half-space")
+            found[order] = self.judged_by_half_space(
+                self.devices, stamps[order[-1]], "the device by the half-space"
+            )
+            final = self.of(
+                self.verdicts,
+                stamps[order[-1]],
+                "the final verdict",
+                lambda message: message.is_final and message.verdict_by == "half_space",
+            )
+            self.assertEqual(final.margin, found[order].margin)
+        first, second = found.values()
+        for name in VERDICT:
+            self.assertEqual(getattr(first, name), getattr(second, name), name)
+
     def test_2_other_scans_are_not_solved(self):
         first, prediction = self.send(rough(1))
         self.assertFalse(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)

@@ -54,6 +54,22 @@ TEST(PartSurfaces, HoldsWhatStatesTheSamePart) {
   EXPECT_EQ(parts.bytes(), 4 * kBytes);
 }
 
+/// Its flags depend on more than its surfaces.
+TEST(PartSurfaces, AScanIsPredictedAgainAsItCame) {
+  PartSurfaces parts(kPlenty);
+  PreparedScan scan = surfaceOf(1.0);
+  scan.refinement = 2;
+  scan.tip_limit = 3e-9;
+  scan.outside = cv::Mat(kSide, kSide, CV_8UC1, cv::Scalar(255));
+  parts.add(kPart, 1, named("a"), scan);
+  const ScannedPart found = parts.of(kPart).value();
+  const PreparedScan& again = found.scans.front().scan;
+  EXPECT_EQ(again.refinement, 2);
+  EXPECT_EQ(again.tip_limit, 3e-9);
+  EXPECT_EQ(again.outside.data, scan.outside.data);
+  EXPECT_EQ(parts.bytes(), kBytes + kSide * kSide);
+}
+
 TEST(PartSurfaces, HoldsOneScanWithoutAPart) {
   PartSurfaces parts(kPlenty);
   parts.add(kNone, 1, named("a"), surfaceOf(1.0));
