@@ -108,6 +108,7 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
     for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
       if (waiting->part == part) {  // its surface is among those of the newer one
         ++counts_.skipped;
+        awaited_.remove(waiting->scan);
         waiting = waiting_.erase(waiting);
       } else {
         const bool is_forgotten =
@@ -116,6 +117,7 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
       }
     }
     if (waiting_.size() == kMostWaiting) leave(waiting_.begin());
+    awaited_.add(task.scan);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_all();
@@ -153,6 +155,7 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
     const auto is_newer = [&](const Task& waiting) { return waiting.part == judged->task.part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
     ++counts_.offered;
+    awaited_.add(judged->task.scan);
     waiting_.push_back(judged->task);
   }
   changed_.notify_all();
@@ -183,7 +186,6 @@ void DeviceForceStream::loop() {
       part = parts_.of(
           task->part);  // there as long as its scan waits, but for one that is to be judged again
       if (part) {
-        at_hand_ = task->scan.id;
         const auto is_of_part = [&](const JudgedTask& judged) {
           return judged.task.part == task->part;
         };
@@ -200,10 +202,6 @@ void DeviceForceStream::loop() {
       return;
     } catch (const std::exception& error) {  // of the publisher: the next part must get its turn
       warn_(task->scan.header, "device_force: " + reasonOf(error));
-    }
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      at_hand_.reset();
     }
     judged_(answer);
   }
@@ -348,11 +346,14 @@ Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
   return evidence;
 }
 
-bool DeviceForceStream::isExpected(std::uint64_t scan_id) const {
+bool DeviceForceStream::isExpected(const ScanOfPart& scan) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return at_hand_ == scan_id ||
-         std::any_of(waiting_.begin(), waiting_.end(),
-                     [&](const Task& task) { return task.scan.id == scan_id; });
+  return awaited_.has(scan);
+}
+
+void DeviceForceStream::taken(const ScanOfPart& scan) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  awaited_.remove(scan);
 }
 
 void DeviceForceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -30,6 +30,7 @@
 #include "evaluation/device_scans.hpp"
 #include "evaluation/part_surfaces.hpp"
 #include "half_space/solution_pause.hpp"
+#include "ros/awaited_scans.hpp"
 #include "ros/device_force_conversion.hpp"
 #include "ros/device_verdict_topic.hpp"
 #include "ros/live_predictor.hpp"
@@ -74,8 +75,11 @@ class DeviceForceStream {
   /// The same as evidence for a verdict on the scan, under the load of the case alone.
   Evidence evidenceOf(const StationCase& scan) const;
 
-  /// Whether a scan waits for its device's force, or is at hand. @param scan_id ScanOfPart::id
-  bool isExpected(std::uint64_t scan_id) const;
+  /// Whether the force of a scan of the same part is to come: that scan waits, or is at hand, or
+  /// its answer has not been taken.
+  bool isExpected(const ScanOfPart& scan) const;
+  /// An answer has come to whoever makes use of it.
+  void taken(const ScanOfPart& scan);
 
   /// One status with every count; WARN if a scan since the last report has no force.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -150,7 +154,7 @@ class DeviceForceStream {
       half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
   /// The newest first, one of each part: a half-space that comes now is too late for these.
   std::deque<JudgedTask> judged_tasks_;
-  std::optional<std::uint64_t> at_hand_;  ///< ScanOfPart::id
+  AwaitedScans awaited_;
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

@@ -22,7 +22,8 @@ void fillAwaited(const AwaitedAnswers& awaited, DeviceVerdict& message) {
   message.waits_for = awaited.device_force ? kDeviceForceTopic : "";
   if (awaited.half_space)
     message.waits_for += std::string(message.waits_for.empty() ? "" : " ") + kHalfSpaceTopic;
-  message.is_final = static_cast<decltype(message.is_final)>(message.waits_for.empty());
+  message.is_final =
+      static_cast<decltype(message.is_final)>(message.waits_for.empty() && !awaited.is_overtaken);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ std::vector<DeviceVerdict> DeviceVerdicts::answer(const DeviceAnswer& answer,
   if (answer.verdict) {
     said.message = deviceVerdictMessage(answer, awaited);
   } else {
-    if (before == said_.end()) return {};
+    if (before == said_.end() || awaited.is_overtaken) return {};
     said.message = before->message;
     fillAwaited(awaited, said.message);
     if (said.message.waits_for == before->message.waits_for) return {};

@@ -16,10 +16,11 @@
 
 namespace mems_stiction {
 
-/// What may still change the answer on a scan.
+/// What may still change the answer on a scan, or leaves the last word to another one.
 struct AwaitedAnswers {
-  bool device_force = false;
-  bool half_space = false;
+  bool device_force = false;  ///< of a scan of its part
+  bool half_space = false;    ///< of a scan of its part
+  bool is_overtaken = false;  ///< a newer scan of its part has come
 };
 
 /// What judges the device of a scan.
@@ -38,8 +39,8 @@ DeviceVerdict deviceVerdictMessage(const DeviceAnswer& answer, const AwaitedAnsw
 class DeviceVerdicts {
  public:
   /// What is to be published, the last one of which is latched. Without a verdict, what was said of
-  /// the scan before is said again if it waits for less now. After a late answer on an earlier scan
-  /// the newest scan's follows: whoever comes finds that one.
+  /// the scan before is said again if it waits for less now, unless it is overtaken. After a late
+  /// answer on an earlier scan the newest scan's follows: whoever comes finds that one.
   std::vector<DeviceVerdict> answer(const DeviceAnswer& answer, const AwaitedAnswers& awaited,
                                     bool is_of_newest_scan);
   /// Whether the last answer on the part of a scan, or on a scan that names none, was by the force

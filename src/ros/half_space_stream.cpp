@@ -63,6 +63,7 @@ void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predic
                                    [&](const Task& waiting) { return waiting.scan.id == scan.id; });
     if (same != waiting_.end()) {
       ++counts_.skipped;
+      awaited_.remove(same->scan);
       waiting_.erase(same);
     }
     while (waiting_.size() >= most) {
@@ -70,6 +71,7 @@ void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predic
       gone.push_back(std::move(waiting_.front()));
       waiting_.erase(waiting_.begin());
     }
+    awaited_.add(task.scan);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_all();
@@ -91,17 +93,12 @@ void HalfSpaceStream::loop() {
       if (stopping_) return;
       task = std::move(waiting_.back());
       waiting_.pop_back();
-      at_hand_ = task->scan.id;
     }
     std::optional<Verdict> verdict;
     try {
       verdict = solve(*task);
     } catch (const std::exception& error) {  // of the publishers: the next scan must get its turn
       warn_(task->predicted.header, "half-space: " + reasonOf(error));
-    }
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      at_hand_.reset();
     }
     if (!stopping_) judged_(task->scan, verdict);
   }
@@ -147,11 +144,14 @@ std::optional<Verdict> HalfSpaceStream::solve(const Task& task) {
   return verdict;
 }
 
-bool HalfSpaceStream::isExpected(std::uint64_t scan_id) const {
+bool HalfSpaceStream::isExpected(const ScanOfPart& scan) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return at_hand_ == scan_id ||
-         std::any_of(waiting_.begin(), waiting_.end(),
-                     [&](const Task& task) { return task.scan.id == scan_id; });
+  return awaited_.has(scan);
+}
+
+void HalfSpaceStream::taken(const ScanOfPart& scan) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  awaited_.remove(scan);
 }
 
 void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const cv::Mat& map) const {

@@ -25,6 +25,7 @@
 #include "half_space/solution_pause.hpp"
 #include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "ros/awaited_scans.hpp"
 #include "ros/live_predictor.hpp"
 
 namespace mems_stiction {
@@ -63,8 +64,11 @@ class HalfSpaceStream {
   /// - @p scan where its prediction comes from
   void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan);
 
-  /// Whether a scan waits for its solution, or is at hand. @param scan_id ScanOfPart::id
-  bool isExpected(std::uint64_t scan_id) const;
+  /// Whether the solution of a scan of the same part is to come: that scan waits, or is at hand, or
+  /// its answer has not been taken.
+  bool isExpected(const ScanOfPart& scan) const;
+  /// An answer has come to whoever makes use of it.
+  void taken(const ScanOfPart& scan);
 
   /// One status with every count; WARN if a scan since the last report has no solution.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -101,8 +105,8 @@ class HalfSpaceStream {
   std::atomic<bool> stopping_{false};
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Task> waiting_;             ///< the newest at the end
-  std::optional<std::uint64_t> at_hand_;  ///< ScanOfPart::id
+  std::vector<Task> waiting_;  ///< the newest at the end
+  AwaitedScans awaited_;
   Counts counts_;
   std::uint64_t reported_failed_ = 0;
   std::string last_failure_;

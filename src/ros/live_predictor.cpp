@@ -1,5 +1,6 @@
 #include "ros/live_predictor.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "configuration/named_files.hpp"
@@ -96,17 +97,34 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
 }
 
 void LivePredictor::addToPart(const ReceivedScan& scan, PredictedScan& predicted) {
+  const ScanOfPart added{scan.header, predicted.provenance, predicted.pool_settings_hash,
+                         predicted.scan_id};
   predicted.part = parts_.add(
-      keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), predicted.scan_id,
+      keyOf(added), predicted.scan_id,
       statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
+  if (!keyOf(added).isStated()) return;
+  const auto is_overtaken = [&](const ScanOfPart& other) { return areOfOnePart(added, other); };
+  newest_of_parts_.erase(
+      std::remove_if(newest_of_parts_.begin(), newest_of_parts_.end(), is_overtaken),
+      newest_of_parts_.end());
+  newest_of_parts_.push_front(added);
+  if (newest_of_parts_.size() > kMostParts) newest_of_parts_.pop_back();
 }
 
 std::optional<PartNews> LivePredictor::judgeAgain(const ScanOfPart& scan, const Verdict& verdict) {
   const PartKey key = keyOf(scan);
   const std::optional<PooledVerdict> pooled = parts_.judgeAgain(key, scan.id, verdict);
   if (!pooled) return std::nullopt;
-  const bool is_of_last_part = last_ && !(keyOf(last_->part) < key) && !(key < keyOf(last_->part));
-  return PartNews{*pooled, is_of_last_part ? last_->part : scan};
+  const ScanOfPart& newest = newestOf(scan);
+  const bool is_of_pool = newest.pool_settings_hash == scan.pool_settings_hash;
+  return PartNews{*pooled, is_of_pool ? newest : scan};
+}
+
+const ScanOfPart& LivePredictor::newestOf(const ScanOfPart& scan) const {
+  const auto found =
+      std::find_if(newest_of_parts_.begin(), newest_of_parts_.end(),
+                   [&](const ScanOfPart& newest) { return areOfOnePart(newest, scan); });
+  return found == newest_of_parts_.end() ? scan : *found;
 }
 
 PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputOptions& output) {

@@ -11,6 +11,7 @@
 /// as in cycles. No running setting bears on its preparation.
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "configuration/running_settings.hpp"
@@ -100,6 +101,8 @@ class LivePredictor {
   /// Forgets the accumulated deformation.
   void resetSurface();
 
+  /// The scan of the same part that came last; of a scan without a part, it itself.
+  const ScanOfPart& newestOf(const ScanOfPart& scan) const;
   /// Whether the scan is the last one (ScanOfPart::id).
   bool isLast(std::uint64_t scan_id) const { return last_ && last_->part.id == scan_id; }
   /// As it came; null: there is none yet.
@@ -147,7 +150,8 @@ class LivePredictor {
   KnownFigures figures_;
   std::uint64_t unstamped_ = 0;  ///< scans without a stamp so far
   PartScans parts_{kMostParts, kMostScansOfAPart};
-  Wear wear_;  ///< of the contacts so far
+  std::deque<ScanOfPart> newest_of_parts_;  ///< that of the part that was scanned last at the front
+  Wear wear_;                               ///< of the contacts so far
 };
 
 }  // namespace mems_stiction

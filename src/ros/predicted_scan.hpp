@@ -11,6 +11,7 @@
 #include <std_msgs/Header.h>
 
 #include "evaluation/half_space_call.hpp"
+#include "evaluation/part_scans.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
@@ -26,6 +27,14 @@ struct ScanOfPart {
   std::uint64_t id =
       0;  ///< tells it from the others: its stamp, or a number of its own if it has none
 };
+
+/// Whether both state the same part, or are one scan.
+inline bool areOfOnePart(const ScanOfPart& one, const ScanOfPart& other) {
+  const Provenance& of = one.provenance;
+  const bool has_part = PartKey{of.part_id, of.serial_id, ""}.isStated();
+  return one.id == other.id || (has_part && of.part_id == other.provenance.part_id &&
+                                of.serial_id == other.provenance.serial_id);
+}
 
 /// What all scans of a part say, and the last of them.
 struct PartNews {

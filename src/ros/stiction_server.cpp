@@ -56,7 +56,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                               accounting_.warn(header, text);
                             },
                             [this](const auto& scan, const auto& verdict) {
-                              worker_.push([=] { takeHalfSpaceVerdict(scan, verdict); });
+                              worker_.push([=] {
+                                half_space_->taken(scan);
+                                takeHalfSpaceVerdict(scan, verdict);
+                              });
                             },
                             [this](const auto& scan, const auto& solution, const auto& why) {
                               if (device_force_) device_force_->takeHalfSpace(scan, solution, why);
@@ -75,7 +78,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                                 accounting_.warn(header, text);
                               },
                               [this](const auto& answer) {
-                                worker_.push([=] { takeDeviceVerdict(answer); });
+                                worker_.push([=] {
+                                  device_force_->taken(answer.last);
+                                  takeDeviceVerdict(answer);
+                                });
                               })),
       verdict_(withQueue(handle, service_queue_)),
       worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
@@ -445,10 +451,12 @@ void StictionServer::takeDeviceVerdict(const DeviceAnswer& answer) {
 }
 
 void StictionServer::publishVerdict(const DeviceAnswer& answer) {
-  verdict_.publish(answer,
-                   {device_force_ && device_force_->isExpected(answer.last.id),
-                    half_space_ && half_space_->isExpected(answer.last.id)},
-                   predictor_.isLast(answer.last.id));
+  const ScanOfPart& newest = predictor_.newestOf(answer.last);
+  const AwaitedAnswers awaited{device_force_ && device_force_->isExpected(answer.last),
+                               half_space_ && half_space_->isExpected(answer.last),
+                               newest.id != answer.last.id};
+  verdict_.publish(answer, awaited, predictor_.isLast(answer.last.id));
+  if (awaited.is_overtaken) publishVerdict({newest, std::nullopt, std::nullopt});
 }
 
 void StictionServer::showLastScan() {

@@ -88,6 +88,7 @@ class StictionServer {
   void offerToDevice(const PredictedScan& predicted);
   /// What is said of a scan and its part once the device's own force has judged it, or cannot.
   void takeDeviceVerdict(const DeviceAnswer& answer);
+  /// And what was said of the newest scan of the part, if that waits for less now.
   void publishVerdict(const DeviceAnswer& answer);
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);

@@ -9,6 +9,7 @@
 
 #include "../support/message_cases.hpp"
 #include "device/device_force_fields.hpp"
+#include "ros/awaited_scans.hpp"
 #include "ros/device_force_conversion.hpp"
 #include "ros/device_verdict_topic.hpp"
 
@@ -116,6 +117,37 @@ TEST(DeviceVerdicts, AnAnswerThatNeverCameIsSaidOnlyIfItWasAwaited) {
   EXPECT_EQ(again.front().waits_for, "device_force");
   none.last.id = 7;
   EXPECT_TRUE(verdicts.answer(none, {}, false).empty());
+}
+
+TEST(DeviceVerdicts, AnOvertakenScanStaysProvisional) {
+  DeviceVerdicts verdicts;
+  verdicts.answer(answerOn(1, "a", 1.0), {false, true, false}, true);
+  verdicts.answer(answerOn(2, "a", 2.0), {false, true, false}, true);
+  DeviceAnswer late = answerOn(1, "a", 1.5);
+  EXPECT_FALSE(verdicts.answer(late, {false, false, true}, false).front().is_final);
+  late.verdict.reset();
+  EXPECT_TRUE(verdicts.answer(late, {false, false, true}, false).empty());
+  DeviceAnswer newest = answerOn(2, "a", 0.0);
+  newest.verdict.reset();
+  const std::vector<DeviceVerdict> final = verdicts.answer(newest, {}, true);
+  ASSERT_EQ(marginsOf(final), std::vector<double>{2.0});
+  EXPECT_TRUE(final.front().is_final);
+}
+
+TEST(AwaitedScans, AreThoseOfThePartUntilEachAnswerIsTaken) {
+  const ScanOfPart first = answerOn(1, "a", 1.0).last;
+  const ScanOfPart newer = answerOn(2, "a", 1.0).last;
+  const ScanOfPart lone = answerOn(3, "", 1.0).last;
+  AwaitedScans awaited;
+  for (const ScanOfPart& scan : {first, first, lone}) awaited.add(scan);
+  EXPECT_TRUE(awaited.has(newer) && awaited.has(lone));
+  EXPECT_FALSE(awaited.has(answerOn(4, "b", 1.0).last) || awaited.has(answerOn(5, "", 1.0).last));
+  awaited.remove(newer);  // never offered
+  awaited.remove(lone);
+  awaited.remove(first);
+  EXPECT_TRUE(awaited.has(newer)) << "it was offered twice";
+  awaited.remove(first);
+  EXPECT_FALSE(awaited.has(newer) || awaited.has(first) || awaited.has(lone));
 }
 
 /// A frame says less than the device's own force: of an earlier scan of the part, too, whichever

@@ -155,6 +155,28 @@ class FlaggedTest(unittest.TestCase):
         for stamp in stamps:
             self.of(self.solutions, stamp, "the half-space")
 
+    def test_3b_a_part_has_one_final_answer_on_its_newest_scan(self):
+        """The half-space of its first scan, the finest, comes late: others are before its turn."""
+        first, _ = self.send(smooth(12), "late")
+        middle, _ = self.send(smooth(13), "late")
+        between = [self.send(smooth(seed))[0] for seed in range(14, 17)]
+        newest, _ = self.send(rough(12)[: SMALL // 2, : SMALL // 2].copy(), "late")
+        for stamp in [first, middle] + between:
+            self.of(self.solutions, stamp, "the half-space")
+        self.of(
+            self.verdicts, newest, "the final verdict of the part", lambda message: message.is_final
+        )
+        last, _ = self.send(smooth(17))  # whatever was found before has been said by then
+        self.of(
+            self.verdicts,
+            last,
+            "the final verdict of the last scan",
+            lambda message: message.is_final and message.verdict_by == "half_space",
+        )
+        said = [message for message in self.verdicts.messages if message.serial_id == "late"]
+        final = [(message.header.stamp, message.verdict_by) for message in said if message.is_final]
+        self.assertEqual(final, [(newest, "half_space")])
+
     def test_4_one_that_is_too_large_is_left_out_with_a_sentence(self):
         stamp, prediction = self.send(smooth(8, rows=SMALL + 1))
         self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)

@@ -549,8 +549,13 @@ TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
 
   predicted(5, "another");
   EXPECT_EQ(predictor.judgeAgain(second, verdict)->verdict.verdict_by, "half_space");
-  EXPECT_EQ(predictor.judgeAgain(first, verdict)->last.header.stamp, first.header.stamp);
-  EXPECT_FALSE(predictor.judgeAgain(predicted(6, "").first, verdict));  // of no part
+  EXPECT_EQ(predictor.judgeAgain(first, verdict)->last.header.stamp, second.header.stamp);
+  EXPECT_EQ(predictor.newestOf(first).id, second.id);
+  EXPECT_EQ(predictor.newestOf(second).id, second.id);
+  const ScanOfPart lone = predicted(6, "").first;
+  EXPECT_FALSE(predictor.judgeAgain(lone, verdict));
+  predicted(7, "");
+  EXPECT_EQ(predictor.newestOf(lone).id, lone.id);
 }
 
 TEST(LivePredictor, ScansWithoutAStampAreJudgedAgainEachByItself) {
@@ -598,9 +603,18 @@ TEST(LivePredictor, FiguresOfTheLastScanAreThoseOfItsNewestPrediction) {
 
 TEST(LivePredictor, ScansUnderAnotherLoadAreAPoolOfTheirOwn) {
   LivePredictor predictor(deviceConfiguration(), false);
-  predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions());
+  const ReceivedScan scan = scanOfPart(3, "lot 3");
+  const PredictedScan predicted = predictor.predictScan(scan, OutputOptions());
+  const ScanOfPart first{scan.header, predicted.provenance, predicted.pool_settings_hash,
+                         predicted.scan_id};
   setLoad(predictor, 0.0, 4e-6);
-  EXPECT_EQ(predictor.predictScan(scanOfPart(4, "lot 3"), OutputOptions()).part->scan_count, 1);
+  const PredictedScan other = predictor.predictScan(scanOfPart(4, "lot 3"), OutputOptions());
+  EXPECT_EQ(other.part->scan_count, 1);
+  // it overtakes the scan of the other pool all the same, but is not its last
+  const std::optional<PartNews> news = predictor.judgeAgain(first, Verdict());
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->last.id, first.id);
+  EXPECT_EQ(predictor.newestOf(first).id, other.scan_id);
   setLoad(predictor, 0.0, 2e-6);
   EXPECT_EQ(predictor.predictScan(scanOfPart(5, "lot 3"), OutputOptions()).part->scan_count, 2);
 }
