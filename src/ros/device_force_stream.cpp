@@ -148,10 +148,10 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
     half_spaces_.push_front(std::move(taken));
     forgetHalfSpace();
     const auto judged =
-        std::find_if(judged_tasks_.begin(), judged_tasks_.end(), [this](const JudgedTask& other) {
-          return half_spaces_.front().isOf(other.finest, other.hash);
+        std::find_if(newest_tasks_.begin(), newest_tasks_.end(), [this](const NewestTask& newest) {
+          return half_spaces_.front().isOf(newest.finest, newest.hash);
         });
-    if (judged == judged_tasks_.end() || !parts_.of(judged->task.part)) return;
+    if (judged == newest_tasks_.end() || !parts_.of(judged->task.part)) return;
     const auto is_newer = [&](const Task& waiting) { return waiting.part == judged->task.part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
     ++counts_.offered;
@@ -161,14 +161,20 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
   changed_.notify_all();
 }
 
+bool DeviceForceStream::mayJudge(const HalfSpaceOfScan& half_space) const {
+  return std::any_of(newest_tasks_.begin(), newest_tasks_.end(), [&](const NewestTask& newest) {
+    const std::optional<ScannedPart> part = parts_.of(newest.task.part);
+    return part && std::any_of(part->scans.begin(), part->scans.end(), [&](const auto& scanned) {
+             return half_space.isOf(scanned.scan, newest.hash);
+           });
+  });
+}
+
 void DeviceForceStream::forgetHalfSpace() {
   if (half_spaces_.size() <= kMostHalfSpaces) return;
-  const auto judges_none = [this](const HalfSpaceOfScan& half_space) {
-    return std::none_of(judged_tasks_.begin(), judged_tasks_.end(), [&](const JudgedTask& judged) {
-      return half_space.isOf(judged.finest, judged.hash);
-    });
-  };
-  const auto oldest = std::find_if(half_spaces_.rbegin(), half_spaces_.rend(), judges_none);
+  const auto oldest =
+      std::find_if(half_spaces_.rbegin(), half_spaces_.rend(),
+                   [this](const HalfSpaceOfScan& half_space) { return !mayJudge(half_space); });
   if (oldest != half_spaces_.rend()) half_spaces_.erase(std::next(oldest).base());
 }
 
@@ -186,11 +192,13 @@ void DeviceForceStream::loop() {
       part = parts_.of(
           task->part);  // there as long as its scan waits, but for one that is to be judged again
       if (part) {
-        const auto is_of_part = [&](const JudgedTask& judged) {
-          return judged.task.part == task->part;
+        const auto is_of_part = [&](const NewestTask& newest) {
+          return newest.task.part == task->part;
         };
-        judged_tasks_.erase(std::remove_if(judged_tasks_.begin(), judged_tasks_.end(), is_of_part),
-                            judged_tasks_.end());
+        newest_tasks_.erase(std::remove_if(newest_tasks_.begin(), newest_tasks_.end(), is_of_part),
+                            newest_tasks_.end());
+        newest_tasks_.push_front({*task, forceHash(*task->settings), {}});
+        if (newest_tasks_.size() > kMostHalfSpaces) newest_tasks_.pop_back();
       } else {
         ++counts_.skipped;
       }
@@ -277,8 +285,7 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
         std::find_if(half_spaces_.begin(), half_spaces_.end(),
                      [&](const HalfSpaceOfScan& other) { return other.isOf(finest, hash); });
     if (known != half_spaces_.end()) half_space = *known;
-    judged_tasks_.push_front({task, finest, hash});
-    if (judged_tasks_.size() > kMostHalfSpaces) judged_tasks_.pop_back();
+    newest_tasks_.front().finest = finest;
   }
   if (half_space) {
     evidence.half_space = &half_space->solution;

@@ -124,14 +124,16 @@ class DeviceForceStream {
 
     bool isOf(const PreparedScan& other, const std::string& other_hash) const;
   };
-  /// A part's newest task, once its verdict has looked for a half-space.
-  struct JudgedTask {
+  /// A part's newest task.
+  struct NewestTask {
     Task task;
-    PreparedScan finest;  ///< of its scans
     std::string hash;     ///< as of HalfSpaceOfScan
+    PreparedScan finest;  ///< of its scans; empty until its verdict has looked for a half-space
   };
 
-  /// With the mutex held: the oldest that judges no device, if there are too many.
+  /// With the mutex held: whether it is of a scan of one of the newest tasks' parts.
+  bool mayJudge(const HalfSpaceOfScan& half_space) const;
+  /// With the mutex held: the oldest that may not judge, if there are too many.
   void forgetHalfSpace();
   void loop();
   /// @return without a verdict if it could not be judged
@@ -152,8 +154,7 @@ class DeviceForceStream {
   std::optional<Found> found_;  ///< changed by the stream's thread only
   std::deque<HalfSpaceOfScan>
       half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
-  /// The newest first, one of each part: a half-space that comes now is too late for these.
-  std::deque<JudgedTask> judged_tasks_;
+  std::deque<NewestTask> newest_tasks_;  ///< the newest first, one of each part
   AwaitedScans awaited_;
   std::condition_variable changed_;
   PartSurfaces parts_;

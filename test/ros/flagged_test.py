@@ -142,6 +142,16 @@ class FlaggedTest(unittest.TestCase):
         for name in VERDICT:
             self.assertEqual(getattr(first, name), getattr(second, name), name)
 
+    def test_1c_the_half_space_of_the_finest_scan_judges_after_those_of_many_others(self):
+        first, _ = self.send(smooth(20), "many")
+        device = self.judged_by_half_space(self.devices, first, "the device by the half-space")
+        for seeds in (range(21, 26), range(26, 31)):
+            stamps = [self.send(smooth(seed, rows=SMALL - 8), "many")[0] for seed in seeds]
+            for stamp in stamps:
+                self.of(self.solutions, stamp, "the half-space")
+        last = self.of(self.verdicts, stamp, "the final verdict", lambda message: message.is_final)
+        self.assertEqual((last.verdict_by, device.verdict_by), ("half_space", "half_space"))
+
     def test_2_other_scans_are_not_solved(self):
         first, prediction = self.send(rough(1))
         self.assertFalse(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
