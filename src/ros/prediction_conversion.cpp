@@ -132,8 +132,11 @@ PartVerdict partVerdictMessage(const PooledVerdict& part, const ScanOfPart& last
   message.scan_name = last.provenance.scan_name;
   message.part_id = last.provenance.part_id;
   message.serial_id = last.provenance.serial_id;
+  PooledVerdict governing = part;  // the message does not say which ratio governs
+  if (part.governed_by == kGovernedByPeeling) governing.margin = {};
+  if (part.governed_by == kGovernedByForce) governing.peel_number = {};
   MessageFields fields;
-  visitPartVerdictFields(part, fields);
+  visitPartVerdictFields(governing, fields);
   fields.fill(message);
   message.reason = withoutCommas(part.reason);
   message.flags = regimeFlagList(part.regime_flags);

@@ -67,9 +67,9 @@ ScanStatement statementOf(const Row& row) {
   scan.reason = row.text("sticks").empty() ? "the device is not stated" : row.text("reason");
   scan.judge = row.text("verdict_by") == judgeText(Judge::kHalfSpace) ? Judge::kHalfSpace
                                                                       : Judge::kPrediction;
-  const std::string governed_by = row.text("governed_by");
-  if (governed_by != kGovernedByPeeling) scan.margin = row.ratio("margin");
-  if (governed_by != kGovernedByForce) scan.peel_number = row.ratio("peel_number");
+  scan.margin = row.ratio("margin");
+  scan.peel_number = row.ratio("peel_number");
+  scan.governed_by = row.text("governed_by");
   scan.margin_transition = row.number("margin_transition");
   scan.place_deviation = row.number("place_deviation");
   scan.contacts = static_cast<int>(row.count("pull_off_contact_count"));

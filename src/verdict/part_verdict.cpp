@@ -109,7 +109,21 @@ struct Sample {
   }
 };
 
+/// Of a scan.
+const JudgedRatio& marginOf(const ScanStatement& scan) { return scan.margin; }
+const JudgedRatio& peelNumberOf(const ScanStatement& scan) { return scan.peel_number; }
 using RatioOf = std::function<const JudgedRatio&(const ScanStatement&)>;
+
+/// Those of the scans whose word rests on the ratio.
+/// - @p other what governs the others
+std::vector<const ScanStatement*> governed(const std::vector<const ScanStatement*>& scans,
+                                           const RatioOf& ratio_of, const char* other) {
+  std::vector<const ScanStatement*> found;
+  for (const ScanStatement* scan : scans) {
+    if (scan->governed_by != other && isKnown(ratio_of(*scan))) found.push_back(scan);
+  }
+  return found;
+}
 
 /// Of one device all peel numbers have one sign: those of beams that buckle are below 0.
 PooledRatio pooled(const std::vector<const ScanStatement*>& scans, const RatioOf& ratio_of) {
@@ -160,25 +174,33 @@ double pooledTransition(const std::vector<const ScanStatement*>& scans) {
   return logarithms.empty() ? Verdict::kNotStated : std::exp(meanOf(logarithms));
 }
 
-/// Over scans that count.
-Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVerdict& part) {
+/// Over scans that count. States which ratio decides.
+/// - @p pulled those of them that the margin governs
+/// - @p peeled those that the peel number governs
+Finding findingOf(const std::vector<const ScanStatement*>& pulled,
+                  const std::vector<const ScanStatement*>& peeled, PooledVerdict& part) {
   Finding finding{Sticks::kNo, "nothing holds the contact: no adhesion"};
-  const bool has_margin = isKnown(part.margin);
+  const bool has_margin = !pulled.empty();
+  const auto isGoverned = [](const ScanStatement* scan) { return !scan->governed_by.empty(); };
+  const bool is_governed = std::any_of(pulled.begin(), pulled.end(), isGoverned) ||
+                           std::any_of(peeled.begin(), peeled.end(), isGoverned);
   const auto worst = [&](const std::string& name, const PooledRatio& ratio) {
     return "; " + countText(part.counted_scans, "scan") + ", the lowest " + name + " " +
            shortNumber(ratio.worst) + " of " + ratio.worst_scan;
   };
   if (has_margin) {
-    const double lowest = std::min(part.margin.lower, pooledTransition(scans));
+    const double lowest = std::min(part.margin.lower, pooledTransition(pulled));
+    if (is_governed) part.governed_by = kGovernedByForce;
     finding = judgedRatio("margin", part.margin.value, lowest, part.margin.upper, false, false);
     finding.reason += worst("margin", part.margin);
   }
-  if (isKnown(part.peel_number)) {
+  if (!peeled.empty()) {
     const PooledRatio& peel = part.peel_number;
     Finding of_beam = judgedRatio("peel number", peel.value, peel.lower, peel.upper, false, false);
     of_beam.reason += worst("peel number", peel);
     if (!has_margin || gravity(of_beam.sticks) > gravity(finding.sticks)) {
       finding = std::move(of_beam);
+      if (is_governed) part.governed_by = kGovernedByPeeling;
     }
   }
   return finding;
@@ -273,14 +295,10 @@ void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
   statement.sticks = verdict.sticks;
   statement.reason = verdict.reason;
   statement.judge = verdict.judge;
-  statement.margin = statement.peel_number = {};
-  if (verdict.governed_by != kGovernedByPeeling) {
-    statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
-  }
-  if (verdict.governed_by != kGovernedByForce) {
-    statement.peel_number = {verdict.peel_number, verdict.peel_number_lower,
-                             verdict.peel_number_upper};
-  }
+  statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
+  statement.peel_number = {verdict.peel_number, verdict.peel_number_lower,
+                           verdict.peel_number_upper};
+  statement.governed_by = verdict.governed_by;
   statement.margin_transition = verdict.margin_transition;
   statement.place_deviation = verdict.place_deviation;
   statement.regime_flags = verdict.regime_flags;
@@ -297,11 +315,13 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
   part.counted_scans = static_cast<int>(counted.size());
   part.verdict_by = judgesOf(counted);
   part.warnings = warningsOf(scans, counted, part);
-  part.margin =
-      pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.margin; });
-  part.peel_number = pooled(
-      counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.peel_number; });
+  const std::vector<const ScanStatement*> pulled = governed(counted, marginOf, kGovernedByPeeling);
+  const std::vector<const ScanStatement*> peeled =
+      governed(counted, peelNumberOf, kGovernedByForce);
+  part.margin = pooled(pulled.empty() ? counted : pulled, marginOf);
+  part.peel_number = pooled(peeled.empty() ? counted : peeled, peelNumberOf);
   if (scans.size() == 1) {
+    part.governed_by = scans.front().governed_by;
     part.sticks = scans.front().sticks;
     part.reason = scans.front().reason;
     return part;
@@ -311,7 +331,7 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
         scans.empty() ? "no scan yet" : "no scan makes a statement; " + scans.back().reason;
     return part;
   }
-  Finding finding = findingOf(counted, part);
+  Finding finding = findingOf(pulled, peeled, part);
   if (finding.sticks == Sticks::kNo) {
     const Finding objection = objectionTo(scans, part);
     if (objection.sticks != Sticks::kNo)
@@ -328,6 +348,7 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Ver
   judgeAgain(judged, of_device);
   static_cast<JudgedRatio&>(part.margin) = judged.margin;
   static_cast<JudgedRatio&>(part.peel_number) = judged.peel_number;
+  part.governed_by = judged.governed_by;
   part.sticks = of_device.sticks;
   part.reason = of_device.reason;
   if (part.scan_count > 1) part.reason += "; " + countText(part.scan_count, "scan") + " together";

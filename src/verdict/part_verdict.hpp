@@ -37,6 +37,8 @@
 /// - A scan that may not say "no" for its few contacts alone counts, since contacts of several
 ///   scans add up; together they must be three.
 /// - A scan without adhesion (an infinite margin) counts, and is left out of the mean.
+/// - Of a beam that is pulled in one scan and peeled in another the worse of both ratios decides,
+///   each of the scans that it governs. A ratio that governs none is stated beside, of all scans.
 ///
 /// A device whose own force has been found from all scans of the part together (device_force.hpp)
 /// is judged by that: the ratios, the word and the reason are those of its verdict, in which the
@@ -87,6 +89,7 @@ struct ScanStatement {
   Judge judge = Judge::kPrediction;
   JudgedRatio margin;
   JudgedRatio peel_number;
+  std::string governed_by;  ///< which of both decides: Verdict::governed_by
   double margin_transition =
       Verdict::kNotStated;  ///< with the prefactors of the JKR-DMT transition [-]
   double place_deviation =
@@ -112,13 +115,14 @@ struct PooledRatio : JudgedRatio {
 /// What all scans of a part say together.
 struct PooledVerdict {
   Sticks sticks = Sticks::kUnknown;
-  std::string reason;      ///< one sentence for people
-  std::string verdict_by;  ///< prediction, half_space, or "prediction and half_space"; empty if no
-                           ///< scan counts
-  int scan_count = 0;      ///< all
-  int counted_scans = 0;   ///< of them make a statement: the figures are theirs
-  PooledRatio margin;
-  PooledRatio peel_number;
+  std::string reason;       ///< one sentence for people
+  std::string verdict_by;   ///< prediction, half_space, or "prediction and half_space"; empty if no
+                            ///< scan counts
+  int scan_count = 0;       ///< all
+  int counted_scans = 0;    ///< of them make a statement: the figures are theirs
+  PooledRatio margin;       ///< of the scans that it governs; where it governs none, of all
+  PooledRatio peel_number;  ///< the same
+  std::string governed_by;  ///< which of both decides: Verdict::governed_by
   std::uint32_t regime_flags = 0;     ///< of any of its scans
   std::vector<std::string> warnings;  ///< about the scans, in words
   /// Where the device's own force judges [N].

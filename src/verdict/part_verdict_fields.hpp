@@ -51,6 +51,10 @@ void visitPartVerdictFields(VerdictType& part, Visitor&& visit) {
         part.device_pull_off_force_lower);
   visit({"device_pull_off_force_upper", "N", "97.5 % quantile of device_pull_off_force"},
         part.device_pull_off_force_upper);
+  visit({"governed_by", "",
+         "force or peeling: which of margin and peel number decides whether a beam sticks; empty "
+         "where one is all there is"},
+        part.governed_by);
 }
 
 }  // namespace mems_stiction

@@ -140,10 +140,12 @@ class FacesTest(unittest.TestCase):
             decides = "peel_number" if governed == "peeling" else "margin"
             for name, figures in found.items():
                 said = figures.get("verdict", figures)
+                if "part" in name:
+                    self.assertEqual(said["governed_by"], governed, "%s: %s" % (kind, name))
                 self.assertEqual(word_of(said), word_of(first), "%s: %s" % (kind, name))
                 for ratio in (
                     RATIOS
-                    if "part" not in name and name != "design"
+                    if name != "design"
                     else [decides + end for end in ("", "_lower", "_upper")]
                 ):
                     value, expected = said[ratio], first[ratio]

@@ -151,29 +151,45 @@ void expectOneDistribution(const Judged& judged) {
       << verdict.reason;
 }
 
-/// The figures that every message with a verdict has.
+/// A ratio with its interval: the verdict's, or none.
+void expectFigure(double value, double expected, bool is_stated, const std::string& what) {
+  if (is_stated && !std::isnan(expected)) {
+    EXPECT_EQ(value, expected) << what;
+  } else {
+    EXPECT_TRUE(std::isnan(value)) << what;
+  }
+}
+
+template <typename Message>
+void expectMargin(const Message& message, const Verdict& verdict, bool is_stated,
+                  const std::string& what) {
+  expectFigure(message.margin, verdict.margin, is_stated, what);
+  expectFigure(message.margin_lower, verdict.margin_lower, is_stated, what);
+  expectFigure(message.margin_upper, verdict.margin_upper, is_stated, what);
+}
+
+template <typename Message>
+void expectPeelNumber(const Message& message, const Verdict& verdict, bool is_stated,
+                      const std::string& what) {
+  expectFigure(message.peel_number, verdict.peel_number, is_stated, what);
+  expectFigure(message.peel_number_lower, verdict.peel_number_lower, is_stated, what);
+  expectFigure(message.peel_number_upper, verdict.peel_number_upper, is_stated, what);
+}
+
+/// Both ratios side by side, and which one governs.
 template <typename Message>
 void expectSameVerdict(const Message& message, const Verdict& verdict, const std::string& what) {
   EXPECT_EQ(static_cast<Sticks>(message.sticks), verdict.sticks) << what;
-  EXPECT_EQ(message.margin, verdict.margin) << what;
-  EXPECT_EQ(message.margin_lower, verdict.margin_lower) << what;
-  EXPECT_EQ(message.margin_upper, verdict.margin_upper) << what;
+  EXPECT_EQ(message.governed_by, verdict.governed_by) << what;
+  expectMargin(message, verdict, true, what);
+  expectPeelNumber(message, verdict, true, what);
 }
 
-/// Parts state the ratio that governs alone.
-template <typename Message>
-void expectSamePart(const Message& message, const Verdict& verdict, const std::string& what) {
-  EXPECT_EQ(static_cast<Sticks>(message.sticks), verdict.sticks) << what;
-  const bool is_peeled = verdict.governed_by == kGovernedByPeeling;
-  EXPECT_EQ(is_peeled ? message.peel_number : message.margin,
-            is_peeled ? verdict.peel_number : verdict.margin)
-      << what;
-  EXPECT_EQ(is_peeled ? message.peel_number_lower : message.margin_lower,
-            is_peeled ? verdict.peel_number_lower : verdict.margin_lower)
-      << what;
-  EXPECT_EQ(is_peeled ? message.peel_number_upper : message.margin_upper,
-            is_peeled ? verdict.peel_number_upper : verdict.margin_upper)
-      << what;
+/// PartVerdict has no governed_by: it states the ratio that governs alone.
+void expectSamePart(const PartVerdict& message, const Verdict& verdict) {
+  EXPECT_EQ(static_cast<Sticks>(message.sticks), verdict.sticks);
+  expectMargin(message, verdict, verdict.governed_by != kGovernedByPeeling, "PartVerdict");
+  expectPeelNumber(message, verdict, verdict.governed_by != kGovernedByForce, "PartVerdict");
 }
 
 void expectSameInMessages(const Judged& judged) {
@@ -204,10 +220,10 @@ void expectSameInMessages(const Judged& judged) {
 
   const std::vector<ScanStatement> statements = {statementOf("scan", judged.prediction, verdict)};
   const PooledVerdict part = pooledVerdictOf(statements, verdict);
-  expectSamePart(partVerdictMessage(part, {}), verdict, "PartVerdict");
+  expectSamePart(partVerdictMessage(part, {}), verdict);
   answer.part = part;
   const DeviceVerdict of_part = deviceVerdictMessage(answer, {});
-  expectSamePart(of_part, verdict, "DeviceVerdict of a part");
+  expectSameVerdict(of_part, verdict, "DeviceVerdict of a part");
   EXPECT_EQ(of_part.word, sticksText(verdict.sticks));
 }
 

@@ -174,6 +174,38 @@ TEST(PartVerdict, countsTheWorseOfSpringAndBeam) {
   EXPECT_NE(part.reason.find("peel number 0.5"), std::string::npos) << part.reason;
 }
 
+TEST(PartVerdict, statesTheRatioThatDoesNotGovernBesideTheOneThatDoes) {
+  ScanStatement pulled = scanOf("a", 3.0, 0.2, 0.1);
+  pulled.peel_number = {0.5, 0.4, 0.6};
+  pulled.governed_by = kGovernedByForce;
+  ScanStatement peeled = pulled;
+  peeled.governed_by = kGovernedByPeeling;
+  for (const std::vector<ScanStatement>& scans :
+       {std::vector<ScanStatement>{pulled}, {pulled, pulled}, {peeled}, {peeled, peeled}}) {
+    const PooledVerdict part = pooledVerdictOf(scans);
+    EXPECT_EQ(part.governed_by, scans.front().governed_by);
+    EXPECT_NEAR(part.margin.value, 3.0, 1e-12);
+    EXPECT_NEAR(part.peel_number.value, 0.5, 1e-12);
+  }
+  EXPECT_EQ(pooledVerdictOf({pulled, pulled}).sticks, Sticks::kNo);
+  EXPECT_EQ(pooledVerdictOf({peeled, peeled}).sticks, Sticks::kYes);
+
+  pulled.peel_number = {0.01, 0.01, 0.01};
+  const PooledVerdict mixed = pooledVerdictOf({pulled, peeled});
+  EXPECT_EQ(mixed.sticks, Sticks::kYes);
+  EXPECT_EQ(mixed.governed_by, kGovernedByPeeling);
+  EXPECT_EQ(mixed.peel_number.value, 0.5) << "of the scan that it governs";
+
+  Verdict of_device;
+  of_device.margin = 2.0;
+  of_device.peel_number = 4.0;
+  of_device.governed_by = kGovernedByForce;
+  const PooledVerdict judged = pooledVerdictOf({pulled, peeled}, of_device);
+  EXPECT_EQ(judged.margin.value, 2.0);
+  EXPECT_EQ(judged.peel_number.value, 4.0);
+  EXPECT_EQ(judged.governed_by, kGovernedByForce);
+}
+
 TEST(PartVerdict, keepsTheSignOfAPeelNumberBelowZero) {
   ScanStatement scan;
   scan.scan_name = "a";
