@@ -80,7 +80,7 @@ def sweep_line(point):
                 "-",
                 "-",
                 "-",
-                "no",
+                STICKS_NAMES.get(point.sticks, "?"),
             )
         ).rstrip()
     bound, digits = bound_of(point), digits_of(point)

@@ -107,8 +107,11 @@ class Loop {
     row.direction = direction;
     if (!is_open_) fill(contact_.advance(voltage, mechanical_load), row);
     const bool closes_again = row.voltage >= pull_in_;
-    is_open_ = is_open_ ||
-               (direction == SweepDirection::kDown && row.holding_margin >= 1.0 && !closes_again);
+    if (!is_open_ && direction == SweepDirection::kDown && row.holding_margin >= 1.0 &&
+        !closes_again) {
+      is_open_ = true;
+      word_at_opening_ = row.sticks;  // the median opens it: its interval may leave that open
+    }
     if (!is_open_) {
       row.lands = landsAt(row);
       return row;
@@ -120,7 +123,7 @@ class Loop {
     open.direction = direction;
     open.status = contact_.contact().status;
     open.is_open = true;
-    open.sticks = Sticks::kNo;
+    open.sticks = word_at_opening_;
     open.lands = Lands::kNo;
     return open;
   }
@@ -199,7 +202,8 @@ class Loop {
   Verdict verdict_;
   ForceInterval pull_off_interval_;
   bool is_open_ = false;
-  bool has_landed_ = false;  ///< by the field alone
+  Sticks word_at_opening_ = Sticks::kNo;  ///< of the contact that opens
+  bool has_landed_ = false;               ///< by the field alone
 };
 
 }  // namespace

@@ -11,7 +11,9 @@
 ///           when the load is then taken away (verdict.hpp).
 ///     down  the contact made under the highest voltage stays, its elastic part shrinking with the
 ///           load, until the spring overcomes pull-off force, field and mechanical load together;
-///           from there on the device is open.
+///           from there on the device is open. The median of the margin opens it, so the rows
+///           of the open device have the word of the contact that opened: marginal where the
+///           interval of the margin leaves open whether the device comes off.
 ///
 /// So the same voltage has two rows, and between them lies the hysteresis. Approach and contact
 /// area grow with every row upward; the pull-off force grows too, but for F_w, which moves with the

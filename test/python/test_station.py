@@ -120,7 +120,9 @@ class SweepTextTest(unittest.TestCase):
         ):
             self.assertEqual(line.index(line.split()[-1]), header.index("sticks"), line)
         self.assertIn(">= 200 nN", sweep_line(point(0.0, status=1, is_lower_bound=True)))
-        self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[6] == "open")
+        for sticks, word in ((0, "no"), (1, "marginal")):
+            words = sweep_line(point(0.0, 1, is_open=True, sticks=sticks)).split()
+            self.assertEqual((words[6], words[-1]), ("open", word))
 
     def test_what_is_not_among_the_voltages_is_said(self):
         points = [

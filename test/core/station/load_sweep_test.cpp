@@ -314,6 +314,21 @@ TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
   }
 }
 
+TEST(LoadSweep, anOpenRowHasTheWordOfTheContactThatOpens) {
+  const HeightMap scan = rough();
+  const auto sweep = [&](double force) {
+    return sweepLoads(insulated(), scan, upTo(20.0, 3), deviceFor(scan, force), {}, {});
+  };
+  const double force = sweep(1e-12).rows.back().pull_off_force;
+  for (const double margin : {1.01, 1e3}) {
+    const LoadSweepResult result = sweep(margin * force);
+    const Sticks word = result.rows[2].sticks;  // of the contact at the highest voltage
+    EXPECT_EQ(word, margin < 2.0 ? Sticks::kMarginal : Sticks::kNo);
+    ASSERT_TRUE(result.rows.back().is_open);
+    EXPECT_EQ(result.rows.back().sticks, word);
+  }
+}
+
 TEST(LoadSweep, whatAContactPotentialHoldsIsCountedOnce) {
   const HeightMap scan = sphere();
   Options options = insulated();
