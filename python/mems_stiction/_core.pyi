@@ -342,6 +342,7 @@ class Configuration:
 class ContactCyclesResult:
     cycles: Records
     first_sticking_cycle: int
+    why_no_margin: str
     lower: HeightMap
     upper: HeightMap
 
@@ -371,6 +372,7 @@ class LoadSweepResult:
     summaries: Records
     pull_in_voltage: float
     pull_in_reason: str
+    why_no_margin: str
 
 class MadeSurface:
     def __init__(self, scans: Sequence[DeviceScan], counter_surface: Sequence[DeviceScan], configuration: Configuration, number: int, depth: Optional[float]) -> None: ...

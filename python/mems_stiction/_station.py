@@ -31,7 +31,8 @@ class LoadSweep(ReadOnly):
     summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage,
     lowest_sticking_voltage, opening_voltage, lowest_safe_voltage [V], as in msg/SweepSummary.msg;
     NaN: none of the sweep. pull_in_voltage [V]: at which the electrodes close; NaN where
-    pull_in_reason names the settings that it lacks.
+    pull_in_reason names the settings that it lacks. why_no_margin: of the first point, in words;
+    empty where it has a margin or a peel number.
     """
 
     def __init__(self, core: _core.LoadSweepResult) -> None:
@@ -39,11 +40,13 @@ class LoadSweep(ReadOnly):
         self.summaries: np.recarray
         self.pull_in_voltage: float
         self.pull_in_reason: str
+        self.why_no_margin: str
         self.__dict__.update(
             points=records_of(core.points),
             summaries=records_of(core.summaries),
             pull_in_voltage=core.pull_in_voltage,
             pull_in_reason=core.pull_in_reason,
+            why_no_margin=core.why_no_margin,
         )
 
     def __repr__(self) -> str:
@@ -74,17 +77,20 @@ class ContactCycles(ReadOnly):
     peel_number_lower, peel_number_upper [-], is_peeled, is_lower_bound (of
     pull_off_force).
     first_sticking_cycle: 0 if none surely sticks, or neither a spring nor a beam is stated.
+    why_no_margin: of the first contact, in words; empty where it has a margin or a peel number.
     lower, upper: both surfaces after the last contact [m], refined as preprocessing/refine says.
     """
 
     def __init__(self, core: _core.ContactCyclesResult, surface: Surface) -> None:
         self.cycles: np.recarray
         self.first_sticking_cycle: int
+        self.why_no_margin: str
         self.lower: Optional[np.ndarray]
         self.upper: Optional[np.ndarray]
         self.__dict__.update(
             cycles=records_of(core.cycles),
             first_sticking_cycle=core.first_sticking_cycle,
+            why_no_margin=core.why_no_margin,
             lower=surface.map_of(core.lower.pixels),
             upper=surface.map_of(core.upper.pixels),
         )

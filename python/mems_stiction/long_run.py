@@ -14,7 +14,9 @@ from mems_stiction.arguments import is_lost
 from mems_stiction.interrupted import Waiting
 from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.row_table import units_of, write_rows
+from mems_stiction.srv import GetPrediction
 from mems_stiction.station_node import CannotRun, no_node
+from mems_stiction.station_text import why_no_margin
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 MOST_NUMBERS = 1000000  # of a range; the node takes no more
@@ -70,6 +72,17 @@ def _wait(client, handle, action):
             seen = time.monotonic()
         elif time.monotonic() - seen > SILENCE:
             raise CannotRun("the node of %s has gone" % action)
+
+
+def why_no_margin_of(node, stamp):
+    """Why the scan of this stamp has no margin, as the node says of its last scan; empty if that is
+    another one, or has a margin."""
+    try:
+        answer = rospy.ServiceProxy(node + "/get_prediction", GetPrediction)()
+    except (rospy.ServiceException, rospy.ROSException):
+        return ""
+    is_of_scan = answer.success and answer.prediction.header.stamp == stamp
+    return why_no_margin(answer.prediction) if is_of_scan else ""
 
 
 def spread(items, most):

@@ -45,6 +45,7 @@ from mems_stiction.station_text import (
     cycle_sentences,
     safe_voltage_words,
     sweep_sentences,
+    why_no_margin,
 )
 from mems_stiction.sweep_jumps import jumps_of
 
@@ -374,7 +375,7 @@ class PageState:
             "sweep",
             goal,
             points,
-            sweep_sentences(result, width=None) if points else [],
+            sweep_sentences(result, width=None, why=self._why_no_margin(result)) if points else [],
             result.message,
             safe=safe,
             jumps=_jumps_of(result) if points else [],
@@ -394,7 +395,14 @@ class PageState:
             }
             for cycle in result.cycles
         ]
-        self._end("cycles", goal, thinned_points(points), cycle_sentences(result), result.message)
+        sentences = cycle_sentences(result, width=None, why=self._why_no_margin(result))
+        self._end("cycles", goal, thinned_points(points), sentences, result.message)
+
+    def _why_no_margin(self, result):
+        """Of the scan of a run, if that is the newest one; else empty."""
+        with self._lock:
+            is_of_newest = self._latest and self._latest[1] == result.header.stamp.to_nsec()
+            return why_no_margin(self._latest[2]) if is_of_newest else ""
 
     def _end(self, kind, goal, points, sentences, message, **more):
         with self._lock:

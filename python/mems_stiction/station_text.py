@@ -9,6 +9,7 @@ from mems_stiction.prediction_text import (
     bound_of,
     contact_area_of,
     digits_of,
+    has_verdict,
     ratio_name,
     ratio_value,
 )
@@ -107,7 +108,8 @@ def _ratio(point, digits):
     )
 
 
-def _has_ratio(points):
+def has_ratio(points):
+    """Whether one of them has a margin or a peel number."""
     return any(
         not math.isnan(ratio_value(point))
         for point in points
@@ -115,9 +117,21 @@ def _has_ratio(points):
     )
 
 
-def sweep_sentences(result, width=WIDTH):
+def why_no_margin(prediction):
+    """The reason of a verdict that has neither margin nor peel number; else empty."""
+    return "" if has_verdict(prediction) else prediction.reason
+
+
+def _no_ratio(result, why, width):
+    """why: there is none; empty: as the result says, of the Python module."""
+    why = why or getattr(result, "why_no_margin", "")
+    return textwrap.wrap("There is no margin: %s." % why, width or math.inf) if why else [NO_RATIO]
+
+
+def sweep_sentences(result, width=WIDTH, why=""):
     """What the loop says: where it releases, where it sticks, where it opens, pull-in, and the
-    hysteresis. width: letters of a line; None: each sentence is one."""
+    hysteresis. width: letters of a line; None: each sentence is one. why: there is no margin, if
+    it is known."""
     sentences = []
     for summary in result.summaries:
         sentences.append("Pressed with %s:" % with_unit(summary.mechanical_load, "N"))
@@ -169,8 +183,8 @@ def sweep_sentences(result, width=WIDTH):
         sentences.append("Pull-in voltage: not stated" + (" (%s)" % reason if reason else ""))
     else:
         sentences.append("Pull-in voltage: %s" % with_unit(result.pull_in_voltage, "V"))
-    if not _has_ratio(result.points):
-        return sentences + [NO_RATIO]
+    if not has_ratio(result.points):
+        return sentences + _no_ratio(result, why, width)
     sentences.append(
         "Margin: restoring force over pull-off force, once the load is gone; above 1 the device "
         "opens."
@@ -254,7 +268,7 @@ def _safe_spans(summary, points):
 
 def _verdicts(summary, points):
     """The rows' verdicts, if there is a device."""
-    if not _has_ratio(points):
+    if not has_ratio(points):
         return []
     runs = verdict_runs(points, summary.mechanical_load)
     return [
@@ -342,7 +356,8 @@ def cycle_line(cycle):
     )
 
 
-def cycle_sentences(result):
+def cycle_sentences(result, width=WIDTH, why=""):
+    """How the force goes, and whether the device comes off. width, why: as of sweep_sentences()."""
     if not len(result.cycles):
         return []
     first, last = result.cycles[0], result.cycles[-1]
@@ -363,7 +378,7 @@ def cycle_sentences(result):
         sentences.append("From contact %d on nothing flows any more." % settled[0])
     judged = [cycle for cycle in result.cycles if not math.isnan(ratio_value(cycle))]
     if not judged:
-        sentences.append(NO_RATIO)
+        sentences += _no_ratio(result, why, width)
     elif result.first_sticking_cycle:
         sticks_on = all(
             cycle.sticks == YES

@@ -73,10 +73,12 @@ void bindStation(py::module& module) {
       .def_property_readonly("points", &pointsOf)
       .def_property_readonly("summaries", &summariesOf)
       .def_readonly("pull_in_voltage", &LoadSweepResult::pull_in_voltage)
-      .def_readonly("pull_in_reason", &LoadSweepResult::pull_in_reason);
+      .def_readonly("pull_in_reason", &LoadSweepResult::pull_in_reason)
+      .def_readonly("why_no_margin", &LoadSweepResult::why_no_margin);
   py::class_<ContactCyclesResult, Cycles>(module, "ContactCyclesResult")
       .def_property_readonly("cycles", &cyclesOf)
       .def_readonly("first_sticking_cycle", &ContactCyclesResult::first_sticking_cycle)
+      .def_readonly("why_no_margin", &ContactCyclesResult::why_no_margin)
       .def_property_readonly(
           "lower", [](const ContactCyclesResult& result) { return result.surfaces.lower; })
       .def_property_readonly(

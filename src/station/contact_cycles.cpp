@@ -92,6 +92,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.peel_number_upper = verdict.peel_number_upper;
     row.is_peeled = isPeeled(verdict);
     row.pull_off_interval = pullOffInterval(prediction, options, uncertainty);
+    if (cycle == 1 && std::isnan(row.ratio())) result.why_no_margin = verdict.reason;
     result.cycles.push_back(row);
     if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0)
       result.first_sticking_cycle = cycle;

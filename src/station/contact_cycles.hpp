@@ -14,6 +14,7 @@
 ///         RunControl());
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
@@ -48,6 +49,9 @@ struct ContactCycle {
   double peel_number_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
   double peel_number_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
   bool is_peeled = false;  ///< the peel number decides, not the margin (isPeeled())
+
+  /// The one of margin and peel number that decides [-].
+  double ratio() const { return is_peeled ? peel_number : margin; }
 };
 
 /// What the contacts said, in order.
@@ -55,6 +59,8 @@ struct ContactCyclesResult {
   std::vector<ContactCycle> cycles;
   int first_sticking_cycle =
       0;  ///< the first whose verdict is "yes"; 0 = none, or neither a spring nor a beam stated
+  std::string why_no_margin;  ///< of the first contact: the reason of its verdict, where that has
+                              ///< neither margin nor peel number
   SurfacePair
       surfaces;  ///< after the last contact, the upper one in its own z; a plane starts from 0
   bool is_complete = false;  ///< false: cancelled

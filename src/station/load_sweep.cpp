@@ -100,6 +100,9 @@ class Loop {
         cell_area_(scan.cell_area),
         pull_in_(pull_in) {}
 
+  /// Of the last contact that was made.
+  const Verdict& verdict() const { return verdict_; }
+
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
     LoadSweepRow row;
     row.voltage = voltage;
@@ -299,6 +302,8 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces,
       const int place = is_up ? step : 2 * (up_count - 1) - step;
       result.rows.push_back(loop.next(voltages[static_cast<std::size_t>(place)], mechanical_load,
                                       is_up ? SweepDirection::kUp : SweepDirection::kDown));
+      if (result.rows.size() == 1 && std::isnan(result.rows.front().ratio()))
+        result.why_no_margin = loop.verdict().reason;
       control.report(static_cast<int>(result.rows.size()), total);
     }
     result.summaries.push_back(summaryOf(mechanical_load, result.rows));

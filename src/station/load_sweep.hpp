@@ -144,6 +144,8 @@ struct LoadSweepResult {
   std::vector<LoadSweepSummary> summaries;       ///< one per mechanical load that was finished
   double pull_in_voltage = Verdict::kNotStated;  ///< [V]
   std::string pull_in_reason;  ///< which settings it lacks; empty when it is known
+  std::string why_no_margin;   ///< of the first row: the reason of its verdict, where that has
+                               ///< neither margin nor peel number
   bool is_complete = false;    ///< false: cancelled
 };
 

@@ -329,6 +329,9 @@ class StationTest(unittest.TestCase):
                 coarse, PITCH, voltages=[0], mechanical_loads=[0, 1e-7], **settings
             )
             cycles = mems_stiction.cycle_contact(coarse, PITCH, count=2, **settings)
+            for run in (sweep, cycles):
+                self.assertIn("the scan does not show what holds", run.why_no_margin)
+                self.assertIn("There is no margin: the scan does not show what holds", str(run))
             words = sweep.points.sticks.tolist() + cycles.cycles.sticks.tolist()
             self.assertEqual(words, [3] * 4, own_force)
 

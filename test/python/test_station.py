@@ -230,6 +230,14 @@ class SweepTextTest(unittest.TestCase):
             "beam.",
             sweep_sentences(SimpleNamespace(points=nothing, summaries=[], pull_in_voltage=NAN)),
         )
+        why = "the scan does not show what holds"
+        judged = SimpleNamespace(
+            points=nothing, summaries=[], pull_in_voltage=NAN, why_no_margin=why
+        )
+        said = "There is no margin: %s." % why
+        self.assertIn(said, sweep_sentences(judged))
+        judged.why_no_margin = ""
+        self.assertIn(said, sweep_sentences(judged, why=why))
 
     def test_no_difference_is_no_hysteresis(self):
         self.assertIsNone(widest_gap([point(0.0), point(20.0), point(0.0, 1)], 1e-6))

@@ -351,6 +351,18 @@ class StateTest(unittest.TestCase):
         self.assertFalse([text for text in sentences if text.startswith("    ")])
         self.assertTrue(any(text.startswith("  jump") and len(text) > 130 for text in sentences))
 
+    def test_a_run_without_a_margin_says_why_if_it_is_of_the_newest_scan(self):
+        state = PageState()
+        state.add_prediction(SECOND, prediction(reason="the scan does not show what holds"))
+        cycles = CycleContactResult(cycles=[CyclePoint(cycle=1, margin=NAN, peel_number=NAN)])
+        for stamp, why in ((1, "the scan does not show what holds"), (2, "it needs device/")):
+            cycles.header.stamp.secs = stamp
+            state.add_cycles("goal", cycles)
+            sentences = state.snapshot()["runs"]["cycles"]["sentences"]
+            self.assertTrue(
+                any(text.startswith("There is no margin: " + why) for text in sentences), sentences
+            )
+
     def test_the_whole_device_judges_once_its_force_is_there(self):
         state = PageState()
         awaiting = prediction(

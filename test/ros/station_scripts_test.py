@@ -11,6 +11,7 @@ import time
 import unittest
 
 import dynamic_reconfigure.client
+import numpy as np
 import rospy
 import rostest
 from mems_stiction.msg import (
@@ -171,6 +172,21 @@ class StationScriptsTest(unittest.TestCase):
         self.assertEqual(len(rows), 45)
         self.assertRegex(rows[0]["settings_hash"], "^[0-9a-f]{16}$")
         self.assertEqual(rows[0]["settings_hash"], self.predictions.messages[-1].settings_hash)
+
+    def test_3b2_why_there_is_no_margin_is_said(self):
+        scans = len(self.predictions.messages)
+        coarse = np.random.RandomState(8).normal(scale=5e-9, size=(64, 64)).astype(np.float32)
+        self.station.send(coarse)
+        prediction = self.predictions.wait(scans + 1)[scans]
+        self.assertIn("the scan does not show what holds", prediction.reason)
+        for program, arguments in (
+            ("sweep_load", ["--voltages", "0,5"]),
+            ("cycle_contact", ["--count", "2"]),
+        ):
+            status, output, errors = run(program, *arguments)
+            self.assertEqual(status, DONE, errors)
+            self.assertIn("There is no margin: the scan does not show what holds", output)
+            self.assertNotIn("it needs device/spring_stiffness", output)
 
     def test_3c_what_pull_in_lacks_is_named(self):
         settings = rospy.get_param("stiction_node/device/electrode_area")
