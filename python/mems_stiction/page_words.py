@@ -13,6 +13,7 @@ from mems_stiction.prediction_text import (
     bound_of,
     flag_names,
     flag_words,
+    has_device,
     judge_words,
     ratio_name,
 )
@@ -76,14 +77,6 @@ def with_unit(value, unit):
 def ratio_text(value):
     """A margin or a peel number: "12.3", "infinite"."""
     return "infinite" if math.isinf(value) else ratio(value)
-
-
-def has_device(prediction):
-    """Whether a spring or a beam is stated at all; where the whole device's force is on its way,
-    the frame has no figure of them."""
-    return "device_force" in prediction.reason or not (
-        math.isnan(prediction.restoring_force) and math.isnan(prediction.peel_number)
-    )
 
 
 def verdict_of(prediction):

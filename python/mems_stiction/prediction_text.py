@@ -108,6 +108,14 @@ def has_verdict(prediction):
     return not (math.isnan(prediction.margin) and math.isnan(prediction.peel_number))
 
 
+def has_device(prediction):
+    """Whether a spring or a beam is stated at all; where the whole device's force is on its way,
+    the frame has no figure of them."""
+    return "device_force" in prediction.reason or not (
+        math.isnan(prediction.restoring_force) and math.isnan(prediction.peel_number)
+    )
+
+
 def table_header(with_verdict=False):
     """Two lines; the columns are those of table_line()."""
     top = _COLUMNS % ("", "", "rms", "pull-off", "contact", "", "contacts", "", "", "")

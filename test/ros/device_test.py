@@ -291,14 +291,27 @@ class DeviceTest(unittest.TestCase):
         try:
             wait_for_listener("prediction", "/print_predictions")
             wait_for_listener("device_force", "/print_predictions")
-            _, device = self.send(surface(10))
-            lines = [process.stdout.readline() for _ in range(4)]  # two of the head
+            self.settings.update_configuration({"spring_stiffness": 0.0})
+            self.station.send(surface(10))
+            plain = [process.stdout.readline() for _ in range(3)]  # two of the head
+            self.settings.update_configuration({"spring_stiffness": 10.0})
+            again = process.stdout.readline()
+            _, device = self.send(surface(11))
+            lines = [process.stdout.readline()]
+            while "device: " not in lines[-1]:
+                lines.append(process.stdout.readline())
         finally:
             process.terminate()
             process.communicate()
-        self.assertTrue(lines[2].startswith("1 scan  "), lines)
+        self.assertNotIn("sticks", plain[1])
+        self.assertTrue(plain[2].startswith("1 scan  "), plain)
+        self.assertTrue(again.startswith("1 scan "), again)
+        self.assertEqual(len(lines), 4, lines)
+        self.assertTrue(lines[1].rstrip().endswith("margin  sticks"), lines)
+        self.assertTrue(lines[2].startswith("2 scan  "), lines)
+        self.assertEqual(lines[2][lines[1].index("sticks") :].split()[0], "unknown", lines)
         self.assertEqual(
-            lines[3].rstrip("\n"), device_line("1 scan", device)
+            lines[3].rstrip("\n"), device_line("2 scan", device)
         )  # not that of the scan before, which is latched
 
     def test_4_under_another_load_it_is_found_and_else_judged_again(self):
