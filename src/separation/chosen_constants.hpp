@@ -135,11 +135,13 @@ constexpr int kParts = 512;
 constexpr double kAccuracy = 1.0 / kParts;
 /// From one displacement to the next z0 + |D| grows by this share.
 constexpr double kStep = 0.08;
-/// The step in z0 where half of the cells that come in reach do so within z0/2, as those of a flat
-/// film beside a few summits. Without (infinity) the force of such a film is up to 6 times out, and
-/// moves by that with 0.03 nm of the summits' height; 1/4 moves it by 20 %.
+/// The step in z0 where this share of the cells that come in reach, and more than were in, lie
+/// within z0/2, as those of a flat film beside a few summits; it begins so many z0 before them.
+/// Without (infinity) the force of such a film is up to 6 times out, and moves by that with 0.03 nm
+/// of the summits' height; a step of 1/4 moves it by 20 %.
 constexpr double kFineStep = 0.125;
 constexpr double kAtOnce = 0.75;
+constexpr double kReach = 2.0;
 /// A parabola's vertex that rises by more than this over the strongest state is computed. Without
 /// (infinity) forces of flat films beside summits are up to 4 times too large.
 constexpr double kVertexRise = 0.05;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "numeric/constants.hpp"
 
@@ -141,19 +142,25 @@ double approachBefore(int steps, double range) {
   return range * (1.0 - std::pow(1.0 + chosen::kStep, steps));
 }
 
-/// Whether most of the cells with gaps between two ones lie nearly at one height.
-/// - @p window of gaps that counts as one [m]
-bool areOfOneHeight(const FrameSums& frame, double from, double to, double window) {
-  double before = frame.cellsBelow(from);
-  double middle = frame.cellsBelow(from + 0.5 * window);
-  const double most = chosen::kAtOnce * (frame.cellsBelow(to) - before);
-  for (double end = from + window; end < to + window; end += 0.5 * window) {
-    const double below = frame.cellsBelow(end);
-    if (below - before > most) return true;
-    before = middle;
-    middle = below;
+/// Where many cells come in reach nearly at once, as those of a flat film beside a few summits: at
+/// their smallest gap [m]; infinite where none do.
+double filmBetween(const FrameSums& frame, double from, double to) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double window = 0.25 * frame.law().range();
+  const double before = frame.cellsBelow(from);
+  const double count = frame.cellsBelow(to) - before;
+  if (!(count > before)) return kNone;
+  // what contains more than half of them contains the middle one
+  double low = from;
+  double high = to;
+  while (high - low > 0.25 * window) {
+    const double middle = 0.5 * (low + high);
+    if (!(low < middle && middle < high)) break;
+    (frame.cellsBelow(middle) - before < 0.5 * count ? low : high) = middle;
   }
-  return false;
+  const double first = std::max(low - window, from);
+  const double within = frame.cellsBelow(high + window) - frame.cellsBelow(first);
+  return within > chosen::kAtOnce * count ? first : kNone;
 }
 
 /// The approach of the next state, whose D + z0 is larger by a share; nearer where many cells come
@@ -165,10 +172,10 @@ double approachAfter(const FrameSums& frame, double approach, double first_touch
   const double range = frame.law().range();
   const double step = chosen::kStep * (range + approach - first_touch);
   const double fine = chosen::kFineStep * range;
-  const bool is_fine =
-      step > 2.0 * fine &&
-      areOfOneHeight(frame, approach, approach + step + range + hysteresis, 0.5 * range);
-  return approach + (is_fine ? fine : step);
+  if (!(step > 2.0 * fine)) return approach + step;
+  const double reach = chosen::kReach * range + hysteresis;
+  const double film = filmBetween(frame, approach, approach + step + reach);
+  return approach + std::clamp(film - reach - approach, fine, step);
 }
 
 /// The next approach of the loading branch, which ends at the contact limit.
