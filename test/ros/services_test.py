@@ -215,7 +215,7 @@ class ServicesTest(unittest.TestCase):
         line = summaries.wait(1)[0].data
         self.assertRegex(
             line,
-            "^scan: sticks unknown \\(.*\\); pull-off force [0-9.e-]+ N; %d contacts"
+            "^scan: sticks unknown \\(.*\\); pull-off force [0-9.e-]+ N; %d contacts?;"
             % prediction.asperity_count,
         )
         self.assertAlmostEqual(
