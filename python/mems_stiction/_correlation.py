@@ -11,7 +11,7 @@ from mems_stiction._arrays import Pitch, ReadOnly, array_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, SurfaceError
 from mems_stiction._types import Heights, Upper
-from mems_stiction.quantities import NORMAL_95
+from mems_stiction.confidence import NORMAL_95
 
 FIELDS = "wavelength shortest longest correlation correlation_lower correlation_upper".split()
 FIELDS += ["rms_lower", "rms_upper", "waves"]

@@ -289,7 +289,8 @@ def roughness(
     Raises SurfaceError without a valid pixel.
     """
     checked = Settings(config, **settings)
-    if any(line.startswith("preprocessing/") for line in changed_lines(checked)):
+    is_stated = config is not None or settings
+    if is_stated and any(line.startswith("preprocessing/") for line in changed_lines(checked)):
         warn([NOT_CLEANED], SettingsWarning)
     surface = scan_of(heights, pitch, checked)
     figures, warnings = _core.roughness(

@@ -11,7 +11,8 @@ import math
 from typing import Any, Dict, Mapping, Optional, Tuple
 
 from mems_stiction.calibration_fit import Interval
-from mems_stiction.quantities import NORMAL_95, ratio, with_interval, with_unit
+from mems_stiction.confidence import NORMAL_95
+from mems_stiction.quantities import ratio, with_interval, with_unit
 
 WORK, HAMAKER, ANGLE, POTENTIAL, FILM = (
     "interface/work_of_adhesion",

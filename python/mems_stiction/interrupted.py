@@ -35,7 +35,7 @@ import signal
 import sys
 import tempfile
 
-from mems_stiction.terminal import visible
+from mems_stiction.quantities import visible
 
 AGAIN_AFTER = 0.02  # [s]
 STATUS = 130  # after TERM and HUP
@@ -225,7 +225,7 @@ def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
     _hold_standard_streams()
     _end_with_the_reader()
-    if isinstance(sys.stderr, io.TextIOWrapper) and sys.stderr is sys.__stderr__:
+    if isinstance(sys.stderr, io.TextIOWrapper) and sys.stderr.isatty():
         sys.stderr = _onto(io.FileIO(sys.stderr.fileno(), "wb", closefd=False), sys.stderr)
     for number in (signal.SIGINT,) + OTHERS:
         if signal.getsignal(number) in (signal.SIG_DFL, _end_now):

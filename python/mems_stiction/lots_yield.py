@@ -17,9 +17,9 @@ from typing import NamedTuple, Sequence, Tuple
 
 import numpy as np
 
+from mems_stiction.confidence import NORMAL_95
 from mems_stiction.lots_data import Place
 from mems_stiction.lots_variance import DRAWS, SEED, Components, Hierarchy, components_of
-from mems_stiction.quantities import NORMAL_95
 
 FEWEST_FOR_SHAPE = 20  # places: fewer do not show whether their distribution is normal
 MOST_FOR_SHAPE = 5000  # beyond, the test is none

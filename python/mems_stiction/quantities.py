@@ -2,14 +2,11 @@
 
 import math
 import re
-from statistics import NormalDist
-
-from mems_stiction.terminal import visible
 
 BEYOND_PREFIXES = 1e15  # from there on, and below the smallest prefix: an exponent
 LONGEST_DRAWN = 400  # letters of a line of a picture
-NORMAL_95 = NormalDist().inv_cdf(0.975)  # standard deviations to either side that contain 95 %
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # all but tab and line ends
 _PREFIXES = {
     -21: "z",
     -18: "a",
@@ -107,6 +104,11 @@ def typeset(text):
 def shortened(text, most):
     """The text, cut to so many letters."""
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def visible(text):
+    r"""The text with its control characters written out: "\x1b[31m"."""
+    return _CONTROL.sub(lambda found: "\\x%02x" % ord(found[0]), text)
 
 
 def literal(text):

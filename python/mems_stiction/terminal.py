@@ -1,18 +1,13 @@
 """What programs say beside their answer, on the standard error: how far they are, and what looks
-wrong; and texts as a terminal may have them."""
+wrong."""
 
 import contextlib
-import re
 import sys
 import warnings
 
+from mems_stiction.quantities import counted
+
 STRICT = 1  # exit status
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")  # all but tab and line ends
-
-
-def visible(text):
-    r"""The text with its control characters written out: "\x1b[31m"."""
-    return _CONTROL.sub(lambda found: "\\x%02x" % ord(found[0]), text)
 
 
 def progress_of(program):
@@ -46,8 +41,6 @@ def warnings_said_once(program):
 
 def strict_status(program, is_strict, said):
     """The exit status of a program that has ended well: with --strict and a warning STRICT."""
-    from mems_stiction.quantities import counted  # which takes visible() from here
-
     if not is_strict or not said:
         return 0
     print(

@@ -3,17 +3,25 @@
 MOST_SCANS = 10000  # that are kept: some 5 kB each
 MOST_EARLY = 100  # verdicts on devices that wait for the prediction of their scan
 NOTHING_FOUND = 2  # DeviceAdhesion.REFUSED
-TAKEN = (
-    "sticks",
-    "restoring_force",
-    "margin",
-    "margin_lower",
-    "margin_upper",
-    "peel_number",
-    "peel_number_lower",
-    "peel_number_upper",
-    "governed_by",
-)
+# What the force of a device, which comes later, says anew of a scan: the field of its prediction,
+# and that of the force
+OF_DEVICE = {
+    **{"device_pull_off_force" + end: "pull_off_force" + end for end in ("", "_lower", "_upper")},
+    "device_apparent_work_of_adhesion": "apparent_work_of_adhesion",
+    **{name: name for name in ("sticks", "reason", "governed_by", "restoring_force")},
+    **{
+        name + end: name + end
+        for name in ("margin", "peel_number")
+        for end in ("", "_lower", "_upper")
+    },
+}
+
+
+def said_of_device(device):
+    """{field of a prediction: value} of OF_DEVICE; what older recordings do not state is left
+    out."""
+    said = {name: getattr(device, field, None) for name, field in OF_DEVICE.items()}
+    return {name: value for name, value in said.items() if value is not None}
 
 
 class Scan:
@@ -89,10 +97,8 @@ class Trend:
         prediction = predicted[-1]
         if device.status == NOTHING_FOUND or device.settings_hash != prediction.settings_hash:
             return
-        for name in TAKEN:
-            setattr(prediction, name, getattr(device, name))
-        prediction.reason, prediction.device_pull_off_force = (device.reason, device.pull_off_force)
-        prediction.device_apparent_work_of_adhesion = device.apparent_work_of_adhesion
+        for name, value in said_of_device(device).items():
+            setattr(prediction, name, value)
 
     def _lose(self, scans):
         """A later one is predicted already."""

@@ -20,6 +20,10 @@ bool Prediction::listsContacts() const {
   return has_asperities && static_cast<int>(asperities.size()) == asperity_count;
 }
 
+bool Prediction::listsHoldingContacts() const {
+  return !pull_off_contacts.empty() || listsContacts();
+}
+
 const std::vector<Asperity>& Prediction::holdingContacts() const {
   return pull_off_contacts.empty() ? asperities : pull_off_contacts;
 }

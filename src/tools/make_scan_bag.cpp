@@ -36,14 +36,13 @@ namespace {
 using namespace mems_stiction;
 namespace fs = std::filesystem;
 
-/// Stamp of the first scan [s]: fixed, so that the same call gives the same bag.
 struct Arguments {
   std::string bag;
   std::vector<std::string> scans;
   int count = 0;
   ScanIdentity identity;  ///< of all scans, before what their files say
   double rate = 10.0;
-  double first_stamp = 1e9;  ///< [s]
+  double first_stamp = 1e9;  ///< [s]; fixed, so that the same call gives the same bag
   double pitch = 0.0;
   double correlation_length = 80e-9;
   std::vector<double> rms_heights{1e-9, 20e-9};

@@ -99,8 +99,8 @@ double normalQuantile(double share) {
 AdhesionSpread samplesOf(const Prediction& prediction, const Options& options,
                          const UncertaintyOptions& uncertainty, const ModelError& error) {
   AdhesionSpread spread;
-  const bool are_known = prediction.listsContacts() || (prediction.model.respond == nullptr &&
-                                                        !prediction.pull_off_contacts.empty());
+  const bool are_known = prediction.model.respond == nullptr ? prediction.listsHoldingContacts()
+                                                             : prediction.listsContacts();
   if (!are_known) return spread;
   const std::unique_ptr<ContactResponse> response = responseOf(prediction, options);
   if (!response && !(prediction.pull_off_force > 0.0)) return spread;

@@ -27,8 +27,7 @@ void countBelowTip(double tip_limit, Prediction& prediction) {
   prediction.tip_limit = tip_limit;
   prediction.below_tip_count = -1;
   const std::vector<Asperity>& contacts = prediction.holdingContacts();
-  const bool are_listed = !prediction.pull_off_contacts.empty() || prediction.listsContacts();
-  if (std::isnan(tip_limit) || !are_listed) return;
+  if (std::isnan(tip_limit) || !prediction.listsHoldingContacts()) return;
   const double smallest_area = 0.25 * kPi * tip_limit * tip_limit;
   prediction.below_tip_count = static_cast<int>(
       std::count_if(contacts.begin(), contacts.end(),

@@ -135,6 +135,8 @@ struct Prediction {
   /// Those that a verdict rests on: at the pull-off, or at rest where the formulation knows no
   /// others.
   const std::vector<Asperity>& holdingContacts() const;
+  /// Whether holdingContacts() lists every one of them.
+  bool listsHoldingContacts() const;
   std::vector<EnergyPoint> energy_curve;
   std::vector<SeparationCurvePoint>
       curve;               ///< force over displacement; empty if the formulation does not follow it
